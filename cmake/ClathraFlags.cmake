@@ -1,0 +1,35 @@
+# Compile flags of our own targets: link clathra_flags PRIVATE.
+add_library(clathra_flags INTERFACE)
+target_compile_features(clathra_flags INTERFACE cxx_std_20)
+
+# The determinism contract: the state after a run is equal to the bit for every number of threads, every order of the
+# input and every instruction set of one architecture. So: no contraction into fused multiply-adds (whether the compiler
+# finds one depends on the vector width and on inlining), and never -ffast-math, -Ofast or -fassociative-math (sums would
+# be taken in another order). The two flags below do not change any result: they only drop errno and the floating-point
+# exception flags, which we do not read and which keep loops with sqrt and with selects from being vectorised.
+target_compile_options(clathra_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
+
+target_compile_options(
+  clathra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+                          -Woverloaded-virtual)
+
+if(CLATHRA_NATIVE)
+  include(CheckCXXCompilerFlag)
+  include(CheckCXXSourceCompiles)
+  check_cxx_compiler_flag(-march=native CLATHRA_HAS_MARCH_NATIVE)
+  if(CLATHRA_HAS_MARCH_NATIVE)
+    target_compile_options(clathra_flags INTERFACE -march=native)
+    set(CMAKE_REQUIRED_FLAGS -march=native)
+    check_cxx_source_compiles("#ifndef __AVX512F__\n#error\n#endif\nint main() {}" CLATHRA_HAS_AVX512)
+    unset(CMAKE_REQUIRED_FLAGS)
+    if(CLATHRA_HAS_AVX512)
+      target_compile_options(clathra_flags INTERFACE -mprefer-vector-width=512)
+    endif()
+  endif()
+endif()
+
+if(CLATHRA_SANITIZE)
+  target_compile_options(
+    clathra_flags INTERFACE -fsanitize=${CLATHRA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_link_options(clathra_flags INTERFACE -fsanitize=${CLATHRA_SANITIZE})
+endif()

@@ -1,0 +1,35 @@
+# Looks for the libraries of src/io and drivers. CLATHRA_IO says whether all are here; without it kernels, domain, their
+# tests and the benches are still built.
+find_package(PkgConfig QUIET)
+find_package(HDF5 QUIET COMPONENTS C)
+find_package(fmt CONFIG QUIET)
+find_package(CLI11 CONFIG QUIET)
+find_package(nlohmann_json CONFIG QUIET)
+if(PkgConfig_FOUND)
+  pkg_check_modules(TOMLPLUSPLUS QUIET IMPORTED_TARGET tomlplusplus)
+  pkg_check_modules(XXHASH QUIET IMPORTED_TARGET libxxhash)
+endif()
+
+set(missing "")
+foreach(library HDF5 fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHASH)
+  if(NOT ${library}_FOUND)
+    list(APPEND missing ${library})
+  endif()
+endforeach()
+if(missing)
+  list(JOIN missing ", " missing)
+  message(STATUS "Clathra: no io library and no driver, not found: ${missing}")
+  set(CLATHRA_IO OFF)
+else()
+  set(CLATHRA_IO ON)
+endif()
+
+if(CLATHRA_IO)
+  add_library(clathra_io_libraries INTERFACE)
+  target_include_directories(clathra_io_libraries SYSTEM INTERFACE ${HDF5_INCLUDE_DIRS})
+  # TOML_HEADER_ONLY=0: the parser comes compiled, in the shared library, instead of once more in each of our sources.
+  target_compile_definitions(clathra_io_libraries INTERFACE ${HDF5_DEFINITIONS} TOML_HEADER_ONLY=0)
+  target_link_libraries(
+    clathra_io_libraries INTERFACE ${HDF5_C_LIBRARIES} PkgConfig::TOMLPLUSPLUS PkgConfig::XXHASH fmt::fmt
+                                   nlohmann_json::nlohmann_json)
+endif()
