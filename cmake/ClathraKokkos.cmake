@@ -48,6 +48,9 @@ if(NOT kokkos_source)
   include(FetchContent)
   set(Kokkos_ENABLE_SERIAL ON CACHE BOOL "Kokkos' Serial backend")
   set(Kokkos_ENABLE_OPENMP ON CACHE BOOL "Kokkos' OpenMP backend")
+  if(POLICY CMP0135)
+    cmake_policy(SET CMP0135 NEW) # unpacked files are as old as their unpacking
+  endif()
   FetchContent_Declare(
     Kokkos
     URL ${CLATHRA_KOKKOS_URL}

@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034
 # Sourced by scripts/run, scripts/test and .ci/run: everything between a bare Debian or Ubuntu and a finished build.
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -7,10 +8,12 @@ build_packages=(g++ cmake ninja-build pkg-config git xz-utils libtomlplusplus-de
 
 say() { echo "clathra: $*" >&2; }
 
-# Runs a command with its output in the log. When it fails, shows the end of the log and stops.
+# Runs a command with its output in the log. When it fails, shows the first errors and the end of the log, and stops.
 logged() {
   "$@" >>"$log" 2>&1 </dev/null && return
-  tail -n 30 "$log" >&2
+  grep -E -m 8 'error:|CMake Error|^E: |^kokkos: failed' "$log" >&2 || true
+  echo "..." >&2
+  tail -n 20 "$log" >&2
   say "failed: $*"
   say "the whole output is in ${log#"$PWD"/}"
   exit 70
@@ -39,7 +42,8 @@ need_packages() {
     as_root=(sudo -n)
   fi
   say "installing ${missing[*]}"
-  logged "${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 update
+  # A broken entry for some other repository is no reason to stop: what counts is whether the packages install.
+  "${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 update >>"$log" 2>&1 </dev/null || true
   logged "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 install --yes \
     --no-install-recommends "${missing[@]}"
 }
