@@ -1,0 +1,75 @@
+#pragma once
+/// One record of a test: a row of history.csv.
+#include <cstdint>
+
+namespace clathra {
+
+/// Stresses are effective and positive in compression; sigma_1 is vertical, sigma_3 lateral (walls); eps_v = eps_1 + eps_3.
+struct HistoryRow {
+  std::int64_t step = 0;
+  double time_s = 0;
+  double eps1 = 0, eps_v = 0;                    ///< natural strains since the start of the shear
+  double sigma1_Pa = 0, sigma3_Pa = 0, q_Pa = 0, p_Pa = 0;  ///< q = s1 - s3, p = (s1 + s3) / 2
+  double contact_sigma1_Pa = 0, contact_sigma3_Pa = 0;      ///< the same stresses from the contacts (Love-Weber)
+  double void_ratio = 0;                         ///< nominal
+  std::int64_t bonds_intact = 0;
+  double intact_initial_pct = 0;                 ///< of the bonds at installation
+  double intact_mechanical_pct = 0;              ///< bonded / (touching or bonded), the paper's measure
+  std::int64_t broken_tension = 0, broken_compression = 0, broken_shear = 0, broken_rolling = 0;
+  double coordination = 0;                       ///< 2 * mechanical contacts / discs
+  double inertial_number = 0, wave_number = 0;   ///< I and W
+  double unbalanced = 0;                         ///< mean unbalanced force / mean contact force
+};
+
+/// Visits (column name, value) in file order; values are double or int64.
+template <class Row, class Visit>
+void for_each_column(Row& row, Visit&& visit) {
+  visit("step", row.step);
+  visit("time_s", row.time_s);
+  visit("eps1", row.eps1);
+  visit("eps_v", row.eps_v);
+  visit("sigma1_Pa", row.sigma1_Pa);
+  visit("sigma3_Pa", row.sigma3_Pa);
+  visit("q_Pa", row.q_Pa);
+  visit("p_Pa", row.p_Pa);
+  visit("contact_sigma1_Pa", row.contact_sigma1_Pa);
+  visit("contact_sigma3_Pa", row.contact_sigma3_Pa);
+  visit("void_ratio", row.void_ratio);
+  visit("bonds_intact", row.bonds_intact);
+  visit("intact_initial_pct", row.intact_initial_pct);
+  visit("intact_mechanical_pct", row.intact_mechanical_pct);
+  visit("broken_tension", row.broken_tension);
+  visit("broken_compression", row.broken_compression);
+  visit("broken_shear", row.broken_shear);
+  visit("broken_rolling", row.broken_rolling);
+  visit("coordination", row.coordination);
+  visit("inertial_number", row.inertial_number);
+  visit("wave_number", row.wave_number);
+  visit("unbalanced", row.unbalanced);
+}
+
+/// The energy ledger at a record [J/m], present only with output.energy: stored energies now, work and losses since the shear began.
+/// No account is computed as the remainder: `residual` = work - (change of stored energies) - losses is the check.
+struct EnergyRow {
+  double boundary_work = 0;
+  double kinetic = 0, grain_elastic = 0, bond_elastic = 0, wall_elastic = 0;
+  double sliding = 0, rolling = 0, dashpot = 0, damping = 0, breakage = 0;
+  double residual = 0;
+};
+
+template <class Row, class Visit>
+void for_each_energy_column(Row& row, Visit&& visit) {
+  visit("boundary_work_J", row.boundary_work);
+  visit("kinetic_J", row.kinetic);
+  visit("grain_elastic_J", row.grain_elastic);
+  visit("bond_elastic_J", row.bond_elastic);
+  visit("wall_elastic_J", row.wall_elastic);
+  visit("sliding_J", row.sliding);
+  visit("rolling_J", row.rolling);
+  visit("dashpot_J", row.dashpot);
+  visit("damping_J", row.damping);
+  visit("breakage_J", row.breakage);
+  visit("residual_J", row.residual);
+}
+
+}  // namespace clathra

@@ -1,0 +1,141 @@
+#include "domain/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clathra {
+
+namespace {
+
+constexpr int check_every = 64;  // steps between looks at the fault flags
+
+Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
+
+}  // namespace
+
+void Simulation::step() {
+  loading.move(walls_, time_step);
+  Real const farthest2 = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
+  if (periodic()) stretch_homogeneously();
+  if (rebuild_pending_ || outdated(farthest2)) {
+    rebuild();
+  } else if (periodic()) {
+    halo_.refresh(particles_, cell_);
+  }
+  WallReactions const before = reactions_;
+  compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, breaks_, losses_, faults_);
+  if (!periodic()) {
+    reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, time_step);
+    account_boundary_work(before);
+    loading.steer(walls_, reactions_, time_step);
+  }
+  time_ += time_step;
+  ++step_;
+  if (step_ % check_every == 0) throw_if_unstable();
+}
+
+void Simulation::rebuild() {
+  Real const bonded_gap = widest_bonded_gap(particles_, rows_);
+  Relocation const moved = sort_in_space(particles_, rows_, skin_);
+  if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
+  find_neighbours(particles_, skin_, moved, rows_, spare_, faults_, bonded_gap);
+  if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_contacts_, moved.new_index);
+  if (laws_.contact.ledger) permute_losses(moved.old_index);
+  mark_reference(particles_);
+  reference_walls_ = walls_;
+  reference_cell_ = cell_;
+  rebuild_pending_ = false;
+  ++rebuilds_;
+}
+
+/// The homogeneous motion since the last neighbour search: that of the walls, or of the periodic cell.
+AffineFrame Simulation::frame() const {
+  AffineFrame f;
+  if (periodic()) {
+    f.centre_x = f.reference_centre_x = cell_.left;
+    f.centre_y = f.reference_centre_y = cell_.bottom;
+    return f;  // the cell is stretched after the discs have moved: see outdated()
+  }
+  f.centre_x = middle(walls_.position[left], walls_.position[right]);
+  f.centre_y = middle(walls_.position[bottom], walls_.position[top]);
+  f.reference_centre_x = middle(reference_walls_.position[left], reference_walls_.position[right]);
+  f.reference_centre_y = middle(reference_walls_.position[bottom], reference_walls_.position[top]);
+  f.stretch_x = walls_.width() / reference_walls_.width();
+  f.stretch_y = walls_.height() / reference_walls_.height();
+  return f;
+}
+
+/// Whether two discs that are not in each other's rows could touch: twice the farthest disc's way off the homogeneous motion, plus what the
+/// homogeneous motion itself brings two discs nearer.
+bool Simulation::outdated(Real farthest2) const {
+  AffineFrame const f = frame();
+  Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
+  return 2 * std::sqrt(farthest2) + closing * (2 * largest_radius_ + skin_) >= skin_;
+}
+
+void Simulation::account_boundary_work(WallReactions const& before) {
+  // The mean force over the step times the way: what leapfrog's kinetic energy sees to the digit.
+  for (int wall = 0; wall < wall_count; ++wall) {
+    Real const outward = wall == right || wall == top ? 1 : -1;
+    boundary_work_ -= 0.5 * (before.normal[wall] + reactions_.normal[wall]) * outward * walls_.velocity[wall] * time_step;
+  }
+}
+
+void Simulation::evaluate_forces() {
+  if (rebuild_pending_) rebuild();
+  compute_forces(particles_, rows_, laws_.contact, 0, step_, breaks_, losses_, faults_);
+  if (!periodic()) reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, 0);
+}
+
+void Simulation::set_laws(SimulationLaws const& laws) {
+  bool const ledger = laws_.contact.ledger;
+  laws_ = laws;
+  laws_.contact.ledger = ledger;
+  change_features(rows_, laws_.features());
+  spare_ = ContactRows();
+  rebuild_pending_ = true;
+}
+
+void Simulation::set_ledger(bool on) {
+  laws_.contact.ledger = on;
+  losses_ = on ? make_energy_losses(particles_.x.extent(0)) : EnergyLosses();
+  boundary_work_ = 0;
+}
+
+void Simulation::permute_losses(Field<int> const& old_index) {
+  for (auto* account : {&losses_.sliding, &losses_.rolling, &losses_.dashpot, &losses_.breakage, &losses_.damping}) {
+    *account = permuted(*account, old_index, particles_.x.extent(0));
+  }
+}
+
+void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
+  AffineFrame const f = frame();
+  add_affine_velocity(particles_, rate_x, rate_y, f.centre_x, f.centre_y);
+}
+
+/// Isotropic stretching of the periodic cell with all its discs.
+void Simulation::stretch_homogeneously() {
+  if (cell_rate_ == 0) return;
+  Real const stretch = 1 - cell_rate_ * time_step;
+  scale_positions(particles_, stretch, cell_.left, cell_.bottom);
+  cell_.width *= stretch;
+  cell_.height *= stretch;
+}
+
+Measures Simulation::measures() const {
+  return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall);
+}
+
+void Simulation::throw_if_unstable() const {
+  auto const disc = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
+  static constexpr char const* cause[fault_count] = {
+      "has a position or velocity that is not finite", "overlaps a neighbour by more than half the smaller radius",
+      "has more neighbours than a row holds (the grading's size ratio is too large)"};
+  for (int fault = 0; fault < fault_count; ++fault) {
+    if (disc(fault) < 0) continue;
+    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: disc " + std::to_string(disc(fault)) + " " +
+                   cause[fault]);
+  }
+}
+
+}  // namespace clathra

@@ -1,0 +1,110 @@
+#pragma once
+/// A specimen in motion: owns the discs, rows, walls and laws, and the one time step.
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "domain/halo.hpp"
+#include "domain/loading.hpp"
+#include "domain/specimen.hpp"
+#include "kernels/forces.hpp"
+#include "kernels/integrate.hpp"
+#include "kernels/measures.hpp"
+#include "kernels/neighbours.hpp"
+#include "kernels/walls.hpp"
+
+namespace clathra {
+
+/// The state diverged or left the range of the model; the text names disc, step and cause.
+struct Diverged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What the discs obey. Features follow from it: rolling moments, bonds, a separate bond history, a ledger exist only if asked for here.
+struct SimulationLaws {
+  ContactLaws contact;
+  WallLaw wall;
+  MotionLaw motion;
+  ContactFeatures features() const {
+    return {contact.grain.shape_factor > 0, contact.bond_kind != BondKind::none, contact.bond_kind == BondKind::parallel};
+  }
+};
+
+class Simulation {
+ public:
+  /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
+  /// @param skin  Verlet skin [m], surface to surface
+  Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin);
+
+  /// One time step of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step behind.
+  void step();
+
+  /// The present state on the host, discs ordered by id.
+  Specimen specimen() const;
+
+  // Settings that may change between steps.
+  Real time_step = 0;                    ///< dt [s]
+  Loading loading;
+  void set_laws(SimulationLaws const& laws);   ///< history that both laws need is kept
+  void set_skin(Real skin) { skin_ = skin; rebuild_pending_ = true; }
+  void set_ledger(bool on);              ///< opens the ledger with all losses at zero, or closes it
+  void stretch_cell(Real rate) { cell_rate_ = rate; }  ///< periodic cell: isotropic closing strain rate [1/s]
+  void stop_discs() { stop_motion(particles_); }
+  void add_uniform_strain_rate(Real rate_x, Real rate_y);  ///< sets the discs, not only the walls, in motion; closing positive [1/s]
+  void request_rebuild() { rebuild_pending_ = true; }
+  void evaluate_forces();                ///< forces of the present state without advancing it
+
+  // Reading.
+  std::int64_t steps() const { return step_; }
+  std::int64_t rebuilds() const { return rebuilds_; }
+  Real time() const { return time_; }
+  int discs() const { return particles_.owned; }
+  Walls const& walls() const { return walls_; }
+  PeriodicCell const& cell() const { return cell_; }
+  bool periodic() const { return cell_.exists(); }
+  Real area() const { return periodic() ? cell_.width * cell_.height : walls_.width() * walls_.height(); }
+  Real solid_area() const { return solid_area_; }
+  Real void_ratio() const { return area() / solid_area_ - 1; }  ///< nominal
+  WallReactions const& reactions() const { return reactions_; }
+  WallStress stress() const { return wall_stress(walls_, reactions_); }
+  Real boundary_work() const { return boundary_work_; }
+  Measures measures() const;
+  LossTotals losses() const { return total_losses(losses_, particles_.owned); }
+  std::uint64_t hash() const { return state_hash(particles_, rows_); }
+  SimulationLaws const& laws() const { return laws_; }
+  BreakLog const& breaks() const { return breaks_; }
+  std::size_t bytes() const { return clathra::bytes(particles_) + clathra::bytes(rows_) + clathra::bytes(spare_); }
+  std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
+  ParticleSoA const& particles() const { return particles_; }
+  ContactRows const& rows() const { return rows_; }
+  WallContacts const& wall_contacts() const { return wall_contacts_; }
+  void throw_if_unstable() const;
+
+ private:
+  void rebuild();
+  void inject(Specimen const& specimen);
+  AffineFrame frame() const;
+  bool outdated(Real farthest2) const;
+  void stretch_homogeneously();
+  void permute_losses(Field<int> const& old_index);
+  std::vector<SpecimenContact> contacts_by_id() const;
+  void account_boundary_work(WallReactions const& before);
+
+  ParticleSoA particles_;
+  ContactRows rows_, spare_;
+  SimulationLaws laws_;
+  Walls walls_, reference_walls_;
+  WallContacts wall_contacts_;
+  WallReactions reactions_;
+  PeriodicCell cell_, reference_cell_;
+  Halo halo_;
+  BreakLog breaks_;
+  EnergyLosses losses_;
+  Faults faults_;
+  Real skin_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
+  Real density_ = 0, d50_ = 0, critical_thickness_ = 0;
+  std::int64_t step_ = 0, rebuilds_ = 0;
+  bool rebuild_pending_ = true;
+};
+
+}  // namespace clathra

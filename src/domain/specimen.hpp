@@ -1,0 +1,36 @@
+#pragma once
+/// A specimen at rest on the host: what generation hands to a test, and what a specimen file holds.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace clathra {
+
+/// A pair with history, once per pair, id_a < id_b.
+struct SpecimenContact {
+  int id_a = 0, id_b = 0;
+  double shear = 0;        ///< F_s [N/m], equal on both sides
+  double moment = 0;       ///< M on disc a [N m/m]
+  double equilibrium = 1e300;  ///< u_0 of an intact bond [m], 1e300 = not bonded
+  double bond_shear = 0, bond_moment = 0;  ///< of a bond in parallel to the grain contact
+};
+
+struct Specimen {
+  double left = 0, right = 0, bottom = 0, top = 0;  ///< walls [m]
+  bool periodic = false;                            ///< a periodic cell: no walls
+  double density = 2600;                            ///< of the grains [kg/m^3]
+  double d50 = 0;                                   ///< of the grading it was made from [m]
+  double stress = 0;                                ///< isotropic stress it rests under [Pa]
+  double void_ratio = 0;                            ///< nominal: overlaps counted twice
+  double critical_thickness = 0;                    ///< h_max of its bonds [m]; 0 = unbonded
+  bool separate_bonds = false;                      ///< bonds made for `parallel`
+  std::vector<int> id;                              ///< 0 .. N-1, in any order
+  std::vector<double> x, y, angle, vx, vy, omega, radius;
+  std::vector<SpecimenContact> contacts;
+  std::string provenance;                           ///< JSON text: how it was made
+  std::size_t size() const { return id.size(); }
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+};
+
+}  // namespace clathra

@@ -1,0 +1,122 @@
+#pragma once
+/// Strength of a hydrate bond: tension, compression and the F_n - F_s - M envelope (seed paper, Eqs. 9 to 15).
+#include <Kokkos_Core.hpp>
+
+#include "kernels/elementary.hpp"
+#include "kernels/lane.hpp"
+
+namespace clathra {
+
+/// How a bond broke. `none` = intact.
+enum class BreakMode : std::int8_t { none = 0, tension = 1, compression = 2, shear = 3, rolling = 4 };
+inline constexpr int break_mode_count = 5;
+
+/// Micro-bond strength of the hydrate: three times the strength of a macroscopic sample (Eq. 12).
+struct BondStrengthLaw {
+  Real tensile_stress = 1.421e7;      ///< 3 q_max,t [Pa]
+  Real compressive_stress = 2.571e7;  ///< 3 q_max,c [Pa]
+  Real moment_length = 0;             ///< L_r = moment_length + moment_width_ratio * B [m]: the length scale that Eq. 9b lacks
+  Real moment_width_ratio = 1.0 / 14;
+};
+
+/// R_t = 3 B q_max,t + 2.67e5 (h_cr - 0.6 mm) [N/m] (Eqs. 11a, 12a; with the printed stress this is Eq. 15a). Can be <= 0: such a bond is
+/// not formed (see domain/bonding.hpp).
+/// @param width  bond width B [m];  @param gap  h_cr [m], >= 0
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L tensile_strength(BondStrengthLaw const& law, L const& width, L const& gap) {
+  return law.tensile_stress * width + (L(2.67e5) * gap - L(160.2));
+}
+
+/// R_c = 3 B q_max,c - 4.18e6 (h_cr - 0.6 mm) [N/m] (Eqs. 11b, 12b; Eq. 15b).
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L compressive_strength(BondStrengthLaw const& law, L const& width, L const& gap) {
+  return law.compressive_stress * width - (L(4.18e6) * gap - L(2508.0));
+}
+
+/// L_r [m], the length that turns Eq. 9b into a moment.
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L moment_length(BondStrengthLaw const& law, L const& width) {
+  return law.moment_length + law.moment_width_ratio * width;
+}
+
+/// Slopes of the envelope against the gap h_cr [m] (Eqs. 10b, 10d), dimensionless; negative only above 6.7 and 5.7 mm.
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L shear_slope(L const& gap) {
+  return L(0.41) - L(61.07) * gap;
+}
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L rolling_slope(L const& gap) {
+  return L(0.83) - L(146.36) * gap;
+}
+
+/// f_s and f_r (Eqs. 10a, 10c), dimensionless; smallest (1.16 and 1.13) at h_cr = 1.15 mm.
+KOKKOS_INLINE_FUNCTION Real shape_of_shear(Real gap) {
+  Real const z = 1000 * gap - 1.15;
+  return 2.05 - 0.89 * exponential(-z * z);
+}
+KOKKOS_INLINE_FUNCTION Real shape_of_rolling(Real gap) {
+  Real const z = 1000 * gap - 1.15;
+  return 2.05 - 0.92 * exponential(-z * z);
+}
+
+/// x (-ln x)^0.59, the shape of Eq. 9 with x = (F_n + R_t) / (R_c + R_t); 0 at and outside 0 < x < 1 (the envelope is closed there).
+KOKKOS_INLINE_FUNCTION Real envelope_shape(Real x) {
+  if (!(x > 0) || !(x < 1)) return 0;
+  return x * power(-natural_log(x), 0.59);
+}
+
+/// A lower bound of scale * envelope_shape(part / scale): its chords, since the shape is concave. It needs no logarithm, and is the test
+/// that spares nearly every bond the exact envelope.
+/// @param part  F_n + R_t [N/m], 0 < part < scale;  @param scale  R_c + R_t [N/m]
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L envelope_lower_bound(L const& part, L const& scale) {
+  L bound = L(1.9931) * part;
+  bound = lane_min(bound, L(1.264849) * part + L(0.029130) * scale);
+  bound = lane_min(bound, L(0.706626) * part + L(0.112860) * scale);
+  bound = lane_min(bound, L(0.173959) * part + L(0.299290) * scale);
+  bound = lane_min(bound, L(0.624130) * scale - L(0.367461) * part);
+  bound = lane_min(bound, L(1.144500) * scale - L(1.017960) * part);
+  return lane_min(bound, L(2.826300) * (scale - part));
+}
+
+/// The exact strength envelope of one bond under its bond forces (Eq. 9, combined as an ellipse at fixed F_n:
+/// (F_s/R_s)^2 + (M/R_r)^2 >= 1 breaks; written without division, so that R_s -> 0 at the closed ends is no trap).
+struct BondStrength {
+  Real tension;      ///< R_t [N/m]
+  Real compression;  ///< R_c [N/m]
+  Real shear_slope;  ///< f_s K_s
+  Real moment_slope; ///< f_r K_r L_r [m]
+
+  /// R_s [N/m] and R_r [N m/m] at the normal bond force F_n [N/m], compression positive; 0 outside -R_t < F_n < R_c.
+  KOKKOS_INLINE_FUNCTION Real shear(Real normal) const { return shear_slope * shape(normal); }
+  KOKKOS_INLINE_FUNCTION Real rolling(Real normal) const { return moment_slope * shape(normal); }
+
+  /// Tension and compression are tested first: outside their window the envelope would take the log of a negative number.
+  KOKKOS_INLINE_FUNCTION BreakMode test(Real normal, Real shear_force, Real moment) const {
+    if (normal <= -tension) return BreakMode::tension;
+    if (normal >= compression) return BreakMode::compression;
+    Real const size = shape(normal);
+    Real const of_shear = shear_force * moment_slope, of_moment = moment * shear_slope;
+    Real const limit = shear_slope * moment_slope * size;
+    if (of_shear * of_shear + of_moment * of_moment < limit * limit) return BreakMode::none;
+    return lane_abs(of_shear) >= lane_abs(of_moment) ? BreakMode::shear : BreakMode::rolling;
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION Real shape(Real normal) const {
+    Real const scale = compression + tension;
+    return scale > 0 ? scale * envelope_shape((normal + tension) / scale) : 0;
+  }
+};
+
+/// The exact envelope of a bond of width B and gap h_cr [m].
+KOKKOS_INLINE_FUNCTION BondStrength bond_strength(BondStrengthLaw const& law, Real width, Real gap) {
+  BondStrength strength;
+  strength.tension = tensile_strength(law, width, gap);
+  strength.compression = compressive_strength(law, width, gap);
+  strength.shear_slope = shape_of_shear(gap) * shear_slope(gap);
+  strength.moment_slope = shape_of_rolling(gap) * rolling_slope(gap) * moment_length(law, width);
+  return strength;
+}
+
+}  // namespace clathra

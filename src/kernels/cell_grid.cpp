@@ -1,0 +1,102 @@
+#include "kernels/cell_grid.hpp"
+
+#include <cmath>
+
+namespace clathra {
+
+namespace {
+
+struct Bounds {
+  ParticleSoA p;
+  KOKKOS_FUNCTION void operator()(int i, Real& x0, Real& x1, Real& y0, Real& y1) const {
+    x0 = lane_min(x0, p.x(i));
+    x1 = lane_max(x1, p.x(i));
+    y0 = lane_min(y0, p.y(i));
+    y1 = lane_max(y1, p.y(i));
+  }
+};
+
+struct LargestRadius {
+  ParticleSoA p;
+  KOKKOS_FUNCTION void operator()(int i, Real& r) const { r = lane_max(r, p.radius(i)); }
+};
+
+struct CountCells {
+  ParticleSoA p;
+  CellGrid grid;
+  Field<int> count;
+  KOKKOS_FUNCTION void operator()(int i) const { Kokkos::atomic_fetch_add(&count(grid.cell_of(p.x(i), p.y(i))), 1); }
+};
+
+struct ScanCells {
+  Field<int> count;
+  Field<int> start;
+  KOKKOS_FUNCTION void operator()(int c, int& sum, bool const final) const {
+    if (final) start(c) = sum;
+    sum += count(c);
+    if (final && c + 1 == static_cast<int>(count.extent(0))) start(c + 1) = sum;
+  }
+};
+
+struct FillCells {
+  ParticleSoA p;
+  CellGrid grid;
+  Field<int> left;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    int const cell = grid.cell_of(p.x(i), p.y(i));
+    grid.disc(grid.start(cell) + Kokkos::atomic_fetch_sub(&left(cell), 1) - 1) = i;
+  }
+};
+
+/// The atomics above fill a cell in any order; sorting by id (and by index among images of one disc) makes it one order.
+struct SortCells {
+  ParticleSoA p;
+  CellGrid grid;
+  KOKKOS_INLINE_FUNCTION bool before(int a, int b) const {
+    return p.id(a) < p.id(b) || (p.id(a) == p.id(b) && a < b);
+  }
+  KOKKOS_FUNCTION void operator()(int cell) const {
+    int const begin = grid.start(cell), end = grid.start(cell + 1);
+    for (int k = begin + 1; k < end; ++k) {
+      int const disc = grid.disc(k);
+      int at = k;
+      for (; at > begin && before(disc, grid.disc(at - 1)); --at) grid.disc(at) = grid.disc(at - 1);
+      grid.disc(at) = disc;
+    }
+  }
+};
+
+}  // namespace
+
+CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size) {
+  Kokkos::RangePolicy<ExecutionSpace> const each(0, discs);
+  Real x0, x1, y0, y1;
+  Kokkos::parallel_reduce("bounds", each, Bounds{particles}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1), Kokkos::Min<Real>(y0),
+                          Kokkos::Max<Real>(y1));
+  CellGrid grid;
+  grid.x0 = x0;
+  grid.y0 = y0;
+  // At most about four cells a disc, whatever the extent.
+  Real const fewest = std::sqrt((x1 - x0 + cell_size) * (y1 - y0 + cell_size) / (4.0 * discs + 64));
+  grid.cell_size = std::max(cell_size, fewest);
+  grid.columns = static_cast<int>(std::min(1e6, (x1 - x0) / grid.cell_size)) + 1;
+  grid.rows = static_cast<int>(std::min(1e6, (y1 - y0) / grid.cell_size)) + 1;
+  int const cells = grid.columns * grid.rows;
+  grid.start = uninitialised<int>("grid.start", static_cast<std::size_t>(cells) + 1);
+  grid.disc = uninitialised<int>("grid.disc", static_cast<std::size_t>(discs));
+  Field<int> const count("grid.count", static_cast<std::size_t>(cells));
+  Kokkos::RangePolicy<ExecutionSpace> const each_cell(0, cells);
+  Kokkos::parallel_for("count_cells", each, CountCells{particles, grid, count});
+  Kokkos::parallel_scan("scan_cells", each_cell, ScanCells{count, grid.start});
+  Kokkos::parallel_for("fill_cells", each, FillCells{particles, grid, count});
+  Kokkos::parallel_for("sort_cells", each_cell, SortCells{particles, grid});
+  return grid;
+}
+
+Real largest_radius(ParticleSoA const& particles, int discs) {
+  Real radius = 0;
+  Kokkos::parallel_reduce("largest_radius", Kokkos::RangePolicy<ExecutionSpace>(0, discs), LargestRadius{particles}, Kokkos::Max<Real>(radius));
+  return radius;
+}
+
+}  // namespace clathra

@@ -1,0 +1,64 @@
+#pragma once
+/// Sums that do not depend on their order: fixed-point integers in two words.
+#include <Kokkos_Core.hpp>
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/real.hpp"
+
+namespace clathra {
+
+/// A real number as high * 2^-20 + low * 2^-56: resolution 1.4e-17, magnitude up to 8e12, up to 1e8 terms. Covers every sum in SI units
+/// that a specimen makes (forces, moments, energies, stress times area).
+struct FixedPoint {
+  std::int64_t high = 0, low = 0;
+  static constexpr Real high_scale = 1048576.0;      // 2^20
+  static constexpr Real low_scale = 68719476736.0;   // 2^36, of the remainder
+
+  KOKKOS_INLINE_FUNCTION static FixedPoint from(Real value) {
+    Real const scaled = value * high_scale;
+    auto const whole = static_cast<std::int64_t>(scaled);
+    return {whole, static_cast<std::int64_t>((scaled - static_cast<Real>(whole)) * low_scale)};
+  }
+  KOKKOS_INLINE_FUNCTION Real value() const {
+    return (static_cast<Real>(high) + static_cast<Real>(low) / low_scale) / high_scale;
+  }
+};
+
+/// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i. Same bits for any order and thread count.
+template <int Count, class Terms>
+struct ExactSumKernel {
+  using value_type = std::int64_t[];
+  unsigned value_count = 2 * Count;
+  Terms terms;
+  KOKKOS_FUNCTION void operator()(int i, std::int64_t* sums) const {
+    Real out[Count] = {};
+    terms(i, out);
+    for (int c = 0; c < Count; ++c) {
+      FixedPoint const term = FixedPoint::from(out[c]);
+      sums[2 * c] += term.high;
+      sums[2 * c + 1] += term.low;
+    }
+  }
+  KOKKOS_FUNCTION void init(std::int64_t* sums) const {
+    for (unsigned c = 0; c < value_count; ++c) sums[c] = 0;
+  }
+  KOKKOS_FUNCTION void join(std::int64_t* into, std::int64_t const* from) const {
+    for (unsigned c = 0; c < value_count; ++c) into[c] += from[c];
+  }
+  // Kokkos before 4 calls join with volatile pointers.
+  KOKKOS_FUNCTION void join(std::int64_t volatile* into, std::int64_t const volatile* from) const {
+    for (unsigned c = 0; c < value_count; ++c) into[c] = into[c] + from[c];
+  }
+};
+
+/// @return the sums in `result[0 .. Count)`
+template <int Count, class Terms>
+void exact_sums(char const* label, int n, Terms const& terms, Real* result) {
+  std::int64_t sums[2 * Count];
+  ExactSumKernel<Count, Terms> kernel{2 * Count, terms};
+  Kokkos::parallel_reduce(label, Kokkos::RangePolicy<ExecutionSpace>(0, n), kernel, &sums[0]);
+  for (int c = 0; c < Count; ++c) result[c] = FixedPoint{sums[2 * c], sums[2 * c + 1]}.value();
+}
+
+}  // namespace clathra

@@ -1,0 +1,45 @@
+#include "kernels/forces.hpp"
+
+#include <variant>
+
+#include "kernels/contact_kernel.hpp"
+
+namespace clathra {
+
+namespace {
+
+template <BondKind Bond>
+using BondAxis = std::integral_constant<BondKind, Bond>;
+using AnyBond = std::variant<BondAxis<BondKind::none>, BondAxis<BondKind::replace>, BondAxis<BondKind::parallel>>;
+using AnySwitch = std::variant<std::false_type, std::true_type>;
+static_assert(std::variant_size_v<AnyBond> * std::variant_size_v<AnySwitch> * std::variant_size_v<AnySwitch> * 2 <= 24,
+              "the contact kernel is specialised on few axes; add a term to a law, not an axis to the kernel");
+
+AnyBond bond_axis(BondKind kind) {
+  switch (kind) {
+    case BondKind::replace: return BondAxis<BondKind::replace>{};
+    case BondKind::parallel: return BondAxis<BondKind::parallel>{};
+    default: return BondAxis<BondKind::none>{};
+  }
+}
+
+AnySwitch on(bool yes) {
+  if (yes) return std::true_type{};
+  return std::false_type{};
+}
+
+}  // namespace
+
+void compute_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
+                    BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults) {
+  Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
+  std::visit(
+      [&](auto bond, auto rolling, auto dashpot, auto ledger) {
+        ContactKernel<bond(), rolling(), dashpot(), ledger()> const kernel{
+            particles, rows, laws.grain, laws.bond, dt, step, breaks, losses, faults};
+        Kokkos::parallel_for("contact_forces", slices, kernel);
+      },
+      bond_axis(laws.bond_kind), on(rows.features.rolling), on(laws.grain.damping_ratio > 0), on(laws.ledger));
+}
+
+}  // namespace clathra

@@ -1,0 +1,75 @@
+#pragma once
+/// The contact law of unbonded grains: normal, shear and rolling (seed paper, Eq. 8).
+#include "kernels/lane.hpp"
+
+namespace clathra {
+
+/// How two discs moved against each other during one step, seen from disc a. L is a lane type, all values per contact.
+template <class L>
+struct ContactMotion {
+  L overlap;        ///< u_n = r1 + r2 - d [m]; negative for a gap
+  L approach;       ///< -d(d)/dt, the normal closing velocity [m/s]
+  L slip;           ///< Delta u_s [m] during the step, equal on both sides
+  L turn;           ///< Delta theta = (omega_b - omega_a) dt [rad], opposite on the two sides
+  L common_radius;  ///< 2 r1 r2 / (r1 + r2) [m]
+};
+
+/// Forces of one contact: normal > 0 in compression [N/m], shear along t = (-n_y, n_x) [N/m], moment on disc a [N m/m].
+template <class L>
+struct ContactForce {
+  L normal, shear, moment;
+};
+
+/// Constants of the unbonded law. Stiffness in N/m per metre thickness.
+struct GrainLaw {
+  Real normal_stiffness = 3.0e8;  ///< k_n
+  Real shear_stiffness = 2.0e8;   ///< k_s
+  Real friction = 0.5;            ///< mu
+  Real shape_factor = 2.0;        ///< beta; contact width B_c = beta * common radius; 0 = no rolling resistance
+  Real damping_ratio = 0.0;       ///< xi of the optional normal dashpot, fraction of critical
+
+  /// k_m / common_radius^2 = k_n beta^2 / 12 [N/m] (Jiang, Yu, Harris 2005; the bond analogue is Eq. 21).
+  KOKKOS_INLINE_FUNCTION Real rolling_factor() const { return normal_stiffness * shape_factor * shape_factor / 12; }
+};
+
+/// Rolling stiffness k_m = k_n B_c^2 / 12 [N m/rad per m] of a contact with the given common radius [m].
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L rolling_stiffness(GrainLaw const& law, L const& common_radius) {
+  return law.rolling_factor() * common_radius * common_radius;
+}
+
+/// Eq. 8 with signed limits: F_n = k_n u_n >= 0; |F_s| <= mu F_n; |M| <= F_n B_c / 6. A contact with u_n <= 0 carries nothing.
+/// @param trial_shear,trial_moment  F_s + k_s Delta u_s and M + k_m Delta theta before the limits; for a bond that broke in this step its own
+///                                  last forces, which are clipped to the limits and not reset
+/// @param dashpot                   viscous normal coefficient [N s/m per m]; the sum of spring and dashpot is never tensile
+template <bool Rolling, class L>
+KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLaw const& law, ContactMotion<L> const& motion,
+                                                                L const& trial_shear, L const& trial_moment, L const& dashpot) {
+  L const damped = lane_max(law.normal_stiffness * motion.overlap + dashpot * motion.approach, L(0));
+  ContactForce<L> force;
+  force.normal = select(motion.overlap > L(0), damped, L(0));
+  force.shear = clamp_to(trial_shear, law.friction * force.normal);
+  force.moment = L(0);
+  if constexpr (Rolling) {
+    force.moment = clamp_to(trial_moment, (law.shape_factor / 6) * motion.common_radius * force.normal);
+  }
+  return force;
+}
+
+/// One step of an unbonded contact with history F_s, M (Eq. 8).
+template <bool Rolling, class L>
+KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> grain_contact(GrainLaw const& law, ContactMotion<L> const& motion, L const& shear,
+                                                          L const& moment, L const& dashpot) {
+  L const trial_shear = shear + law.shear_stiffness * motion.slip;
+  L trial_moment(0);
+  if constexpr (Rolling) trial_moment = moment + rolling_stiffness(law, motion.common_radius) * motion.turn;
+  return limit_grain_contact<Rolling>(law, motion, trial_shear, trial_moment, dashpot);
+}
+
+/// Dashpot coefficient 2 xi sqrt(k_n m_eff) for two masses given by their inverses [N s/m per m]; m_eff = m1 m2 / (m1 + m2).
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L dashpot_coefficient(GrainLaw const& law, L const& inverse_mass_a, L const& inverse_mass_b) {
+  return (2 * law.damping_ratio) * lane_sqrt(law.normal_stiffness / (inverse_mass_a + inverse_mass_b));
+}
+
+}  // namespace clathra

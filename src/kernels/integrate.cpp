@@ -1,0 +1,81 @@
+#include "kernels/integrate.hpp"
+
+namespace clathra {
+
+namespace {
+
+/// Velocity after a kick by `force` with local damping; `lost` gains the damping's work.
+template <bool Ledger>
+KOKKOS_FORCEINLINE_FUNCTION Lanes kicked(Lanes const& velocity, Lanes const& force, Lanes const& inverse_mass, Real alpha, Real dt,
+                                         Lanes& lost) {
+  Lanes const drag = alpha * lane_abs(force);
+  Lanes const damping = select(velocity > Lanes(0), -drag, select(velocity < Lanes(0), drag, Lanes(0)));
+  Lanes const after = velocity + (force + damping) * inverse_mass * dt;
+  if constexpr (Ledger) lost -= damping * (Lanes(0.5) * (velocity + after)) * dt;
+  return after;
+}
+
+/// One slice of discs: kick and drift.
+template <bool Ledger>
+struct KickAndDrift {
+  ParticleSoA p;
+  MotionLaw law;
+  Real dt;
+  AffineFrame frame;
+  Field<Accum> lost_to_damping;
+  Faults faults;
+
+  KOKKOS_FUNCTION void operator()(int slice, Real& farthest) const {
+    auto const i = static_cast<std::size_t>(slice) * lane_count;
+    Lanes const inverse_mass = load(&p.inverse_mass(i));
+    auto const free = inverse_mass > Lanes(0);  // padding discs have none
+    Lanes lost(0);
+    Lanes const fx = load(&p.force_x(i)), fy = load(&p.force_y(i));
+    Lanes const vx = kicked<Ledger>(load(&p.vx(i)), fx, inverse_mass, law.damping, dt, lost) + select(free, Lanes(law.gravity_x * dt), Lanes(0));
+    Lanes const vy = kicked<Ledger>(load(&p.vy(i)), fy, inverse_mass, law.damping, dt, lost) + select(free, Lanes(law.gravity_y * dt), Lanes(0));
+    Lanes const omega = kicked<Ledger>(load(&p.omega(i)), load(&p.torque(i)), load(&p.inverse_inertia(i)), law.damping, dt, lost);
+    Lanes const x = load(&p.x(i)) + vx * dt, y = load(&p.y(i)) + vy * dt;
+    store(&p.vx(i), vx);
+    store(&p.vy(i), vy);
+    store(&p.omega(i), omega);
+    store(&p.x(i), x);
+    store(&p.y(i), y);
+    store(&p.angle(i), load(&p.angle(i)) + omega * dt);
+    if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
+
+    Lanes const dx = x - (frame.centre_x + frame.stretch_x * (load(&p.reference_x(i)) - frame.reference_centre_x));
+    Lanes const dy = y - (frame.centre_y + frame.stretch_y * (load(&p.reference_y(i)) - frame.reference_centre_y));
+    Lanes const moved = select(free, dx * dx + dy * dy + lane_abs(omega) * Lanes(0), Lanes(0));
+    if (any(!(moved < Lanes(1e10)))) report(i, moved);
+    farthest = lane_max(farthest, largest(moved));
+  }
+
+  KOKKOS_FUNCTION void report(std::size_t i, Lanes const& moved) const {
+    for (int l = 0; l < lane_count; ++l) {
+      if (!(lane(moved, l) < 1e10)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
+    }
+  }
+};
+
+}  // namespace
+
+Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
+               Faults const& faults) {
+  Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
+  Real farthest = 0;
+  if (losses.damping.extent(0) > 0) {
+    Kokkos::parallel_reduce("kick_and_drift", slices, KickAndDrift<true>{particles, law, dt, frame, losses.damping, faults},
+                            Kokkos::Max<Real>(farthest));
+  } else {
+    Kokkos::parallel_reduce("kick_and_drift", slices, KickAndDrift<false>{particles, law, dt, frame, losses.damping, faults},
+                            Kokkos::Max<Real>(farthest));
+  }
+  return farthest;
+}
+
+void mark_reference(ParticleSoA const& particles) {
+  Kokkos::deep_copy(particles.reference_x, particles.x);
+  Kokkos::deep_copy(particles.reference_y, particles.y);
+}
+
+}  // namespace clathra

@@ -1,0 +1,31 @@
+#pragma once
+/// Leapfrog integration of the discs' motion.
+#include "kernels/particles.hpp"
+#include "kernels/reports.hpp"
+
+namespace clathra {
+
+/// How discs answer their forces.
+struct MotionLaw {
+  Real damping = 0.3;    ///< alpha of local damping, F_d = -alpha |F| sign(v), for forces and torque; 0 = none
+  Real gravity_x = 0;    ///< [m/s^2]
+  Real gravity_y = 0;
+};
+
+/// A homogeneous motion that neighbour lists may ignore: x maps to centre + stretch (x_ref - reference_centre).
+struct AffineFrame {
+  Coord centre_x = 0, centre_y = 0;
+  Coord reference_centre_x = 0, reference_centre_y = 0;
+  Real stretch_x = 1, stretch_y = 1;
+};
+
+/// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of position.
+/// @param losses  the damping account is written when its field exists
+/// @return the largest squared distance [m^2] of a disc from where the affine frame of this step puts it
+Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
+               Faults const& faults);
+
+/// Remembers the present centres as the reference of integrate().
+void mark_reference(ParticleSoA const& particles);
+
+}  // namespace clathra

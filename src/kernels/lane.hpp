@@ -1,0 +1,70 @@
+#pragma once
+/// The lane type: laws and kernels are written once on `Lanes` and become SIMD vectors on a CPU (one disc a lane) and plain numbers
+/// on a GPU (one disc a thread). Every operation here is exact IEEE arithmetic lane by lane, so the width never changes a bit.
+#include <Kokkos_Core.hpp>
+#include <cmath>
+
+#include "kernels/real.hpp"
+
+#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && !defined(KOKKOS_ENABLE_SYCL) && __has_include(<experimental/simd>)
+#define CLATHRA_SIMD 1
+#include <experimental/simd>
+#endif
+
+namespace clathra {
+
+// The scalar instance of the vocabulary: `double` is a lane of width one, `bool` its mask.
+KOKKOS_FORCEINLINE_FUNCTION Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
+KOKKOS_FORCEINLINE_FUNCTION bool any(bool mask) { return mask; }
+KOKKOS_FORCEINLINE_FUNCTION Real lane_sqrt(Real a) { return std::sqrt(a); }
+KOKKOS_FORCEINLINE_FUNCTION Real lane_abs(Real a) { return a < 0 ? -a : a; }
+KOKKOS_FORCEINLINE_FUNCTION Real lane_max(Real a, Real b) { return a < b ? b : a; }
+KOKKOS_FORCEINLINE_FUNCTION Real lane_min(Real a, Real b) { return b < a ? b : a; }
+
+#ifdef CLATHRA_SIMD
+namespace stdx = std::experimental;
+using Lanes = stdx::native_simd<Real>;
+using Mask = Lanes::mask_type;
+inline constexpr int lane_count = static_cast<int>(Lanes::size());
+
+KOKKOS_FORCEINLINE_FUNCTION Lanes select(Mask const& mask, Lanes const& yes, Lanes const& no) {
+  Lanes result = no;
+  stdx::where(mask, result) = yes;
+  return result;
+}
+KOKKOS_FORCEINLINE_FUNCTION bool any(Mask const& mask) { return stdx::any_of(mask); }
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_sqrt(Lanes const& a) { return stdx::sqrt(a); }
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_abs(Lanes const& a) { return stdx::abs(a); }
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) { return stdx::max(a, b); }
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) { return stdx::min(a, b); }
+KOKKOS_FORCEINLINE_FUNCTION Lanes load(Real const* from) { return Lanes(from, stdx::element_aligned); }
+KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Lanes const& value) { value.copy_to(to, stdx::element_aligned); }
+KOKKOS_FORCEINLINE_FUNCTION Real lane(Lanes const& value, int l) { return value[static_cast<std::size_t>(l)]; }
+KOKKOS_FORCEINLINE_FUNCTION bool lane(Mask const& mask, int l) { return mask[static_cast<std::size_t>(l)]; }
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(Lanes& value, int l, Real to) { value[static_cast<std::size_t>(l)] = to; }
+KOKKOS_FORCEINLINE_FUNCTION Real largest(Lanes const& value) { return stdx::hmax(value); }
+/// The values of a field at the discs named by `index[0 .. lane_count)`.
+KOKKOS_FORCEINLINE_FUNCTION Lanes gather(Real const* field, int const* index) {
+  return Lanes([&](auto l) { return field[index[l]]; });
+}
+#else
+using Lanes = Real;
+using Mask = bool;
+inline constexpr int lane_count = 1;
+
+KOKKOS_FORCEINLINE_FUNCTION Real load(Real const* from) { return *from; }
+KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Real value) { *to = value; }
+KOKKOS_FORCEINLINE_FUNCTION Real lane(Real value, int) { return value; }
+KOKKOS_FORCEINLINE_FUNCTION bool lane(bool mask, int) { return mask; }
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(Real& value, int, Real to) { value = to; }
+KOKKOS_FORCEINLINE_FUNCTION Real largest(Real value) { return value; }
+KOKKOS_FORCEINLINE_FUNCTION Real gather(Real const* field, int const* index) { return field[*index]; }
+#endif
+
+/// `value` clamped to [-limit, limit]; limit >= 0. Odd in `value`, so both sides of a pair get exact opposites.
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L clamp_to(L const& value, L const& limit) {
+  return lane_max(-limit, lane_min(value, limit));
+}
+
+}  // namespace clathra

@@ -1,0 +1,77 @@
+#pragma once
+/// The discs as a structure of arrays: the storage of record.
+#include "kernels/lane.hpp"
+
+namespace clathra {
+
+/// Discs `0 .. owned` have neighbour rows and move; `owned .. owned + ghosts` are images of discs across a periodic boundary.
+/// Behind them every field holds `lane_count` padding discs of radius 0 far outside, so that vector loads may overrun and unused row
+/// entries have a disc to point at. The order is spatial and changes; `id` is the identity of a disc.
+struct ParticleSoA {
+  int owned = 0;
+  int ghosts = 0;
+  Field<int> id;
+  Field<Coord> x, y;             ///< centre [m]
+  Field<Coord> angle;            ///< accumulated rotation [rad], never wrapped
+  Field<Real> vx, vy;            ///< velocity half a step behind the position [m/s]
+  Field<Real> omega;             ///< angular velocity, likewise [rad/s]
+  Field<Real> radius;            ///< [m]
+  Field<Real> inverse_mass;      ///< 1 / (pi r^2 rho) [m/kg]
+  Field<Real> inverse_inertia;   ///< 2 / (m r^2) [1/(kg m)]
+  // Derived, not part of the state:
+  Field<Real> force_x, force_y;  ///< [N/m]
+  Field<Real> torque;            ///< [N m/m]
+  Field<Coord> reference_x, reference_y;  ///< centre at the last neighbour search [m]
+
+  int all() const { return owned + ghosts; }
+  /// The index of a padding disc.
+  KOKKOS_FUNCTION int padding() const { return static_cast<int>(x.extent(0)) - 1; }
+};
+
+/// The state of a disc, field by field: drives permutation, ghosts, hashing, files and byte counts, so that a new field cannot be forgotten.
+template <class Particles, class Visit>
+void for_each_field(Particles& p, Visit&& visit) {
+  visit("id", p.id);
+  visit("x", p.x);
+  visit("y", p.y);
+  visit("angle", p.angle);
+  visit("vx", p.vx);
+  visit("vy", p.vy);
+  visit("omega", p.omega);
+  visit("radius", p.radius);
+  visit("inverse_mass", p.inverse_mass);
+  visit("inverse_inertia", p.inverse_inertia);
+}
+
+/// Number of slices of `lane_count` discs that cover `discs`.
+KOKKOS_INLINE_FUNCTION int slice_count(int discs) { return (discs + lane_count - 1) / lane_count; }
+
+/// Storage for `discs` discs and their padding; the padding is filled in, the discs are not.
+ParticleSoA allocate_particles(int discs);
+
+/// Makes room for at least `discs` discs, keeping the state of the first `owned`.
+void reserve(ParticleSoA& particles, int discs);
+
+/// Writes the padding discs behind the last disc. To be called whenever the number of discs changed.
+void fill_padding(ParticleSoA const& particles);
+
+/// Reorders the owned discs: disc `order(i)` becomes disc i. Ghosts are dropped.
+void permute(ParticleSoA& particles, Field<int> const& order);
+
+/// Adds the velocity field of a homogeneous strain rate: v += -rate * (x - centre), compression positive [1/s]; a uniform strain starts
+/// without waves when the discs and not only the walls begin to move.
+void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y, Coord centre_x, Coord centre_y);
+
+/// Scales all owned centres about a fixed point: x = fixed + factor (x - fixed).
+void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, Coord fixed_y);
+
+/// `field` in the order `order`, as permute() does, in a new field of `size` places.
+Field<Accum> permuted(Field<Accum> const& field, Field<int> const& order, std::size_t size);
+
+/// Sets all velocities to zero.
+void stop_motion(ParticleSoA const& particles);
+
+/// Bytes held by the fields.
+std::size_t bytes(ParticleSoA const& particles);
+
+}  // namespace clathra

@@ -1,0 +1,126 @@
+#include "kernels/walls.hpp"
+
+#include "kernels/exact_sum.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr int reaction_count = 3 * wall_count;
+
+/// Overlap u_n of a disc with a wall [m]; negative for a gap.
+KOKKOS_INLINE_FUNCTION Real wall_overlap(Walls const& walls, int wall, Coord x, Coord y, Real radius) {
+  switch (wall) {
+    case left: return radius - (x - walls.position[left]);
+    case right: return radius - (walls.position[right] - x);
+    case bottom: return radius - (y - walls.position[bottom]);
+    default: return radius - (walls.position[top] - y);
+  }
+}
+
+/// Adds the forces of up to four walls to one disc; its terms are the reactions.
+struct WallForces {
+  ParticleSoA p;
+  WallContacts contacts;
+  Walls walls;
+  GrainLaw law;  // a wall contact follows the grain law with the wall's constants
+  Real dt;
+
+  KOKKOS_FUNCTION void operator()(int c, Real* reactions) const {
+    int const i = contacts.disc(c);
+    bool const friction = contacts.shear.extent(0) > 0;
+    for (int wall = 0; wall < wall_count; ++wall) {
+      Real const overlap = wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i));
+      if (overlap <= 0) {
+        if (friction) contacts.shear(c, wall) = 0;
+        continue;
+      }
+      bool const upright = wall == left || wall == right;
+      Real const outward = wall == right || wall == top ? 1 : -1;  // the normal points from the disc into the wall
+      Real const nx = upright ? outward : 0, ny = upright ? 0 : outward;
+      Real const wall_vx = upright ? walls.velocity[wall] : 0, wall_vy = upright ? 0 : walls.velocity[wall];
+      Real const dvx = wall_vx - p.vx(i), dvy = wall_vy - p.vy(i), arm = p.radius(i) - overlap;
+      ContactMotion<Real> const motion{overlap, -(dvx * nx + dvy * ny), ((dvy * nx - dvx * ny) - p.omega(i) * arm) * dt, 0,
+                                       2 * p.radius(i)};
+      Real const dashpot = law.damping_ratio > 0 ? dashpot_coefficient(law, p.inverse_mass(i), Real(0)) : 0;
+      ContactForce<Real> const force =
+          grain_contact<false>(law, motion, friction ? contacts.shear(c, wall) : Real(0), Real(0), dashpot);
+      if (friction) contacts.shear(c, wall) = force.shear;
+      p.force_x(i) -= force.normal * nx + force.shear * ny;
+      p.force_y(i) += force.shear * nx - force.normal * ny;
+      p.torque(i) += arm * force.shear;
+      reactions[wall] = force.normal;
+      reactions[wall_count + wall] = force.shear * (upright ? -nx : ny);  // on the wall: opposite to the force on the disc
+      reactions[2 * wall_count + wall] = 1;
+    }
+  }
+};
+
+/// Lists the discs within the skin of a wall.
+struct FindNearWalls {
+  ParticleSoA p;
+  Walls walls;
+  Real skin;
+  Field<int> disc;
+  KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
+    Real nearest = -1e300;
+    for (int wall = 0; wall < wall_count; ++wall) nearest = lane_max(nearest, wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i)));
+    if (nearest < -skin) return;
+    if (final) disc(slot) = i;
+    ++slot;
+  }
+};
+
+struct ScatterSlots {
+  WallContacts contacts;
+  Field<int> slot_of;
+  Field<int> new_index;
+  KOKKOS_FUNCTION void operator()(int c) const {
+    int const disc = contacts.disc(c);
+    slot_of(new_index.extent(0) > 0 ? new_index(disc) : disc) = c + 1;
+  }
+};
+
+struct CarryShear {
+  WallContacts now, old;
+  Field<int> slot_of;
+  KOKKOS_FUNCTION void operator()(int c) const {
+    int const slot = slot_of(now.disc(c)) - 1;
+    for (int wall = 0; wall < wall_count; ++wall) now.shear(c, wall) = slot < 0 ? 0 : old.shear(slot, wall);
+  }
+};
+
+}  // namespace
+
+WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction, WallContacts const& old,
+                                Field<int> const& new_index) {
+  WallContacts found;
+  Field<int> const candidates = uninitialised<int>("wall_candidates", static_cast<std::size_t>(particles.owned));
+  Kokkos::parallel_scan("find_near_walls", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                        FindNearWalls{particles, walls, skin, candidates}, found.size);
+  found.disc = candidates;
+  if (friction) {
+    found.shear = decltype(found.shear)("wall_shear", static_cast<std::size_t>(found.size));
+    if (old.shear.extent(0) > 0) {
+      Field<int> const slot_of("wall_slots", static_cast<std::size_t>(particles.owned));
+      Kokkos::parallel_for("scatter_slots", Kokkos::RangePolicy<ExecutionSpace>(0, old.size), ScatterSlots{old, slot_of, new_index});
+      Kokkos::parallel_for("carry_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, found.size), CarryShear{found, old, slot_of});
+    }
+  }
+  return found;
+}
+
+WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law, Real dt) {
+  GrainLaw const as_grain{law.normal_stiffness, law.shear_stiffness, law.friction, 0, law.damping_ratio};
+  Real sums[reaction_count];
+  exact_sums<reaction_count>("wall_forces", contacts.size, WallForces{particles, contacts, walls, as_grain, dt}, sums);
+  WallReactions reactions;
+  for (int wall = 0; wall < wall_count; ++wall) {
+    reactions.normal[wall] = sums[wall];
+    reactions.shear[wall] = sums[wall_count + wall];
+    reactions.contacts[wall] = static_cast<int>(sums[2 * wall_count + wall]);
+  }
+  return reactions;
+}
+
+}  // namespace clathra

@@ -1,0 +1,49 @@
+#pragma once
+/// Four rigid walls around the specimen, with or without friction.
+#include "kernels/contacts.hpp"
+#include "kernels/grain_contact.hpp"
+#include "kernels/reports.hpp"
+
+namespace clathra {
+
+inline constexpr int wall_count = 4;
+enum WallName : int { left = 0, right = 1, bottom = 2, top = 3 };
+
+/// Where the walls stand and how they move: x of left and right, y of bottom and top. A wall that is absent stands at infinity.
+struct Walls {
+  Coord position[wall_count] = {-1e9, 1e9, -1e9, 1e9};  ///< [m]
+  Real velocity[wall_count] = {0, 0, 0, 0};             ///< [m/s]
+  Coord width() const { return position[right] - position[left]; }
+  Coord height() const { return position[top] - position[bottom]; }
+};
+
+struct WallLaw {
+  Real normal_stiffness = 3.0e8;  ///< k_n of a wall contact; also used with a dashpot ratio
+  Real shear_stiffness = 2.0e8;
+  Real friction = 0;              ///< mu_w; 0 = smooth: no shear history exists
+  Real damping_ratio = 0;         ///< xi of the normal dashpot
+};
+
+/// The discs near a wall, in no particular order, with the shear history of their four possible wall contacts.
+struct WallContacts {
+  int size = 0;
+  Field<int> disc;                 ///< [size]
+  Kokkos::View<Real* [wall_count], MemorySpace> shear;  ///< [size][4] F_s [N/m], empty for smooth walls
+};
+
+/// What the walls feel, summed without regard to order (fixed point).
+struct WallReactions {
+  Real normal[wall_count] = {0, 0, 0, 0};  ///< force pressing the wall outward [N/m], >= 0
+  Real shear[wall_count] = {0, 0, 0, 0};   ///< along +y on left/right, along +x on bottom/top [N/m]
+  int contacts[wall_count] = {0, 0, 0, 0};
+};
+
+/// Finds the discs whose surface is within `skin` [m] of a wall; keeps the shear history of those that were in `old`.
+/// @param new_index  where each disc of `old` lies now; an empty field means that nothing moved
+WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction, WallContacts const& old,
+                                Field<int> const& new_index);
+
+/// Adds the wall forces to the discs near the walls and returns the reactions. A wall is a disc of infinite radius without rolling.
+WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law, Real dt);
+
+}  // namespace clathra
