@@ -10,8 +10,8 @@ target_compile_features(clathra_flags INTERFACE cxx_std_20)
 target_compile_options(clathra_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 
 target_compile_options(
-  clathra_flags INTERFACE -Wno-maybe-uninitialized -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-                          -Woverloaded-virtual)
+  clathra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+                          -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 
 if(CLATHRA_NATIVE)
   include(CheckCXXCompilerFlag)

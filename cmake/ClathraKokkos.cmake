@@ -56,6 +56,12 @@ if(NOT kokkos_source)
     URL ${CLATHRA_KOKKOS_URL}
     URL_HASH SHA256=${CLATHRA_KOKKOS_SHA256})
   FetchContent_MakeAvailable(Kokkos)
+  foreach(part kokkoscore kokkoscontainers kokkosalgorithms kokkossimd) # our warnings are for our own code
+    if(TARGET ${part})
+      get_target_property(folders ${part} INTERFACE_INCLUDE_DIRECTORIES)
+      set_target_properties(${part} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${folders}")
+    endif()
+  endforeach()
   set(kokkos_source "upstream ${CLATHRA_KOKKOS_URL}")
 endif()
 message(STATUS "Kokkos: ${kokkos_source}")
