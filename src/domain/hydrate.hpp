@@ -28,22 +28,32 @@ double critical_thickness_ratio(double saturation);
 /// (Dickens and Quinby-Hunt 1994). Recalled, not re-read: used as a gate only.
 double stability_temperature(double pore_pressure);
 
-/// Why this state cannot carry bonds (outside the stability field, strength or modulus not positive), or an empty string.
+/// Why this state cannot carry bonds (outside the stability field and not hydrate.allow_unstable, strength or modulus not
+/// positive), or an empty string.
 std::string hydrate_problem(HydrateScene const& hydrate);
 
-/// The bond law of a scene whose hydrate has the critical thickness h_max [m].
-/// 3 q_t and 3 q_c come from Eq. 13 (`thm`) or are 1.421e7 and 2.571e7 Pa (`printed`).
+/// True where a scene can have bonds at all: there is hydrate, and a law for it. Nothing of bonds is allocated or launched
+/// elsewhere.
+bool has_bonds(Scene const& scene);
+
+/// The bond law of a scene whose hydrate has the critical thickness h_max [m]. 3 q_t and 3 q_c come from Eq. 13 (`thm`) or are
+/// 1.421e7 and 2.571e7 Pa (`printed`); E_m is that of Eq. 18 with both.
 BondLaw make_bond_law(Scene const& scene, double critical_thickness);
 
 /// Every number of one bond, for `clathra bond` and for checks by hand. SI.
 struct BondCard {
-  bool bonded;        ///< gap < h_max and R_t > 0
-  double h_max, common_radius, gap, B, h0, area, q_c, q_t, E_m, R_t, R_c, k_mh, k_bn, k_bs, k_bm, f_s, K_s, f_r, K_r;
-  double R_s;                 ///< [N/m] at the given normal force
-  double R_r_per_length;      ///< R_r / L_r [N/m]
-  double moment_length;       ///< L_r [m]
+  bool bonded;  ///< 0 < h_max, gap < h_max and R_t > 0
+  double h_max, common_radius;
+  double gap;  ///< h_cr: the gap, 0 for an overlap; t_0 for the constant-thickness law
+  double B, h0, area;
+  double q_c, q_t, E_m;  ///< of the hydrate's state by Eqs. 13 and 18, whichever coefficients the strengths below use
+  double R_t, R_c, k_mh, k_bn, k_bs, k_bm, f_s, K_s, f_r, K_r;
+  double R_s;             ///< [N/m] at the given normal force, 0 outside -R_t < F_n < R_c
+  double R_r_per_length;  ///< R_r / L_r [N/m]
+  double moment_length;   ///< L_r [m]
 };
 
+/// h_max is Eq. 3 times d50, or bond.critical_thickness with mode given_thickness.
 /// @param gap  distance of the surfaces [m]; an overlap (negative) counts as 0;  @param normal_force  bond F_n [N/m]
 BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, double gap, double normal_force);
 

@@ -1,0 +1,26 @@
+#pragma once
+/// events.csv: each broken bond once.
+#include <vector>
+
+#include "domain/experiment.hpp"
+#include "io/text_file.hpp"
+
+namespace clathra {
+
+class EventsFile {
+ public:
+  /// Writes the header. @throws FileProblem cannot_create or io_error
+  explicit EventsFile(std::filesystem::path path);
+
+  /// One row an event: step, ids of the discs, how the bond broke, where [m]. @throws FileProblem io_error
+  void write(std::vector<BreakEvent> const& events);
+  void close() { file_.close(); }
+
+ private:
+  RowFile file_;
+};
+
+/// "tension", "compression", "shear" or "rolling" (see BreakMode).
+char const* break_mode_name(int mode);
+
+}  // namespace clathra

@@ -1,0 +1,217 @@
+#include "io/hdf5_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace clathra {
+namespace {
+
+constexpr hsize_t chunk_rows = 65536;
+constexpr hsize_t most_rows = 1'000'000'000;  // a column that claims more is taken for damage
+constexpr hsize_t longest_text = 16 << 20;    // [bytes]
+
+/// An HDF5 identifier that is closed when it goes. Errors of closing a column show again when the file is flushed.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Id(Id const&) = delete;
+  Id& operator=(Id const&) = delete;
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// H5dont_atexit() first of all: 1.10.8 crashes in its exit handler after a full disk. HDF5's own error print is silenced.
+void start_hdf5() {
+  static bool const started = [] {
+    H5dont_atexit();
+    H5open();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return true;
+  }();
+  (void)started;
+}
+
+herr_t keep_innermost(unsigned, H5E_error2_t const* error, void* text) {
+  if (error->desc) *static_cast<std::string*>(text) = error->desc;
+  return 0;
+}
+
+std::string hdf5_reason() {
+  std::string text;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &text);
+  return text.empty() ? "no reason given" : text;
+}
+
+std::size_t slash(std::string const& name) { return name.find('/'); }
+
+/// An attribute of one value. @return false where HDF5 refused
+bool write_attribute(hid_t object, char const* name, hid_t type, void const* value) {
+  Id const scalar(H5Screate(H5S_SCALAR), H5Sclose);
+  Id const attribute(H5Acreate2(object, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  return attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
+}
+
+bool write_text_attribute(hid_t object, char const* name, std::string const& text) {
+  Id const type(H5Tcopy(H5T_C_S1), H5Tclose);
+  return H5Tset_size(type, std::max<std::size_t>(1, text.size())) >= 0 && write_attribute(object, name, type, text.c_str());
+}
+
+bool read_attribute(hid_t object, char const* name, hid_t type, void* value) {
+  Id const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
+  return space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, type, value) >= 0;
+}
+
+}  // namespace
+
+Hdf5File Hdf5File::create(std::filesystem::path const& path) {
+  start_hdf5();
+  errno = 0;
+  hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (file < 0)
+    throw FileProblem(ExitCode::cannot_create, path,
+                      "cannot be created: " + (errno ? std::generic_category().message(errno) : hdf5_reason()));
+  return {path, file, true};
+}
+
+Hdf5File Hdf5File::open(std::filesystem::path const& path) {
+  start_hdf5();
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw FileProblem(ExitCode::file_missing, path, "no such file");
+  if (!std::filesystem::is_regular_file(path, error)) throw FileProblem(ExitCode::file_missing, path, "not a file");
+  hid_t const file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) throw FileProblem(ExitCode::bad_input, path, "not an HDF5 file, or damaged: " + hdf5_reason());
+  return {path, file, false};
+}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), writing_(other.writing_) {}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::fail(ExitCode code, std::string const& what) const { throw FileProblem(code, path_, what); }
+
+void Hdf5File::close() {
+  hid_t const file = std::exchange(file_, -1);
+  herr_t const flushed = writing_ ? H5Fflush(file, H5F_SCOPE_GLOBAL) : 0;
+  std::string const reason = flushed < 0 ? hdf5_reason() : "";
+  herr_t const closed = H5Fclose(file);
+  if (flushed < 0) fail(ExitCode::io_error, "cannot be written: " + reason);
+  if (closed < 0) fail(ExitCode::io_error, "cannot be closed: " + hdf5_reason());
+}
+
+void Hdf5File::make_group(std::string const& name) {
+  std::string const group = name.substr(0, slash(name));
+  if (group == name || H5Lexists(file_, group.c_str(), H5P_DEFAULT) > 0) return;
+  Id const made(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  if (made < 0) fail(ExitCode::io_error, fmt::format("cannot make group {}: {}", group, hdf5_reason()));
+}
+
+void Hdf5File::write_column(std::string const& name, void const* values, std::size_t size, hid_t type, std::string const& unit) {
+  make_group(name);
+  hsize_t const rows = size, chunk = std::min<hsize_t>(rows, chunk_rows);
+  Id const space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
+  Id const filters(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  bool const ready = space >= 0 && filters >= 0 &&
+                     (rows == 0 || (H5Pset_chunk(filters, 1, &chunk) >= 0 && H5Pset_shuffle(filters) >= 0 &&
+                                    H5Pset_deflate(filters, 1) >= 0 && H5Pset_fletcher32(filters) >= 0));
+  Id const column(ready ? H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, filters, H5P_DEFAULT) : -1, H5Dclose);
+  if (column < 0 || (rows > 0 && H5Dwrite(column, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
+    fail(ExitCode::io_error, fmt::format("cannot write {}: {}", name, hdf5_reason()));
+  if (!unit.empty() && !write_text_attribute(column, "unit", unit))
+    fail(ExitCode::io_error, fmt::format("cannot write the unit of {}: {}", name, hdf5_reason()));
+}
+
+void Hdf5File::write(std::string const& name, std::vector<double> const& values, std::string const& unit) {
+  write_column(name, values.data(), values.size(), H5T_NATIVE_DOUBLE, unit);
+}
+void Hdf5File::write(std::string const& name, std::vector<std::int32_t> const& values, std::string const& unit) {
+  write_column(name, values.data(), values.size(), H5T_NATIVE_INT32, unit);
+}
+void Hdf5File::write_text(std::string const& name, std::string const& text) {
+  write_column(name, text.data(), text.size(), H5T_NATIVE_CHAR, "");
+}
+
+void Hdf5File::set_attribute(std::string const& name, double value, std::string const& unit) {
+  if (!write_attribute(file_, name.c_str(), H5T_NATIVE_DOUBLE, &value))
+    fail(ExitCode::io_error, fmt::format("cannot write {}: {}", name, hdf5_reason()));
+  if (!unit.empty()) set_attribute(name + "_unit", unit);
+}
+void Hdf5File::set_attribute(std::string const& name, std::int64_t value) {
+  if (!write_attribute(file_, name.c_str(), H5T_NATIVE_INT64, &value))
+    fail(ExitCode::io_error, fmt::format("cannot write {}: {}", name, hdf5_reason()));
+}
+void Hdf5File::set_attribute(std::string const& name, std::string const& text) {
+  if (!write_text_attribute(file_, name.c_str(), text))
+    fail(ExitCode::io_error, fmt::format("cannot write {}: {}", name, hdf5_reason()));
+}
+
+template <class T>
+std::vector<T> Hdf5File::read_column(std::string const& name, std::size_t size, hid_t type) const {
+  auto const damaged = [&](std::string const& what) { fail(ExitCode::bad_input, fmt::format("{} {}", name, what)); };
+  if (auto const end = slash(name); end != std::string::npos)
+    if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
+  if (H5Lexists(file_, name.c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
+  Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  Id const space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
+  if (space < 0) damaged("cannot be opened: " + hdf5_reason());
+  hsize_t rows = 0;
+  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &rows, nullptr) < 0) damaged("is not a column");
+  if (rows > most_rows) damaged(fmt::format("claims {} rows", rows));
+  if (size != any_size && rows != size) damaged(fmt::format("has {} rows instead of {}", rows, size));
+  std::vector<T> values(rows);
+  if (rows > 0 && H5Dread(column, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    damaged("cannot be read: " + hdf5_reason());
+  return values;
+}
+
+std::vector<double> Hdf5File::read_doubles(std::string const& name, std::size_t size) const {
+  return read_column<double>(name, size, H5T_NATIVE_DOUBLE);
+}
+std::vector<std::int32_t> Hdf5File::read_integers(std::string const& name, std::size_t size) const {
+  return read_column<std::int32_t>(name, size, H5T_NATIVE_INT32);
+}
+std::string Hdf5File::read_text(std::string const& name) const {
+  std::vector<char> const text = read_column<char>(name, any_size, H5T_NATIVE_CHAR);
+  if (text.size() > longest_text) fail(ExitCode::bad_input, name + " is too long");
+  return {text.begin(), text.end()};
+}
+
+double Hdf5File::double_attribute(std::string const& name) const {
+  double value = 0;
+  if (!read_attribute(file_, name.c_str(), H5T_NATIVE_DOUBLE, &value))
+    fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
+  return value;
+}
+std::int64_t Hdf5File::integer_attribute(std::string const& name) const {
+  std::int64_t value = 0;
+  if (!read_attribute(file_, name.c_str(), H5T_NATIVE_INT64, &value))
+    fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
+  return value;
+}
+std::string Hdf5File::text_attribute(std::string const& name) const {
+  Id const attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose);
+  Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
+  Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
+  bool const plain = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+                     H5Tget_size(type) <= 4096 && H5Sget_simple_extent_npoints(space) == 1;
+  std::string text(plain ? H5Tget_size(type) : 0, '\0');
+  if (!plain || H5Aread(attribute, type, text.data()) < 0)
+    fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
+  text.resize(std::min(text.size(), text.find('\0')));
+  return text;
+}
+
+}  // namespace clathra

@@ -1,0 +1,27 @@
+#pragma once
+/// The folder of one run's results.
+#include <filesystem>
+#include <string>
+
+namespace clathra {
+
+/// Makes the folder, locks it against a second run, and clears it of the results of an earlier one.
+class OutputFolder {
+ public:
+  /// @param keep  a file of the folder that is not cleared (the specimen that the run reads)
+  /// @throws FileProblem cannot_create (no right to write, another run is writing), or refused: the folder is a link, or holds
+  /// files but no run of Clathra
+  OutputFolder(std::filesystem::path folder, std::filesystem::path const& keep);
+  ~OutputFolder();
+  OutputFolder(OutputFolder const&) = delete;
+  OutputFolder& operator=(OutputFolder const&) = delete;
+
+  std::filesystem::path operator/(std::string const& name) const { return folder_ / name; }
+  std::filesystem::path const& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  int lock_ = -1;
+};
+
+}  // namespace clathra

@@ -1,0 +1,51 @@
+#pragma once
+/// What can go wrong with a user's files, and the exit code that says so.
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace clathra {
+
+/// Exit codes of every verb (after sysexits.h).
+enum class ExitCode {
+  done = 0,
+  usage = 64,          ///< a wrong option
+  bad_input = 65,      ///< a scene or file with wrong content
+  file_missing = 66,   ///< an input file that is not there or cannot be read
+  internal = 70,       ///< a fault of Clathra
+  cannot_create = 73,  ///< an output file or folder that cannot be made
+  io_error = 74,       ///< a read or write that failed half way (full disk)
+  diverged = 76,       ///< the run became unstable
+  refused = 77,        ///< a guard that --force overrides, or more memory than there is
+  interrupted = 130,   ///< stopped by Ctrl-C
+};
+
+/// A file that cannot be read, understood, made or written. The text is "path: reason".
+struct FileProblem : std::runtime_error {
+  FileProblem(ExitCode exit_code, std::filesystem::path const& path, std::string const& reason)
+      : std::runtime_error(path.string() + ": " + reason), code(exit_code) {}
+  ExitCode code;
+};
+
+enum class Severity { error, missing_file, refusal };
+
+/// One thing wrong in a scene. `line` and `column` count from 1; 0 where the problem has no place in the file.
+struct Problem {
+  std::string file;  ///< or "--set key=value"
+  int line = 0, column = 0;
+  std::string text;
+  Severity severity = Severity::error;
+  /// "my.toml:4:22: error: ..."
+  std::string message() const;
+};
+
+/// Everything wrong with a scene, at once. what() holds one message a line.
+struct SceneProblems : std::runtime_error {
+  explicit SceneProblems(std::vector<Problem> all);
+  /// bad_input if there is any error, else file_missing, else refused.
+  ExitCode code() const;
+  std::vector<Problem> problems;
+};
+
+}  // namespace clathra

@@ -1,0 +1,47 @@
+#pragma once
+/// run.json: what was run, with what, and what came out.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "domain/experiment.hpp"
+#include "io/scene_file.hpp"
+
+namespace clathra {
+
+/// Everything but what the program knows of itself. No user names, no environment.
+struct RunRecord {
+  std::string version, git_hash;
+  LoadedScene input;
+  std::string specimen_digest;  ///< of the specimen file that was read, if one was
+  int threads = 0;
+  std::map<std::string, StageRecord> stages;  ///< "generate", "prepare", "plan", "shear"
+  std::vector<double> layer_void_ratios;
+  std::vector<std::string> warnings;
+  std::map<std::string, double> wall_seconds;  ///< by stage
+  std::int64_t disc_steps = 0;                 ///< of the shear stage
+  double disc_steps_per_second = 0;
+  std::optional<std::uint64_t> state_hash;  ///< of the final state
+  int exit_code = 0;
+  std::string exit_reason;  ///< "running", "finished", or why it ended
+};
+
+/// Puts run.json in place of an older one. @throws FileProblem
+void write_run_record(std::filesystem::path const& path, RunRecord const& record);
+
+/// A scene as JSON, by sections, in SI units.
+nlohmann::json scene_json(Scene const& scene);
+
+/// "0x" and 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+/// Name and version of the compiler that built this program, of Kokkos, and of the backend that runs the kernels.
+std::string compiler_name();
+std::string kokkos_version();
+std::string backend_name();
+
+}  // namespace clathra

@@ -1,0 +1,190 @@
+#include "io/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "domain/hydrate.hpp"
+#include "domain/units.hpp"
+
+namespace clathra {
+namespace {
+
+/// The scene, what it states, and what was found so far.
+struct Check {
+  Scene const& scene;
+  std::function<bool(std::string_view)> const& given;
+  SceneFindings found;
+
+  void error(std::vector<std::string_view> keys, std::string text) {
+    found.problems.push_back({std::move(keys), std::move(text)});
+  }
+  void refusal(std::vector<std::string_view> keys, std::string text) {
+    if (scene.run.force)
+      found.warnings.push_back("forced: " + text);
+    else
+      found.problems.push_back({std::move(keys), text + " (run.force = true or --force goes on)", Severity::refusal});
+  }
+  void warn(std::string text) { found.warnings.push_back(std::move(text)); }
+};
+
+std::string length_text(double metres) { return format_quantity(metres, Dimension::length); }
+
+void check_input_file(Check& check, std::string_view key, std::string const& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    check.found.problems.push_back(
+        {{key}, fmt::format("'{}' names a file that is not there: {}", key, path), Severity::missing_file});
+  else if (!std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path))
+    check.found.problems.push_back(
+        {{key}, fmt::format("'{}' names a file that cannot be read: {}", key, path), Severity::missing_file});
+}
+
+/// Any three of particles, box, void ratio and grading fix the fourth.
+void check_size(Check& check) {
+  SampleScene const& sample = check.scene.sample;
+  if (sample.generator == Generator::file) {
+    if (sample.file.empty())
+      check.error({"sample.generator", "sample.file"}, "generator 'file' needs 'sample.file', the specimen to read");
+    else
+      check_input_file(check, "sample.file", sample.file);
+    for (std::string_view const key : {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"})
+      if (check.given(key)) check.warn(fmt::format("{} has no effect: the specimen comes from {}", key, sample.file));
+    return;
+  }
+  if (!sample.file.empty()) check.warn("sample.file has no effect: sample.generator is not \"file\"");
+  bool const box = sample.width > 0 || sample.height > 0;
+  if (sample.particles == 0 && !box)
+    check.error({"sample.particles"},
+                "the size of the specimen is open: give 'sample.particles', or 'sample.width' and 'sample.height'");
+  if (sample.particles > 0 && box && sample.void_ratio > 0 && check.scene.grading.d50 > 0)
+    check.error({"sample.void_ratio", "sample.particles", "grading.d50"},
+                "sample.particles, box, sample.void_ratio and grading.d50 are all given, but three of them fix the fourth: leave "
+                "one out");
+  if (sample.width > 0 && sample.height > 0 && check.given("sample.aspect_ratio") &&
+      std::fabs(sample.height / sample.width / sample.aspect_ratio - 1) > 1e-6)
+    check.error({"sample.aspect_ratio", "sample.width"},
+                "sample.width, sample.height and sample.aspect_ratio contradict each other");
+}
+
+void check_grading(Check& check) {
+  GradingScene const& grading = check.scene.grading;
+  if (check.scene.sample.generator == Generator::file) return;
+  if (!grading.file.empty()) {
+    check_input_file(check, "grading.file", grading.file);
+    if (check.given("grading.table")) check.warn("grading.table has no effect: the sizes come from grading.file");
+  } else if (grading.table == "uniform" && grading.d50 == 0) {
+    bool const follows = check.scene.sample.particles > 0 && check.scene.sample.width + check.scene.sample.height > 0;
+    if (!follows) check.error({"grading.table"}, "grading 'uniform' needs 'grading.d50'");
+  }
+}
+
+/// Exactly one of inertial_number and strain_rate; stating the rate replaces the default inertial number (see scene_file.cpp).
+void check_loading(Check& check) {
+  TestScene const& test = check.scene.test;
+  if (test.inertial_number > 0 && test.strain_rate > 0)
+    check.error({"test.strain_rate", "test.inertial_number"},
+                "give either 'test.inertial_number' or 'test.strain_rate', not both");
+  if (test.inertial_number == 0 && test.strain_rate == 0)
+    check.error({"test.inertial_number", "test.strain_rate"},
+                "one of 'test.inertial_number' and 'test.strain_rate' must be given");
+  if (check.scene.bond.stress > test.confining_stress)
+    check.error({"bond.stress", "test.confining_stress"},
+                fmt::format("'bond.stress' ({}) is above 'test.confining_stress' ({})",
+                            format_quantity(check.scene.bond.stress, Dimension::pressure),
+                            format_quantity(test.confining_stress, Dimension::pressure)));
+}
+
+/// Radius of the largest disc over d50, of the built-in tables; 0 where it is not known here.
+double largest_radius_ratio(GradingScene const& grading) {
+  if (!grading.file.empty()) return 0;
+  return grading.table == "toyoura" ? 0.5 * 0.300 / 0.1694 : 0.5;
+}
+
+/// A d50 so small that no gap between the two largest discs gives a bond with tensile strength (trap 5 of the physics page).
+void check_strength(Check& check) {
+  Scene const& scene = check.scene;
+  double const d50 = scene.grading.d50 > 0 ? scene.grading.d50 : 0.1694e-3;
+  double const radius = largest_radius_ratio(scene.grading) * d50;
+  bool const d50_follows =
+      scene.grading.d50 == 0 && scene.sample.particles > 0 && scene.sample.void_ratio > 0 && scene.sample.width > 0;
+  if (radius == 0 || d50_follows || scene.bond.mode == BondingMode::areal_target || scene.sample.generator == Generator::file)
+    return;
+  constexpr int steps = 64;
+  double best = -HUGE_VAL;
+  for (int i = 0; i < steps; ++i) {
+    double const h_max = evaluate_bond(scene, d50, radius, radius, 0, 0).h_max;
+    best = std::max(best, evaluate_bond(scene, d50, radius, radius, h_max * i / steps, 0).R_t);
+  }
+  if (best > 0) return;
+  check.error(
+      {"grading.d50", "hydrate.saturation", "bond.critical_thickness"},
+      fmt::format("with d50 = {} no bond has tensile strength: between the largest discs R_t is {:.4g} N/m at best (Eq. 15a)",
+                  length_text(d50), best));
+}
+
+void check_hydrate(Check& check) {
+  Scene const& scene = check.scene;
+  if (!has_bonds(scene)) return;
+  std::vector<std::string_view> const state = {"hydrate.temperature", "hydrate.pore_pressure", "hydrate.density",
+                                               "hydrate.saturation"};
+  if (std::string const problem = hydrate_problem(scene.hydrate); !problem.empty()) return check.error(state, problem);
+  HydrateScene gated = scene.hydrate;
+  gated.allow_unstable = false;
+  if (std::string const problem = hydrate_problem(gated); !problem.empty()) check.warn(problem);
+  if (scene.bond.mode == BondingMode::given_thickness && scene.bond.critical_thickness == 0)
+    return check.error({"bond.mode"}, "mode 'given_thickness' needs 'bond.critical_thickness'");
+  if (scene.bond.mode != BondingMode::given_thickness && scene.bond.critical_thickness > 0)
+    check.warn("bond.critical_thickness has no effect: bond.mode is not \"given_thickness\"");
+  if (scene.bond.mode == BondingMode::eq3 && critical_thickness_ratio(scene.hydrate.saturation) == 0)
+    return check.warn(
+        fmt::format("a saturation of {} % makes no bonds: Eq. 3 has none up to 20 %", scene.hydrate.saturation * 100));
+  check_strength(check);
+}
+
+void check_bonding(Check& check) {
+  BondScene const& bond = check.scene.bond;
+  if (!has_bonds(check.scene)) {
+    for (std::string_view const key : {"bond.composite", "bond.mode", "bond.moment_scale", "bond.coefficients"})
+      if (check.given(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
+    return;
+  }
+  if (bond.plate_thickness > 0 && bond.law != BondLawKind::constant_thickness)
+    check.warn("bond.plate_thickness has no effect: bond.law is not \"constant_thickness\"");
+  if (bond.plate_thickness > 0 && bond.mode == BondingMode::given_thickness && bond.plate_thickness >= bond.critical_thickness)
+    check.error({"bond.plate_thickness", "bond.critical_thickness"},
+                "'bond.plate_thickness' must be below 'bond.critical_thickness'");
+  if (bond.after_consolidation && bond.composite == Composite::replace)
+    check.refusal(
+        {"bond.after_consolidation", "bond.composite"},
+        "composite 'replace' with 'after_consolidation' deletes the contact forces that carry the confining stress (Eq. 7a); "
+        "use 'parallel' or 'memory'");
+}
+
+/// The folder itself must be named: neither a root, nor the way up, nor a link to elsewhere.
+void check_output(Check& check) {
+  std::filesystem::path folder = std::filesystem::path(check.scene.output.folder).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // "out/"
+  std::filesystem::path const name = folder.filename();
+  if (name.empty() || name == ".." || name == ".")
+    check.error({"output.folder"},
+                fmt::format("'output.folder' must name a folder of its own, got '{}'", check.scene.output.folder));
+}
+
+}  // namespace
+
+SceneFindings check_scene(Scene const& scene, std::function<bool(std::string_view)> const& given) {
+  Check check{scene, given, {}};
+  check_size(check);
+  check_grading(check);
+  check_loading(check);
+  check_hydrate(check);
+  check_bonding(check);
+  check_output(check);
+  return std::move(check.found);
+}
+
+}  // namespace clathra

@@ -1,0 +1,195 @@
+#include "io/specimen_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "io/hdf5_file.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr char format_name[] = "clathra specimen";
+constexpr std::int64_t format_version = 1;
+
+/// Visits every scalar of a specimen: name, value, unit.
+template <class Any, class Visit>
+void for_each_scalar(Any& specimen, Visit&& visit) {
+  visit("left", specimen.left, "m");
+  visit("right", specimen.right, "m");
+  visit("bottom", specimen.bottom, "m");
+  visit("top", specimen.top, "m");
+  visit("density", specimen.density, "kg/m^3");
+  visit("d50", specimen.d50, "m");
+  visit("stress", specimen.stress, "Pa");
+  visit("void_ratio", specimen.void_ratio, "");
+  visit("critical_thickness", specimen.critical_thickness, "m");
+}
+
+/// Visits every column of the discs.
+template <class Any, class Visit>
+void for_each_particle_column(Any& specimen, Visit&& visit) {
+  visit("x", specimen.x, "m");
+  visit("y", specimen.y, "m");
+  visit("angle", specimen.angle, "rad");
+  visit("vx", specimen.vx, "m/s");
+  visit("vy", specimen.vy, "m/s");
+  visit("omega", specimen.omega, "rad/s");
+  visit("radius", specimen.radius, "m");
+}
+
+/// Visits every number of a contact besides its ids.
+template <class Visit>
+void for_each_contact_column(Visit&& visit) {
+  visit("shear", &SpecimenContact::shear, "N/m");
+  visit("moment", &SpecimenContact::moment, "N m/m");
+  visit("equilibrium", &SpecimenContact::equilibrium, "m (1e300 = not bonded)");
+  visit("bond_shear", &SpecimenContact::bond_shear, "N/m");
+  visit("bond_moment", &SpecimenContact::bond_moment, "N m/m");
+}
+
+void write_content(Hdf5File& file, Specimen const& specimen) {
+  file.set_attribute("format", std::string(format_name));
+  file.set_attribute("version", format_version);
+  file.set_attribute("particles", static_cast<std::int64_t>(specimen.size()));
+  file.set_attribute("contacts", static_cast<std::int64_t>(specimen.contacts.size()));
+  file.set_attribute("periodic", std::int64_t{specimen.periodic});
+  file.set_attribute("separate_bonds", std::int64_t{specimen.separate_bonds});
+  for_each_scalar(specimen, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
+  file.write_text("provenance", specimen.provenance);
+  file.write("particles/id", specimen.id, "");
+  for_each_particle_column(specimen, [&](std::string const& name, std::vector<double> const& column, char const* unit) {
+    file.write("particles/" + name, column, unit);
+  });
+  std::size_t const count = specimen.contacts.size();
+  std::vector<std::int32_t> ids(count);
+  for (std::size_t i = 0; i < count; ++i) ids[i] = specimen.contacts[i].id_a;
+  file.write("contacts/id_a", ids, "");
+  for (std::size_t i = 0; i < count; ++i) ids[i] = specimen.contacts[i].id_b;
+  file.write("contacts/id_b", ids, "");
+  std::vector<double> column(count);
+  for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const* unit) {
+    for (std::size_t i = 0; i < count; ++i) column[i] = specimen.contacts[i].*member;
+    file.write("contacts/" + name, column, unit);
+  });
+}
+
+[[noreturn]] void damaged(std::filesystem::path const& path, std::string const& what) {
+  throw FileProblem(ExitCode::bad_input, path, what);
+}
+
+void check_box(std::filesystem::path const& path, Specimen const& specimen) {
+  for_each_scalar(specimen, [&](char const* name, double value, char const*) {
+    if (!std::isfinite(value)) damaged(path, fmt::format("{} is not a finite number", name));
+  });
+  if (!(specimen.right > specimen.left) || !(specimen.top > specimen.bottom)) damaged(path, "the walls enclose no area");
+  if (!(specimen.density > 0)) damaged(path, "the density is not above 0");
+  if (!(specimen.d50 > 0)) damaged(path, "d50 is not above 0");
+}
+
+void check_particles(std::filesystem::path const& path, Specimen const& specimen) {
+  std::size_t const count = specimen.size();
+  if (count == 0) damaged(path, "there are no discs");
+  std::vector<bool> seen(count, false);
+  for (int const id : specimen.id) {
+    if (id < 0 || static_cast<std::size_t>(id) >= count) damaged(path, fmt::format("disc id {} is outside 0..{}", id, count - 1));
+    if (seen[static_cast<std::size_t>(id)]) damaged(path, fmt::format("disc id {} comes twice", id));
+    seen[static_cast<std::size_t>(id)] = true;
+  }
+  for_each_particle_column(specimen, [&](char const* name, std::vector<double> const& column, char const*) {
+    for (std::size_t i = 0; i < count; ++i)
+      if (!std::isfinite(column[i])) damaged(path, fmt::format("{} of disc {} is not a finite number", name, specimen.id[i]));
+  });
+  for (std::size_t i = 0; i < count; ++i)
+    if (!(specimen.radius[i] > 0)) damaged(path, fmt::format("the radius of disc {} is not above 0", specimen.id[i]));
+}
+
+void check_pairs_once(std::filesystem::path const& path, Specimen const& specimen) {
+  std::vector<std::pair<int, int>> pairs;
+  pairs.reserve(specimen.contacts.size());
+  for (SpecimenContact const& contact : specimen.contacts) pairs.emplace_back(contact.id_a, contact.id_b);
+  std::sort(pairs.begin(), pairs.end());
+  if (auto const twice = std::adjacent_find(pairs.begin(), pairs.end()); twice != pairs.end())
+    damaged(path, fmt::format("contact {} - {} comes twice", twice->first, twice->second));
+}
+
+void check_contacts(std::filesystem::path const& path, Specimen const& specimen) {
+  int const count = static_cast<int>(specimen.size());
+  for (SpecimenContact const& contact : specimen.contacts) {
+    if (contact.id_a < 0 || contact.id_a >= contact.id_b || contact.id_b >= count)
+      damaged(path, fmt::format("contact {} - {} is not between two discs in order of their ids", contact.id_a, contact.id_b));
+    for_each_contact_column([&](char const* name, double SpecimenContact::*member, char const*) {
+      if (!std::isfinite(contact.*member))
+        damaged(path, fmt::format("{} of contact {} - {} is not a finite number", name, contact.id_a, contact.id_b));
+    });
+  }
+  check_pairs_once(path, specimen);
+}
+
+/// Flushes a finished file to the disk and gives it its final name.
+void publish(std::filesystem::path const& temporary, std::filesystem::path const& path) {
+  int const descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  bool const flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!flushed || ::rename(temporary.c_str(), path.c_str()) != 0)
+    throw FileProblem(ExitCode::io_error, path, "cannot be written: " + std::generic_category().message(errno));
+}
+
+}  // namespace
+
+void write_specimen(std::filesystem::path const& path, Specimen const& specimen) {
+  std::filesystem::path const temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
+  ::unlink(temporary.c_str());
+  try {
+    Hdf5File file = Hdf5File::create(temporary);
+    write_content(file, specimen);
+    file.close();
+    publish(temporary, path);
+  } catch (FileProblem const& problem) {
+    ::unlink(temporary.c_str());
+    std::string text = problem.what();  // named after the file that the user knows
+    if (auto const at = text.find(": "); text.compare(0, at, temporary.string()) == 0) text = text.substr(at + 2);
+    throw FileProblem(problem.code, path, text);
+  }
+}
+
+Specimen read_specimen(std::filesystem::path const& path) {
+  Hdf5File const file = Hdf5File::open(path);
+  if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
+  if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
+    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
+  Specimen specimen;
+  for_each_scalar(specimen, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
+  specimen.periodic = file.integer_attribute("periodic") != 0;
+  specimen.separate_bonds = file.integer_attribute("separate_bonds") != 0;
+  specimen.provenance = file.read_text("provenance");
+  std::int64_t const claimed = file.integer_attribute("particles"), claimed_contacts = file.integer_attribute("contacts");
+  if (claimed < 1 || claimed > 1'000'000'000 || claimed_contacts < 0 || claimed_contacts > 10'000'000'000)
+    file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", claimed, claimed_contacts));
+  std::size_t const count = static_cast<std::size_t>(claimed), contacts = static_cast<std::size_t>(claimed_contacts);
+  specimen.id = file.read_integers("particles/id", count);
+  for_each_particle_column(specimen, [&](std::string const& name, std::vector<double>& column, char const*) {
+    column = file.read_doubles("particles/" + name, count);
+  });
+  std::vector<std::int32_t> const id_a = file.read_integers("contacts/id_a", contacts);
+  std::vector<std::int32_t> const id_b = file.read_integers("contacts/id_b", contacts);
+  specimen.contacts.resize(contacts);
+  for (std::size_t i = 0; i < contacts; ++i) specimen.contacts[i].id_a = id_a[i], specimen.contacts[i].id_b = id_b[i];
+  for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const*) {
+    std::vector<double> const column = file.read_doubles("contacts/" + name, contacts);
+    for (std::size_t i = 0; i < contacts; ++i) specimen.contacts[i].*member = column[i];
+  });
+  check_box(path, specimen);
+  check_particles(path, specimen);
+  check_contacts(path, specimen);
+  return specimen;
+}
+
+}  // namespace clathra

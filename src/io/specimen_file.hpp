@@ -1,0 +1,18 @@
+#pragma once
+/// Specimen files: HDF5, made by `clathra generate` and by every run, read again by later runs.
+#include <filesystem>
+
+#include "domain/specimen.hpp"
+#include "io/problems.hpp"
+
+namespace clathra {
+
+/// Writes a specimen under a temporary name, flushes it to the disk and renames it: the name never holds a part of a file.
+/// @throws FileProblem cannot_create or io_error
+void write_specimen(std::filesystem::path const& path, Specimen const& specimen);
+
+/// Reads a specimen and checks it: sizes, ids 0..N-1 once each, finite numbers, radii > 0, contacts between discs of the file.
+/// @throws FileProblem file_missing or bad_input
+Specimen read_specimen(std::filesystem::path const& path);
+
+}  // namespace clathra

@@ -1,0 +1,35 @@
+#pragma once
+/// Plain files with every call checked: read at once, written row by row, or replaced as a whole.
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace clathra {
+
+/// Reads a whole file, at most `limit` bytes of it.
+/// @throws FileProblem file_missing if it cannot be opened, io_error if it cannot be read
+std::string read_text_file(std::filesystem::path const& path, std::size_t limit);
+
+/// Puts a file with this text in place of whatever has that name: written under a temporary name, flushed to the disk, renamed. A
+/// reader sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error
+void replace_text_file(std::filesystem::path const& path, std::string_view text);
+
+/// A new file that grows by whole rows. What has its name before is removed (a link is never followed).
+class RowFile {
+ public:
+  explicit RowFile(std::filesystem::path path);  ///< @throws FileProblem cannot_create
+  ~RowFile();
+  RowFile(RowFile const&) = delete;
+  RowFile& operator=(RowFile const&) = delete;
+
+  /// One write. @throws FileProblem io_error
+  void write(std::string_view rows);
+  /// @throws FileProblem io_error where the system only now reports a failed write
+  void close();
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+}  // namespace clathra
