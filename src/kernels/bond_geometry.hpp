@@ -1,7 +1,5 @@
 #pragma once
 /// Shape of the hydrate between two discs (seed paper, section 2, Eqs. 2, 5 and 17).
-#include <cmath>
-
 #include "kernels/lane.hpp"
 
 namespace clathra {
@@ -28,18 +26,25 @@ KOKKOS_FORCEINLINE_FUNCTION L effective_thickness(L const& gap, L const& critica
   return (gap + critical_thickness) * L(0.5);
 }
 
+/// asin(y) - y for 0 <= y <= 1/2 by its series, without the cancellation and without libm.
+KOKKOS_INLINE_FUNCTION Real arc_sine_excess(Real y) {
+  Real const q = y * y;
+  Real term = y, sum = 0;
+  for (int n = 1; n <= 26; ++n) {
+    term *= q * ((2 * n - 1) * (2 * n - 1)) / (2 * n * (2 * n + 1));
+    sum += term;
+  }
+  return sum;
+}
+
 /// Area of one bond in the plane (Eq. 5): S_i = (h_max + h) B / 2 + B r - 2 r^2 arctan(B / sqrt(4 r^2 - B^2)).
-/// The last two terms nearly cancel for narrow bonds; there their series -B^3/(24 r) - 3 B^5/(640 r^3) - 5 B^7/(7168 r^5) stands in.
+/// With y = B / 2r the arctan is asin(y) and B r = 2 r^2 y; they nearly cancel, so their difference is taken as a whole.
 /// @return [m^2]
 KOKKOS_INLINE_FUNCTION Real bond_area(Real radius, Real width, Real gap, Real critical_thickness) {
-  Real const plate = 0.5 * (critical_thickness + gap) * width;
-  Real const ratio = width / radius;
-  if (ratio < 0.25) {
-    Real const q = ratio * ratio;
-    return plate - width * radius * q * (1.0 / 24 + q * (3.0 / 640 + q * (5.0 / 7168 + q * (35.0 / 294912 + q * (63.0 / 2883584)))));
-  }
-  Real const sine = width < 2 * radius ? width / (2 * radius) : 1.0;
-  return plate + width * radius - 2 * radius * radius * std::asin(sine);
+  Real const y = width < 2 * radius ? width / (2 * radius) : 1, half = 0.5 * (1 - y);
+  // asin(y) = pi / 2 - 2 asin(sqrt((1 - y) / 2)) keeps the argument of the series below 1/2.
+  Real const excess = y <= 0.5 ? arc_sine_excess(y) : 0.5 * pi - 2 * (std::sqrt(half) + arc_sine_excess(std::sqrt(half))) - y;
+  return 0.5 * (critical_thickness + gap) * width - 2 * radius * radius * excess;
 }
 
 }  // namespace clathra

@@ -19,8 +19,8 @@ struct BondStrengthLaw {
   Real moment_width_ratio = 1.0 / 14;
 };
 
-/// R_t = 3 B q_max,t + 2.67e5 (h_cr - 0.6 mm) [N/m] (Eqs. 11a, 12a; with the printed stress this is Eq. 15a). Can be <= 0: such a bond is
-/// not formed (see domain/bonding.hpp).
+/// R_t = 3 B q_max,t + 2.67e5 (h_cr - 0.6 mm) [N/m] (Eqs. 11a, 12a; with the printed stress this is Eq. 15a). Can be <= 0: such a
+/// bond is not formed (see domain/bonding.hpp).
 /// @param width  bond width B [m];  @param gap  h_cr [m], >= 0
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L tensile_strength(BondStrengthLaw const& law, L const& width, L const& gap) {
@@ -39,14 +39,15 @@ KOKKOS_FORCEINLINE_FUNCTION L moment_length(BondStrengthLaw const& law, L const&
   return law.moment_length + law.moment_width_ratio * width;
 }
 
-/// Slopes of the envelope against the gap h_cr [m] (Eqs. 10b, 10d), dimensionless; negative only above 6.7 and 5.7 mm.
+/// Slopes K_s and K_r of the envelope against the gap h_cr [m] (Eqs. 10b, 10d), dimensionless. Above 6.7 and 5.7 mm the
+/// printed lines are negative: no strength, so 0. (The envelope is compared in squares and would take them for strength.)
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L shear_slope(L const& gap) {
-  return L(0.41) - L(61.07) * gap;
+  return lane_max(L(0), L(0.41) - L(61.07) * gap);
 }
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L rolling_slope(L const& gap) {
-  return L(0.83) - L(146.36) * gap;
+  return lane_max(L(0), L(0.83) - L(146.36) * gap);
 }
 
 /// f_s and f_r (Eqs. 10a, 10c), dimensionless; smallest (1.16 and 1.13) at h_cr = 1.15 mm.
@@ -59,14 +60,14 @@ KOKKOS_INLINE_FUNCTION Real shape_of_rolling(Real gap) {
   return 2.05 - 0.92 * exponential(-z * z);
 }
 
-/// x (-ln x)^0.59, the shape of Eq. 9 with x = (F_n + R_t) / (R_c + R_t); 0 at and outside 0 < x < 1 (the envelope is closed there).
+/// x (-ln x)^0.59, the shape of Eq. 9 with x = (F_n + R_t) / (R_c + R_t); 0 at and outside the closed ends 0 and 1.
 KOKKOS_INLINE_FUNCTION Real envelope_shape(Real x) {
   if (!(x > 0) || !(x < 1)) return 0;
   return x * power(-natural_log(x), 0.59);
 }
 
-/// A lower bound of scale * envelope_shape(part / scale): its chords, since the shape is concave. It needs no logarithm, and is the test
-/// that spares nearly every bond the exact envelope.
+/// A lower bound of scale * envelope_shape(part / scale): its chords, since the shape is concave. It needs no logarithm, and is
+/// the test that spares nearly every bond the exact envelope.
 /// @param part  F_n + R_t [N/m], 0 < part < scale;  @param scale  R_c + R_t [N/m]
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L envelope_lower_bound(L const& part, L const& scale) {
@@ -82,10 +83,10 @@ KOKKOS_FORCEINLINE_FUNCTION L envelope_lower_bound(L const& part, L const& scale
 /// The exact strength envelope of one bond under its bond forces (Eq. 9, combined as an ellipse at fixed F_n:
 /// (F_s/R_s)^2 + (M/R_r)^2 >= 1 breaks; written without division, so that R_s -> 0 at the closed ends is no trap).
 struct BondStrength {
-  Real tension;      ///< R_t [N/m]
-  Real compression;  ///< R_c [N/m]
-  Real shear_slope;  ///< f_s K_s
-  Real moment_slope; ///< f_r K_r L_r [m]
+  Real tension;       ///< R_t [N/m]
+  Real compression;   ///< R_c [N/m]
+  Real shear_slope;   ///< f_s K_s
+  Real moment_slope;  ///< f_r K_r L_r [m]
 
   /// R_s [N/m] and R_r [N m/m] at the normal bond force F_n [N/m], compression positive; 0 outside -R_t < F_n < R_c.
   KOKKOS_INLINE_FUNCTION Real shear(Real normal) const { return shear_slope * shape(normal); }

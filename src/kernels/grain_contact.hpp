@@ -39,13 +39,13 @@ KOKKOS_FORCEINLINE_FUNCTION L rolling_stiffness(GrainLaw const& law, L const& co
 }
 
 /// Eq. 8 with signed limits: F_n = k_n u_n >= 0; |F_s| <= mu F_n; |M| <= F_n B_c / 6. A contact with u_n <= 0 carries nothing.
-/// @param trial_shear,trial_moment  F_s + k_s Delta u_s and M + k_m Delta theta before the limits; for a bond that broke in this step its own
-///                                  last forces, which are clipped to the limits and not reset
+/// @param trial_shear,trial_moment  F_s + k_s Delta u_s and M + k_m Delta theta before the limits; for a bond that broke in
+///                                  this step its own last forces, which are clipped to the limits and not reset
 /// @param dashpot                   viscous normal coefficient [N s/m per m]; the sum of spring and dashpot is never tensile
 template <bool Rolling, class L>
 KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLaw const& law, ContactMotion<L> const& motion,
                                                                 L const& trial_shear, L const& trial_moment, L const& dashpot) {
-  L const damped = lane_max(law.normal_stiffness * motion.overlap + dashpot * motion.approach, L(0));
+  L const damped = lane_max(L(0), law.normal_stiffness * motion.overlap + dashpot * motion.approach);
   ContactForce<L> force;
   force.normal = select(motion.overlap > L(0), damped, L(0));
   force.shear = clamp_to(trial_shear, law.friction * force.normal);

@@ -1,6 +1,6 @@
 #pragma once
-/// The lane type: laws and kernels are written once on `Lanes` and become SIMD vectors on a CPU (one disc a lane) and plain numbers
-/// on a GPU (one disc a thread). Every operation here is exact IEEE arithmetic lane by lane, so the width never changes a bit.
+/// The lane type: laws and kernels are written once on `Lanes` and become SIMD vectors on a CPU (one disc a lane) and plain
+/// numbers on a GPU (one disc a thread). Every operation is exact IEEE arithmetic lane by lane: the width never changes a bit.
 #include <Kokkos_Core.hpp>
 #include <cmath>
 
@@ -17,15 +17,19 @@ namespace clathra {
 KOKKOS_FORCEINLINE_FUNCTION Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
 KOKKOS_FORCEINLINE_FUNCTION bool any(bool mask) { return mask; }
 KOKKOS_FORCEINLINE_FUNCTION Real lane_sqrt(Real a) { return std::sqrt(a); }
-KOKKOS_FORCEINLINE_FUNCTION Real lane_abs(Real a) { return a < 0 ? -a : a; }
-KOKKOS_FORCEINLINE_FUNCTION Real lane_max(Real a, Real b) { return a < b ? b : a; }
-KOKKOS_FORCEINLINE_FUNCTION Real lane_min(Real a, Real b) { return b < a ? b : a; }
+KOKKOS_FORCEINLINE_FUNCTION Real lane_abs(Real a) { return std::fabs(a); }
+// Of equal zeros, and beside a NaN, the second operand counts: written so, either is one instruction with the same bits in
+// scalars and in vectors.
+KOKKOS_FORCEINLINE_FUNCTION Real lane_max(Real a, Real b) { return a > b ? a : b; }
+KOKKOS_FORCEINLINE_FUNCTION Real lane_min(Real a, Real b) { return a < b ? a : b; }
 
 #ifdef CLATHRA_SIMD
 namespace stdx = std::experimental;
 using Lanes = stdx::native_simd<Real>;
 using Mask = Lanes::mask_type;
 inline constexpr int lane_count = static_cast<int>(Lanes::size());
+/// The compiler's own vector, for what std::experimental::simd leaves open (and does differ on): min and max of zeros and NaN.
+using PlainVector [[gnu::vector_size(sizeof(Lanes))]] = Real;
 
 KOKKOS_FORCEINLINE_FUNCTION Lanes select(Mask const& mask, Lanes const& yes, Lanes const& no) {
   Lanes result = no;
@@ -35,8 +39,14 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes select(Mask const& mask, Lanes const& yes, Lan
 KOKKOS_FORCEINLINE_FUNCTION bool any(Mask const& mask) { return stdx::any_of(mask); }
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_sqrt(Lanes const& a) { return stdx::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_abs(Lanes const& a) { return stdx::abs(a); }
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) { return stdx::max(a, b); }
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) { return stdx::min(a, b); }
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) {
+  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
+  return Lanes(x > y ? x : y);
+}
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) {
+  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
+  return Lanes(x < y ? x : y);
+}
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(Real const* from) { return Lanes(from, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Lanes const& value) { value.copy_to(to, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION Real lane(Lanes const& value, int l) { return value[static_cast<std::size_t>(l)]; }
@@ -61,10 +71,11 @@ KOKKOS_FORCEINLINE_FUNCTION Real largest(Real value) { return value; }
 KOKKOS_FORCEINLINE_FUNCTION Real gather(Real const* field, int const* index) { return field[*index]; }
 #endif
 
-/// `value` clamped to [-limit, limit]; limit >= 0. Odd in `value`, so both sides of a pair get exact opposites.
+/// `value` clamped to [-limit, limit]; limit >= 0. Odd in `value` even at limit 0, so both sides of a pair get exact
+/// opposites; a NaN stays.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L clamp_to(L const& value, L const& limit) {
-  return lane_max(-limit, lane_min(value, limit));
+  return lane_max(-limit, lane_min(limit, value));
 }
 
 }  // namespace clathra
