@@ -1,0 +1,119 @@
+/// The quick test of the contact kernel, is_surely_intact(), against the exact envelope.
+#include <limits>
+#include <vector>
+
+#include "draw.hpp"
+#include "golden_bonds.hpp"
+#include "kernels/bond_law.hpp"
+#include "printed_equations.hpp"
+#include "printed_number.hpp"
+
+namespace clathra {
+namespace {
+
+/// The default law, the two other moment lengths, thm strengths, the plate law and bounds as tight as a scene may set them.
+std::vector<BondLaw> various_laws() {
+  std::vector<BondLaw> laws;
+  for (long double saturation : {0.21L, 0.26L, 0.41L, 0.55L, 0.70L}) {
+    BondLaw law;
+    law.critical_thickness = law.thickness_partner = static_cast<double>(printed::critical_thickness(saturation, 0.1694e-3L));
+    laws.push_back(law);
+    law.least_shape_of_shear = shape_of_shear(law.critical_thickness);  // f_s and f_r fall over these gaps
+    law.least_shape_of_rolling = shape_of_rolling(law.critical_thickness);
+    laws.push_back(law);
+    law.strength.moment_width_ratio = 0;
+    law.strength.moment_length = 1;
+    laws.push_back(law);
+    law.strength.moment_length = 1e-3;
+    law.strength.tensile_stress = 1.42648e7;
+    laws.push_back(law);
+    law.gap_weight = 0;
+    law.plate_thickness = law.thickness_partner = 0.3 * law.critical_thickness;
+    laws.push_back(law);
+  }
+  return laws;
+}
+
+/// Forces of any size around the envelope of a bond, often just at it.
+BondForce<Real> any_state(Draw& draw, BondLaw const& law) {
+  BondForce<Real> bond{};
+  bond.gap = law.gap(draw.between(-1.02, 0.1) * law.critical_thickness);
+  bond.width = law.width(draw.of_size(2e-5, 4e-4), bond.gap);
+  BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+  bond.force.normal = draw.between(-1.1 * std::fabs(strength.tension), 1.1 * strength.compression);
+  double const share = draw.between(0, 1) < 0.5 ? draw.between(0, 1.3) : draw.between(0.98, 1.02),
+               angle = draw.between(0, 6.2832);
+  bond.force.shear = share * std::cos(angle) * strength.shear(bond.force.normal);
+  bond.force.moment = share * std::sin(angle) * strength.rolling(bond.force.normal);
+  return bond;
+}
+
+TEST(BondQuickTest, NeverPassesABondThatIsBroken) {
+  Draw draw(61);
+  int broken = 0, intact = 0;
+  std::vector<BondLaw> const laws = various_laws();
+  for (int n = 0; n < 1000000; ++n) {
+    BondLaw const& law = laws[static_cast<std::size_t>(n) % laws.size()];
+    BondForce<Real> const bond = any_state(draw, law);
+    BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+    BreakMode const mode = strength.test(bond.force.normal, bond.force.shear, bond.force.moment);
+    (mode == BreakMode::none ? intact : broken) += 1;
+    if (mode == BreakMode::none) continue;
+    ASSERT_FALSE(is_surely_intact(law, bond)) << n << ": gap " << bond.gap << " width " << bond.width << " F_n "
+                                              << bond.force.normal << " F_s " << bond.force.shear << " M " << bond.force.moment;
+  }
+  EXPECT_GT(broken, 300000);
+  EXPECT_GT(intact, 300000);
+}
+
+TEST(BondQuickTest, NeverPassesABondAtTheEndsOfItsEnvelope) {
+  Draw draw(62);
+  for (BondLaw const& law : various_laws()) {
+    for (int n = 0; n < 1000; ++n) {
+      BondForce<Real> bond = any_state(draw, law);
+      BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+      bond.force.shear = bond.force.moment = 0;
+      for (double normal : {-strength.tension, std::nextafter(-strength.tension, -1e9), strength.compression,
+                            std::nextafter(strength.compression, 1e9), -1e12, 1e12}) {
+        bond.force.normal = normal;
+        ASSERT_FALSE(is_surely_intact(law, bond)) << normal;
+      }
+    }
+  }
+}
+
+TEST(BondQuickTest, SparesNearlyEveryLightlyLoadedBondTheExactTest) {
+  Draw draw(63);
+  int intact = 0, passed = 0;
+  for (BondLaw const& law : various_laws()) {
+    for (int n = 0; n < 10000; ++n) {
+      BondForce<Real> bond = any_state(draw, law);
+      BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+      if (strength.tension < 50) continue;
+      bond.force.normal = draw.between(-0.3 * strength.tension, 0.5 * strength.compression);
+      bond.force.shear = draw.between(-0.4, 0.4) * strength.shear(bond.force.normal);
+      bond.force.moment = draw.between(-0.4, 0.4) * strength.rolling(bond.force.normal);
+      ++intact;
+      passed += is_surely_intact(law, bond);
+    }
+  }
+  EXPECT_GT(intact, 100000);
+  EXPECT_GT(passed, 0.8 * intact);
+  RecordProperty("passed_per_mille", static_cast<int>(1000.0 * passed / intact));
+}
+
+TEST(BondQuickTest, PassesNoBondWithNanForces) {
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  BondLaw const law = various_laws()[0];
+  BondForce<Real> bond{{0, 0, 0}, {0, 0, 0}, 3e-5, 0};
+  EXPECT_TRUE(is_surely_intact(law, bond));
+  for (double ContactForce<Real>::*part :
+       {&ContactForce<Real>::normal, &ContactForce<Real>::shear, &ContactForce<Real>::moment}) {
+    bond.force = {0, 0, 0};
+    bond.force.*part = nan;
+    EXPECT_FALSE(is_surely_intact(law, bond));
+  }
+}
+
+}  // namespace
+}  // namespace clathra

@@ -1,0 +1,70 @@
+#include <limits>
+
+#include "draw.hpp"
+#include "kernels/lane.hpp"
+#include "printed_number.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double corners[] = {0.0, -0.0, 1.0, -1.0, 5e-324, -5e-324, 1e300, -1e300, infinity, -infinity, nan};
+
+testing::AssertionResult same(Lanes const& lanes, double scalar) {
+  for (int l = 0; l < lane_count; ++l) {
+    if (scalar != scalar && lane(lanes, l) != lane(lanes, l)) continue;
+    if (auto const equal = same_bits(lane(lanes, l), scalar); !equal) return equal;
+  }
+  return testing::AssertionSuccess();
+}
+
+TEST(Lane, GivesTheBitsOfTheScalarAtEveryCorner) {
+  for (double a : corners) {
+    EXPECT_TRUE(same(lane_abs(Lanes(a)), lane_abs(a))) << a;
+    EXPECT_TRUE(same(lane_sqrt(Lanes(std::fabs(a))), lane_sqrt(std::fabs(a)))) << a;
+    for (double b : corners) {
+      EXPECT_TRUE(same(lane_max(Lanes(a), Lanes(b)), lane_max(a, b))) << a << ", " << b;
+      EXPECT_TRUE(same(lane_min(Lanes(a), Lanes(b)), lane_min(a, b))) << a << ", " << b;
+      EXPECT_TRUE(same(select(Lanes(a) < Lanes(b), Lanes(a), Lanes(b)), select(a < b, a, b))) << a << ", " << b;
+      EXPECT_TRUE(same(clamp_to(Lanes(a), Lanes(std::fabs(b))), clamp_to(a, std::fabs(b)))) << a << " to " << b;
+    }
+  }
+}
+
+TEST(Lane, ClampsBothSignsAndIsOddToTheBit) {
+  EXPECT_EQ(clamp_to(3.0, 2.0), 2.0);
+  EXPECT_EQ(clamp_to(-3.0, 2.0), -2.0);
+  EXPECT_EQ(clamp_to(1.5, 2.0), 1.5);
+  EXPECT_EQ(clamp_to(2.0, 2.0), 2.0);
+  for (double value : corners) {
+    if (value != value) continue;
+    for (double limit : {0.0, 5e-324, 1.0, 1e300}) {
+      EXPECT_TRUE(same_bits(clamp_to(-value, limit), -clamp_to(value, limit))) << value << " to " << limit;
+    }
+  }
+}
+
+TEST(Lane, ClampingHidesNoNan) {
+  EXPECT_TRUE(std::isnan(clamp_to(nan, 1.0)));
+  EXPECT_TRUE(std::isnan(clamp_to(nan, 0.0)));
+}
+
+TEST(Lane, SelectsAndStoresLaneByLane) {
+  double from[static_cast<std::size_t>(lane_count)], to[static_cast<std::size_t>(lane_count)];
+  int index[static_cast<std::size_t>(lane_count)];
+  for (int l = 0; l < lane_count; ++l) {
+    from[l] = l + 0.5;
+    index[l] = lane_count - 1 - l;
+  }
+  Lanes const up = load(from), down = gather(from, index);
+  store(to, select(up < down, up, down));
+  for (int l = 0; l < lane_count; ++l) {
+    EXPECT_EQ(lane(down, l), from[lane_count - 1 - l]);
+    EXPECT_EQ(to[l], std::min(from[l], from[lane_count - 1 - l]));
+  }
+  EXPECT_EQ(largest(up), lane_count - 0.5);
+}
+
+}  // namespace
+}  // namespace clathra
