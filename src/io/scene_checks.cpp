@@ -6,8 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <stdexcept>
 
 #include "domain/hydrate.hpp"
+#include "domain/sample_design.hpp"
 #include "domain/units.hpp"
 
 namespace clathra {
@@ -70,15 +73,25 @@ void check_size(Check& check) {
                 "sample.width, sample.height and sample.aspect_ratio contradict each other");
 }
 
-void check_grading(Check& check) {
-  GradingScene const& grading = check.scene.grading;
-  if (check.scene.sample.generator == Generator::file) return;
-  if (!grading.file.empty()) {
-    check_input_file(check, "grading.file", grading.file);
+/// Reads the grading and completes the specimen; nothing where that is not possible, which is then reported.
+std::optional<SampleDesign> check_design(Check& check) {
+  Scene const& scene = check.scene;
+  if (scene.sample.generator == Generator::file) return {};
+  if (!scene.grading.file.empty()) {
+    check_input_file(check, "grading.file", scene.grading.file);
     if (check.given("grading.table")) check.warn("grading.table has no effect: the sizes come from grading.file");
-  } else if (grading.table == "uniform" && grading.d50 == 0) {
-    bool const follows = check.scene.sample.particles > 0 && check.scene.sample.width + check.scene.sample.height > 0;
-    if (!follows) check.error({"grading.table"}, "grading 'uniform' needs 'grading.d50'");
+  }
+  if (!check.found.problems.empty()) return {};
+  try {
+    SampleDesign design = design_sample(scene);
+    if (design.particles < 16 || design.particles > 1'000'000'000)
+      check.error({"sample.width", "sample.height", "grading.d50"},
+                  fmt::format("the box of {} x {} holds {} discs of this grading; between 16 and 1e9 are possible",
+                              length_text(design.width), length_text(design.height), design.particles));
+    return design;
+  } catch (std::invalid_argument const& problem) {
+    check.error({"grading.file", "sample.particles", "sample.width"}, problem.what());
+    return {};
   }
 }
 
@@ -98,27 +111,15 @@ void check_loading(Check& check) {
                             format_quantity(test.confining_stress, Dimension::pressure)));
 }
 
-/// Radius of the largest disc over d50, of the built-in tables; 0 where it is not known here.
-double largest_radius_ratio(GradingScene const& grading) {
-  if (!grading.file.empty()) return 0;
-  return grading.table == "toyoura" ? 0.5 * 0.300 / 0.1694 : 0.5;
-}
-
 /// A d50 so small that no gap between the two largest discs gives a bond with tensile strength (trap 5 of the physics page).
-void check_strength(Check& check) {
-  Scene const& scene = check.scene;
-  double const d50 = scene.grading.d50 > 0 ? scene.grading.d50 : 0.1694e-3;
-  double const radius = largest_radius_ratio(scene.grading) * d50;
-  bool const d50_follows =
-      scene.grading.d50 == 0 && scene.sample.particles > 0 && scene.sample.void_ratio > 0 && scene.sample.width > 0;
-  if (radius == 0 || d50_follows || scene.bond.mode == BondingMode::areal_target || scene.sample.generator == Generator::file)
-    return;
+void check_strength(Check& check, SampleDesign const& design) {
+  if (check.scene.bond.mode == BondingMode::areal_target) return;
+  double const d50 = design.grading.d50(), radius = design.grading.largest() / 2;
+  double const h_max = evaluate_bond(check.scene, d50, radius, radius, 0, 0).h_max;
   constexpr int steps = 64;
   double best = -HUGE_VAL;
-  for (int i = 0; i < steps; ++i) {
-    double const h_max = evaluate_bond(scene, d50, radius, radius, 0, 0).h_max;
-    best = std::max(best, evaluate_bond(scene, d50, radius, radius, h_max * i / steps, 0).R_t);
-  }
+  for (int i = 0; i < steps; ++i)
+    best = std::max(best, evaluate_bond(check.scene, d50, radius, radius, h_max * i / steps, 0).R_t);
   if (best > 0) return;
   check.error(
       {"grading.d50", "hydrate.saturation", "bond.critical_thickness"},
@@ -126,7 +127,7 @@ void check_strength(Check& check) {
                   length_text(d50), best));
 }
 
-void check_hydrate(Check& check) {
+void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
   Scene const& scene = check.scene;
   if (!has_bonds(scene)) return;
   std::vector<std::string_view> const state = {"hydrate.temperature", "hydrate.pore_pressure", "hydrate.density",
@@ -142,7 +143,7 @@ void check_hydrate(Check& check) {
   if (scene.bond.mode == BondingMode::eq3 && critical_thickness_ratio(scene.hydrate.saturation) == 0)
     return check.warn(
         fmt::format("a saturation of {} % makes no bonds: Eq. 3 has none up to 20 %", scene.hydrate.saturation * 100));
-  check_strength(check);
+  if (design) check_strength(check, *design);
 }
 
 void check_bonding(Check& check) {
@@ -179,9 +180,9 @@ void check_output(Check& check) {
 SceneFindings check_scene(Scene const& scene, std::function<bool(std::string_view)> const& given) {
   Check check{scene, given, {}};
   check_size(check);
-  check_grading(check);
+  std::optional<SampleDesign> const design = check_design(check);
   check_loading(check);
-  check_hydrate(check);
+  check_hydrate(check, design);
   check_bonding(check);
   check_output(check);
   return std::move(check.found);

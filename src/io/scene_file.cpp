@@ -25,6 +25,13 @@ struct Place {
 
 int as_int(toml::source_index index) { return static_cast<int>(index); }
 
+/// One side alone fixes the other by the aspect ratio, unless the number of discs does.
+void complete_box(SampleScene& sample) {
+  if (sample.particles > 0) return;
+  if (sample.height == 0) sample.height = sample.width * sample.aspect_ratio;
+  if (sample.width == 0) sample.width = sample.height / sample.aspect_ratio;
+}
+
 /// Collects a Scene from the file and the overrides, with all problems.
 class SceneReader {
  public:
@@ -62,6 +69,7 @@ class SceneReader {
   LoadedScene finish() {
     // Stating a strain rate replaces the default inertial number.
     if (scene_.test.strain_rate > 0 && !given("test.inertial_number")) scene_.test.inertial_number = 0;
+    complete_box(scene_.sample);
     SceneFindings found = check_scene(scene_, [this](std::string_view name) { return given(name); });
     for (Finding& finding : found.problems) {
       // What is said of a key that could not even be read would only confuse.

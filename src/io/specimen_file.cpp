@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -190,6 +191,30 @@ Specimen read_specimen(std::filesystem::path const& path) {
   check_particles(path, specimen);
   check_contacts(path, specimen);
   return specimen;
+}
+
+std::uint64_t specimen_hash(Specimen const& specimen) {
+  std::vector<double> numbers;
+  for_each_scalar(specimen, [&](char const*, double value, char const*) { numbers.push_back(value); });
+  std::size_t const count = specimen.size(), start = numbers.size();
+  constexpr std::size_t columns = 7;
+  numbers.resize(start + columns * count);
+  std::size_t column_number = 0;
+  for_each_particle_column(specimen, [&](char const*, std::vector<double> const& column, char const*) {
+    for (std::size_t i = 0; i < count; ++i)
+      numbers[start + columns * static_cast<std::size_t>(specimen.id[i]) + column_number] = column[i];
+    ++column_number;
+  });
+  std::vector<SpecimenContact> contacts = specimen.contacts;
+  std::sort(contacts.begin(), contacts.end(),
+            [](auto const& a, auto const& b) { return std::pair(a.id_a, a.id_b) < std::pair(b.id_a, b.id_b); });
+  for (SpecimenContact const& contact : contacts) {
+    numbers.push_back(contact.id_a);
+    numbers.push_back(contact.id_b);
+    for_each_contact_column(
+        [&](char const*, double SpecimenContact::*member, char const*) { numbers.push_back(contact.*member); });
+  }
+  return XXH3_64bits(numbers.data(), numbers.size() * sizeof(double));
 }
 
 }  // namespace clathra

@@ -1,5 +1,6 @@
 #pragma once
 /// Specimen files: HDF5, made by `clathra generate` and by every run, read again by later runs.
+#include <cstdint>
 #include <filesystem>
 
 #include "domain/specimen.hpp"
@@ -14,5 +15,9 @@ void write_specimen(std::filesystem::path const& path, Specimen const& specimen)
 /// Reads a specimen and checks it: sizes, ids 0..N-1 once each, finite numbers, radii > 0, contacts between discs of the file.
 /// @throws FileProblem file_missing or bad_input
 Specimen read_specimen(std::filesystem::path const& path);
+
+/// A hash of all discs and contacts, bit for bit, whatever order they are stored in. It is not the state hash of a run, which is
+/// taken of the arrays of the simulation.
+std::uint64_t specimen_hash(Specimen const& specimen);
 
 }  // namespace clathra

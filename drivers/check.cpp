@@ -1,0 +1,45 @@
+/// `clathra check`: is a scene right, and what does it cost?
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "forecast.hpp"
+#include "io/specimen_file.hpp"
+#include "print.hpp"
+#include "scene_options.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct CheckOptions {
+  SceneOptions scene;
+  double rate = 0;
+};
+
+ExitCode check(CheckOptions const& options) {
+  LoadedScene const input = options.scene.load();
+  bool const from_file = input.scene.sample.generator == Generator::file;
+  Scene const scene = from_file ? sized_by(input.scene, read_specimen(input.scene.sample.file)) : input.scene;
+  Forecast const result = forecast(scene, options.rate);
+  std::string text = fmt::format("{}: the scene is right\n{}", options.scene.file, forecast_text(scene, result));
+  for (std::string const& warning : input.warnings) text += "warning: " + warning + "\n";
+  for (std::string const& warning : result.warnings) text += "warning: " + warning + "\n";
+  ExitCode const printed = print_result(text);
+  refuse_if_needed(scene, result);
+  return printed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<CheckOptions>();
+  CLI::App* const verb = program.add_subcommand("check", "Check a scene and say what its run will cost");
+  options->scene.add_to(*verb);
+  verb->add_option("--disc-steps-per-second", options->rate, "speed to assume (default: 15 million a thread)")
+      ->check(CLI::PositiveNumber);
+  verb->footer("Example: clathra check examples/quick.toml --set test.strain_rate=\"5 %/min\"");
+  verb->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
+}
+
+}  // namespace clathra

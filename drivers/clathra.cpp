@@ -1,0 +1,76 @@
+/// The program `clathra`: chooses the verb, turns what goes wrong into a message and an exit code.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <new>
+
+#include "clathra_version.hpp"
+#include "domain/experiment.hpp"
+#include "print.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+/// Closed standard streams are opened on /dev/null: otherwise the first result file would get their number, and messages go into
+/// it. A reader of our output that goes away is no reason to stop a run.
+void secure_standard_streams() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+ExitCode say(ExitCode code, std::string const& text) {
+  print_error("clathra: " + text);
+  return code;
+}
+
+ExitCode run_guarded(Verb const& verb) {
+  try {
+    return verb();
+  } catch (SceneProblems const& problems) {
+    print_error(problems.what());
+    return problems.code();
+  } catch (FileProblem const& problem) {
+    return say(problem.code, problem.what());
+  } catch (Diverged const& problem) {
+    return say(ExitCode::diverged, fmt::format("diverged: {}", problem.what()));
+  } catch (Refused const& problem) {
+    return say(ExitCode::refused, fmt::format("refused: {}", problem.what()));
+  } catch (Stopped const& problem) {
+    return say(ExitCode::interrupted, problem.what());
+  } catch (std::bad_alloc const&) {
+    return say(ExitCode::refused, "refused: not enough memory");
+  } catch (std::exception const& problem) {
+    return say(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
+  }
+}
+
+ExitCode choose_and_run(int argc, char** argv) {
+  CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
+  program.set_version_flag("--version", fmt::format("clathra {} ({})", CLATHRA_VERSION, CLATHRA_GIT_HASH));
+  program.require_subcommand(1);
+  program.footer("Example: clathra run examples/quick.toml --output out/quick");
+  Verb chosen;
+  add_run(program, chosen);
+  add_check(program, chosen);
+  add_generate(program, chosen);
+  add_bond(program, chosen);
+  add_info(program, chosen);
+  try {
+    program.parse(argc, argv);
+  } catch (CLI::ParseError const& error) {
+    return program.exit(error) == 0 ? ExitCode::done : ExitCode::usage;  // --help and --version end here too
+  }
+  return run_guarded(chosen);
+}
+
+}  // namespace
+}  // namespace clathra
+
+int main(int argc, char** argv) {
+  clathra::secure_standard_streams();
+  return static_cast<int>(clathra::choose_and_run(argc, argv));
+}

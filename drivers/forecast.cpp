@@ -1,0 +1,91 @@
+#include "forecast.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "domain/hydrate.hpp"
+#include "domain/quasi_static.hpp"
+#include "progress_line.hpp"
+#include "threads.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double assumed_rate = 15e6;     // disc-steps a second and thread
+constexpr double paper_rate = 0.05 / 60;  // "5 %/min" [1/s]
+constexpr double usable_memory = 0.9;     // of what is free
+
+/// What can be had without swapping [bytes]: the kernel's own estimate, else the pages that nobody uses.
+double free_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string name, unit;
+  for (double kilobytes = 0; file >> name >> kilobytes; std::getline(file, unit))
+    if (name == "MemAvailable:") return kilobytes * 1024;
+  return static_cast<double>(::sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+std::string bytes_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.3g} MB", bytes * 1e-6) : fmt::format("{:.3g} GB", bytes * 1e-9);
+}
+
+std::string row(std::string const& name, std::string const& value) { return fmt::format("  {:<18} {}\n", name, value); }
+
+}  // namespace
+
+Forecast forecast(Scene const& scene, double disc_steps_per_second) {
+  Forecast result;
+  result.numbers = predict(scene);
+  result.disc_steps_per_second =
+      disc_steps_per_second > 0 ? disc_steps_per_second : assumed_rate * thread_count(scene.run.threads);
+  RateNumbers const rate{result.numbers["strain_rate_per_s"], result.numbers["inertial_number"], result.numbers["wave_number"]};
+  Scene forced = scene;
+  forced.run.force = true;
+  result.warnings = judge_rate(forced, rate);
+  if (rate.inertial_number > inertial_limit)
+    result.refusals.push_back(
+        fmt::format("inertial number I = {:.3g} is above {:g}: this is not quasi-static", rate.inertial_number, inertial_limit));
+  if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty()) result.refusals.push_back(refusal);
+  return result;
+}
+
+std::string memory_refusal(StageRecord const& numbers) {
+  double const memory = numbers.at("memory_bytes"), available = usable_memory * free_memory();
+  if (memory <= available) return {};
+  return fmt::format("it needs about {} of memory, {} are free", bytes_text(memory), bytes_text(available));
+}
+
+std::string forecast_text(Scene const& scene, Forecast const& forecast) {
+  StageRecord const& n = forecast.numbers;
+  auto const hours = [&](double disc_steps) { return duration_text(disc_steps / forecast.disc_steps_per_second); };
+  std::string text;
+  text += row("discs", fmt::format("{:.0f}", n.at("particles")));
+  text += row("box", fmt::format("{:.4g} mm x {:.4g} mm, void ratio {:.4g}", n.at("width_m") * 1e3, n.at("height_m") * 1e3,
+                                 n.at("void_ratio")));
+  text += row("d50", fmt::format("{:.4g} mm", n.at("d50_m") * 1e3));
+  text += row("bonds", has_bonds(scene) ? fmt::format("saturation {:.4g} %", scene.hydrate.saturation * 100) : "none");
+  text += row("confining stress", fmt::format("{:.4g} MPa", scene.test.confining_stress * 1e-6));
+  text += row("time step", fmt::format("{:.3g} s ({:g} of the stable limit)", n.at("time_step_s"), scene.run.dt_safety));
+  text += row("strain rate", fmt::format("{:.4g} 1/s to {:.4g} %", n.at("strain_rate_per_s"), scene.test.axial_strain * 100));
+  text += row("inertial number I", fmt::format("{:.3g} (quasi-static below {:g})", n.at("inertial_number"), inertial_warning));
+  text += row("wave number W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("wave_number"), wave_limit));
+  text += row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
+  text += row("time", fmt::format("{} at {} disc-steps/s, generation and consolidation not counted", hours(n.at("disc_steps")),
+                                  short_count(forecast.disc_steps_per_second)));
+  double const literal = scene.test.axial_strain / (paper_rate * n.at("time_step_s"));
+  text += row("at 5 %/min", fmt::format("{} steps, {}", short_count(literal), hours(literal * n.at("particles"))));
+  text += row("memory", bytes_text(n.at("memory_bytes")));
+  text += row("disk", bytes_text(n.at("disk_bytes")));
+  return text;
+}
+
+void refuse_if_needed(Scene const& scene, Forecast const& forecast) {
+  if (forecast.refusals.empty() || scene.run.force) return;
+  std::string text;
+  for (std::string const& refusal : forecast.refusals) text += (text.empty() ? "" : "; ") + refusal;
+  throw Refused(text + " (--force goes on)");
+}
+
+}  // namespace clathra

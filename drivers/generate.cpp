@@ -1,0 +1,66 @@
+/// `clathra generate`: make a specimen and keep it.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "clathra_version.hpp"
+#include "forecast.hpp"
+#include "interrupt.hpp"
+#include "io/specimen_file.hpp"
+#include "print.hpp"
+#include "scene_options.hpp"
+#include "specimen_source.hpp"
+#include "stage_progress.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct GenerateOptions {
+  SceneOptions scene;
+  std::string output = "specimen.h5";
+};
+
+std::string record_text(RunRecord const& record) {
+  std::string text;
+  for (auto const& [name, value] : record.stages.at("generate")) text += fmt::format("  {:<26} {:.6g}\n", name, value);
+  text += fmt::format("  {:<26}", "layer void ratios");
+  for (double const ratio : record.layer_void_ratios) text += fmt::format(" {:.4f}", ratio);
+  return text + fmt::format("\n  {:<26} {:.1f}\n", "wall seconds", record.wall_seconds.at("generate"));
+}
+
+ExitCode generate(GenerateOptions const& options) {
+  RunRecord record;
+  record.version = CLATHRA_VERSION;
+  record.git_hash = CLATHRA_GIT_HASH;
+  record.input = options.scene.load();
+  Scene const& scene = record.input.scene;
+  if (scene.sample.generator == Generator::file)
+    throw Refused("the scene reads its specimen from a file: there is nothing to generate");
+  if (std::string const refusal = memory_refusal(predict(scene)); !refusal.empty() && !scene.run.force) throw Refused(refusal);
+  settle_threads(scene.run.threads);
+  watch_for_interrupt();
+  ProgressLine line;
+  for (std::string const& warning : record.input.warnings) line.warn(warning);
+  KokkosSession const kokkos;
+  Specimen const specimen = generate_recorded(scene, show_stage(line), record);
+  write_specimen(options.output, specimen);
+  line.repeat_warnings();
+  return print_result(fmt::format("{}: {} discs\n{}", options.output, specimen.size(), record_text(record)));
+}
+
+}  // namespace
+
+void add_generate(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<GenerateOptions>();
+  CLI::App* const verb = program.add_subcommand("generate", "Make a specimen file that later runs can read");
+  options->scene.add_to(*verb);
+  verb->add_option("-o,--output", options->output, "specimen file to write")->capture_default_str();
+  verb->footer(
+      "Example: clathra generate examples/quick.toml -o specimen.h5\n"
+      "         clathra run examples/quick.toml --set sample.generator=file --set sample.file=specimen.h5");
+  verb->callback([options, &chosen] { chosen = [options] { return generate(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,113 @@
+/// `clathra info`: what a specimen file or the folder of a run holds.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "domain/experiment.hpp"
+#include "domain/grading.hpp"
+#include "io/run_record.hpp"
+#include "io/specimen_file.hpp"
+#include "io/text_file.hpp"
+#include "kernels/bond_law.hpp"
+#include "print.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct InfoOptions {
+  std::string file;
+  bool state_hash = false;
+};
+
+constexpr std::size_t largest_record = std::size_t{64} << 20;
+
+/// Area of the discs [m^2], overlaps counted twice.
+double solid_area(Specimen const& specimen) {
+  return std::accumulate(specimen.radius.begin(), specimen.radius.end(), 0.0,
+                         [](double sum, double r) { return sum + pi * r * r; });
+}
+
+std::string specimen_text(Specimen const& specimen) {
+  auto const bonds = std::count_if(specimen.contacts.begin(), specimen.contacts.end(),
+                                   [](SpecimenContact const& c) { return is_bonded(c.equilibrium); });
+  double const area = specimen.width() * specimen.height();
+  auto const row = [](char const* name, std::string const& value) { return fmt::format("{:<18} {}\n", name, value); };
+  auto const diameter = [&](double part) { return diameter_finer(specimen.radius, part) * 1e3; };
+  std::string text;
+  text += row("discs", fmt::format("{}", specimen.size()));
+  text += row("box", fmt::format("{:.6g} mm x {:.6g} mm{}", specimen.width() * 1e3, specimen.height() * 1e3,
+                                 specimen.periodic ? ", periodic" : ""));
+  text += row("void ratio", fmt::format("{:.5g}", area / solid_area(specimen) - 1));
+  text += row("grading", fmt::format("d10 {:.4g} mm, d50 {:.4g} mm, d60 {:.4g} mm", diameter(0.1), diameter(0.5), diameter(0.6)));
+  text += row("grain density", fmt::format("{:g} kg/m^3", specimen.density));
+  text += row("rests under", fmt::format("{:.6g} MPa", specimen.stress * 1e-6));
+  text += row("contacts", fmt::format("{}", specimen.contacts.size()));
+  text += row("bonds", fmt::format("{}", bonds));
+  if (specimen.critical_thickness > 0) text += row("h_max", fmt::format("{:.4g} um", specimen.critical_thickness * 1e6));
+  if (!specimen.provenance.empty()) text += row("made by", specimen.provenance);
+  return text;
+}
+
+std::string number_text(nlohmann::json const& value) {
+  return value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
+}
+
+std::string run_text(nlohmann::json const& record) {
+  std::string text = fmt::format("exit               {} (code {})\n", record.at("exit").at("reason").get<std::string>(),
+                                 record.at("exit").at("code").dump());
+  auto const& program = record.at("program");
+  text += fmt::format("program            clathra {} ({}), {} threads, {}\n", program.at("version").get<std::string>(),
+                      program.at("git_hash").get<std::string>(), program.at("threads").dump(),
+                      program.at("backend").get<std::string>());
+  for (auto const& [stage, numbers] : record.at("stages").items()) {
+    text += stage + "\n";
+    for (auto const& [name, value] : numbers.items()) text += fmt::format("  {:<26} {}\n", name, number_text(value));
+  }
+  for (auto const& [stage, seconds] : record.at("wall_seconds").items())
+    text += fmt::format("{:<18} {} s\n", "time of " + stage, number_text(seconds));
+  text += fmt::format("{:<18} {:.4g} M\n", "disc-steps/s", record.at("disc_steps_per_second").get<double>() * 1e-6);
+  for (auto const& warning : record.at("warnings")) text += "warning: " + warning.get<std::string>() + "\n";
+  if (record.contains("state_hash")) text += fmt::format("{:<18} {}\n", "state hash", record.at("state_hash").get<std::string>());
+  return text;
+}
+
+ExitCode info_of_run(std::filesystem::path const& file, bool only_hash) {
+  std::string const text = read_text_file(file, largest_record);
+  try {
+    nlohmann::json const record = nlohmann::json::parse(text);
+    if (!only_hash) return print_result(run_text(record));
+    if (!record.contains("state_hash"))
+      throw FileProblem(ExitCode::bad_input, file, "the run has not finished, there is no state hash");
+    return print_result(record.at("state_hash").get<std::string>() + "\n");
+  } catch (nlohmann::json::exception const& problem) {
+    throw FileProblem(ExitCode::bad_input, file, fmt::format("is not a record of a run: {}", problem.what()));
+  }
+}
+
+ExitCode info(InfoOptions const& options) {
+  std::filesystem::path const file = options.file;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) return info_of_run(file / "run.json", options.state_hash);
+  if (file.extension() == ".json") return info_of_run(file, options.state_hash);
+  Specimen const specimen = read_specimen(file);
+  if (options.state_hash) return print_result(hash_text(specimen_hash(specimen)) + "\n");
+  return print_result(specimen_text(specimen));
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<InfoOptions>();
+  CLI::App* const verb = program.add_subcommand("info", "Say what a specimen file or the folder of a run holds");
+  verb->add_option("file", options->file, "specimen file, run.json, or folder of a run")->required();
+  verb->add_flag("--state-hash", options->state_hash, "print only the hash of the state");
+  verb->footer("Example: clathra info out/quick/specimen.h5");
+  verb->callback([options, &chosen] { chosen = [options] { return info(*options); }; });
+}
+
+}  // namespace clathra

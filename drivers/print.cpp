@@ -1,0 +1,34 @@
+#include "print.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+
+namespace clathra {
+namespace {
+
+/// @return 0 or errno
+int put(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    ssize_t const written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+}  // namespace
+
+ExitCode print_result(std::string const& text) {
+  int const error = put(STDOUT_FILENO, text);
+  if (error == 0 || error == EPIPE) return ExitCode::done;
+  print_error("clathra: cannot write to standard output: " + std::generic_category().message(error));
+  return ExitCode::io_error;
+}
+
+void print_error(std::string const& line) { put(STDERR_FILENO, line + "\n"); }
+
+}  // namespace clathra

@@ -1,0 +1,16 @@
+#pragma once
+/// The two standard streams.
+#include <string>
+
+#include "io/problems.hpp"
+
+namespace clathra {
+
+/// Writes a verb's result to stdout. @return io_error, with a message, where it cannot be written (a full disk); a reader that
+/// went away is none
+ExitCode print_result(std::string const& text);
+
+/// Writes a line to stderr; failure is ignored, for there is nobody left to tell.
+void print_error(std::string const& line);
+
+}  // namespace clathra

@@ -1,0 +1,95 @@
+#include "progress_line.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace clathra {
+namespace {
+
+constexpr auto terminal_interval = std::chrono::milliseconds(200);
+constexpr auto line_interval = std::chrono::seconds(60);
+constexpr int marks = 20;  // a line every 5 %
+
+std::size_t terminal_width() {
+  winsize size = {};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+}
+
+/// stderr may be closed or full: nothing that happens to it may stop a run.
+void put(std::string const& text) {
+  ssize_t const written = ::write(STDERR_FILENO, text.data(), text.size());
+  (void)written;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) == 1), last_(Clock::now()) {
+  char const* const no_colour = std::getenv("NO_COLOR");
+  colour_ = terminal_ && !(no_colour && *no_colour);
+}
+
+ProgressLine::~ProgressLine() { erase(); }
+
+void ProgressLine::erase() {
+  if (line_shown_) put("\r\033[K");
+  line_shown_ = false;
+}
+
+std::string ProgressLine::coloured(std::string const& text, char const* code) const {
+  return colour_ ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+}
+
+void ProgressLine::show(std::string const& stage, double fraction, std::string const& text) {
+  auto const now = Clock::now();
+  int const mark = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * marks);
+  bool const new_stage = stage != stage_;
+  if (new_stage) stage_ = stage, last_mark_ = -1;
+  bool const due = terminal_ ? now - last_ >= terminal_interval : mark > last_mark_ || now - last_ >= line_interval;
+  if (!new_stage && !due) return;
+  last_ = now;
+  last_mark_ = std::max(last_mark_, mark);
+  std::string line = fmt::format("{} {:.0f}% {}", stage, std::clamp(fraction, 0.0, 1.0) * 100, text);
+  if (!terminal_) return put(line + "\n");
+  line.resize(std::min(line.size(), terminal_width() - 1));
+  put("\r\033[K" + line);
+  line_shown_ = true;
+}
+
+void ProgressLine::note(std::string const& text) {
+  erase();
+  put(text + "\n");
+}
+
+void ProgressLine::warn(std::string const& text) {
+  if (std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end()) return;
+  warnings_.push_back(text);
+  note(coloured("warning: ", "33") + text);
+}
+
+void ProgressLine::repeat_warnings() {
+  if (warnings_.empty()) return;
+  note(fmt::format("{} warning{}:", warnings_.size(), warnings_.size() == 1 ? "" : "s"));
+  for (std::string const& text : warnings_) note(coloured("  - ", "33") + text);
+}
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0) return "?";
+  if (seconds >= 365.25 * 86400) return fmt::format("{:.3g} years", seconds / (365.25 * 86400));
+  if (seconds >= 3 * 86400) return fmt::format("{:.3g} days", seconds / 86400);
+  auto const whole = static_cast<long long>(std::llround(seconds));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+}
+
+std::string short_count(double value) {
+  for (auto const& [scale, prefix] : {std::pair{1e12, "T"}, {1e9, "G"}, {1e6, "M"}, {1e3, "k"}})
+    if (std::fabs(value) >= scale) return fmt::format("{:.3g} {}", value / scale, prefix);
+  return fmt::format("{:.3g}", value);
+}
+
+}  // namespace clathra

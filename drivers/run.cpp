@@ -1,0 +1,214 @@
+/// `clathra run`: from a scene file to a sheared specimen and its curves.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "clathra_version.hpp"
+#include "domain/hydrate.hpp"
+#include "forecast.hpp"
+#include "interrupt.hpp"
+#include "io/digest.hpp"
+#include "io/events.hpp"
+#include "io/history.hpp"
+#include "io/output_folder.hpp"
+#include "io/specimen_file.hpp"
+#include "io/text_file.hpp"
+#include "print.hpp"
+#include "scene_options.hpp"
+#include "specimen_source.hpp"
+#include "stage_progress.hpp"
+#include "summary.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct RunOptions {
+  SceneOptions scene;
+  std::string output;
+  bool dry_run = false;
+};
+
+/// One run with its folder, its record and what the user sees of it.
+class Run {
+ public:
+  Run(LoadedScene input, std::optional<Specimen> specimen)
+      : scene_(input.scene), specimen_(std::move(specimen)), folder_(scene_.output.folder, scene_.sample.file) {
+    record_.version = CLATHRA_VERSION;
+    record_.git_hash = CLATHRA_GIT_HASH;
+    record_.input = std::move(input);
+    record_.threads = thread_count(scene_.run.threads);
+    if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
+  }
+
+  void warn(std::string const& text) { line_.warn(text); }
+
+  /// @throws whatever ended the run, after run.json says so
+  ExitCode run() {
+    replace_text_file(folder_ / "input.toml", record_.input.source);
+    replace_text_file(folder_ / "resolved.toml", resolved_scene(scene_, folder_.path()));
+    write_record(ExitCode::done, "running");
+    try {
+      KokkosSession const kokkos;
+      make_specimen();
+      shear();
+    } catch (Stopped const&) {
+      return stopped();
+    } catch (Diverged const& problem) {
+      return fail(ExitCode::diverged, fmt::format("diverged: {}", problem.what()));
+    } catch (Refused const& problem) {
+      return fail(ExitCode::refused, fmt::format("refused: {}", problem.what()));
+    } catch (FileProblem const& problem) {
+      return fail(problem.code, problem.what());
+    } catch (std::bad_alloc const&) {
+      return fail(ExitCode::refused, "refused: not enough memory");
+    } catch (std::exception const& problem) {
+      return fail(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
+    }
+    write_record(ExitCode::done, "finished");
+    line_.repeat_warnings();
+    print_result(summary_->text() +
+                 fmt::format("results   {}\n", folder_.path().string()));  // a closed stdout is no failure of the run
+    return ExitCode::done;
+  }
+
+ private:
+  void make_specimen() {
+    if (specimen_) return;
+    specimen_ = generate_recorded(scene_, show_stage(line_), record_);
+    write_specimen(folder_ / "specimen.h5", *specimen_);
+  }
+
+  /// Bonds, consolidates, shears and writes what comes out.
+  void shear() {
+    Speedometer const preparing;
+    BiaxialTest test(scene_, *specimen_, show_stage(line_));
+    record_.wall_seconds["prepare"] = preparing.seconds();
+    record_.stages["prepare"] = test.preparation();
+    record_.stages["plan"] = test.plan();
+    for (std::string const& warning : test.warnings()) warn(warning);
+    summary_.emplace(scene_.test.confining_stress, scene_.test.axial_strain);
+    try {
+      write_curves(test);
+    } catch (...) {
+      record_.stages["shear"] = summary_->numbers();
+      throw;
+    }
+    record_.stages["shear"] = summary_->numbers();
+    record_.state_hash = test.state_hash();
+    write_specimen(folder_ / "final.h5", test.snapshot());
+  }
+
+  void write_curves(BiaxialTest& test) {
+    HistoryFile history(folder_ / "history.csv", scene_.output.energy);
+    std::optional<EventsFile> events;
+    if (scene_.output.events && has_bonds(scene_)) events.emplace(folder_ / "events.csv");
+    Speedometer const clock;
+    std::int64_t const steps_before = test.disc_steps();
+    for (write_row(test, history, events); !test.finished(); write_row(test, history, events)) {
+      if (interrupted()) throw Stopped("stopped by Ctrl-C");
+      test.advance_to_next_record();
+      record_.disc_steps = test.disc_steps() - steps_before;
+      record_.wall_seconds["shear"] = clock.seconds();
+      record_.disc_steps_per_second = static_cast<double>(record_.disc_steps) / clock.seconds();
+      show(test, clock.text(test.strain_fraction(), record_.disc_steps));
+    }
+    history.close();
+    if (events) events->close();
+  }
+
+  void write_row(BiaxialTest& test, HistoryFile& history, std::optional<EventsFile>& events) {
+    last_ = test.record();
+    summary_->add(last_);
+    if (scene_.output.energy) {
+      EnergyRow const energy = test.energy();
+      summary_->add(energy);
+      history.write(last_, energy);
+    } else {
+      history.write(last_);
+    }
+    if (events) events->write(test.take_events());
+  }
+
+  void show(BiaxialTest const& test, std::string const& speed) {
+    std::string text = fmt::format("eps1 {:.1f}/{:g}% | {} | q {:.3g} MPa", last_.eps1 * 100, scene_.test.axial_strain * 100,
+                                   speed, last_.q_Pa * 1e-6);
+    if (last_.intact_initial_pct > 0) text += fmt::format(" | intact {:.0f}%", last_.intact_initial_pct);
+    line_.show("shear", test.strain_fraction(), text + fmt::format(" | I {:.1g}", last_.inertial_number));
+  }
+
+  void write_record(ExitCode code, std::string const& reason) {
+    record_.warnings = line_.warnings();
+    record_.exit_code = static_cast<int>(code);
+    record_.exit_reason = reason;
+    write_run_record(folder_ / "run.json", record_);
+  }
+
+  ExitCode stopped() {
+    write_record(ExitCode::interrupted, fmt::format("stopped by Ctrl-C at an axial strain of {:.3g} %", last_.eps1 * 100));
+    line_.repeat_warnings();
+    line_.note("clathra: " + record_.exit_reason + "; what was written so far is in " + folder_.path().string());
+    return ExitCode::interrupted;
+  }
+
+  /// The first failure counts: that the record cannot be written either (full disk) changes neither message nor code.
+  ExitCode fail(ExitCode code, std::string const& reason) {
+    line_.repeat_warnings();
+    line_.note("clathra: " + reason);
+    try {
+      write_record(code, reason);
+    } catch (FileProblem const& problem) {
+      line_.note(fmt::format("clathra: {}", problem.what()));
+    }
+    return code;
+  }
+
+  Scene scene_;
+  std::optional<Specimen> specimen_;
+  OutputFolder folder_;
+  RunRecord record_;
+  ProgressLine line_;
+  std::optional<Summary> summary_;
+  HistoryRow last_;
+};
+
+ExitCode run(RunOptions const& options) {
+  std::vector<std::string> more;
+  if (!options.output.empty()) more.push_back("output.folder=" + options.output);
+  LoadedScene input = options.scene.load(more);
+  std::optional<Specimen> specimen;
+  if (input.scene.sample.generator == Generator::file) specimen = read_specimen(input.scene.sample.file);
+  Scene const sized = specimen ? sized_by(input.scene, *specimen) : input.scene;
+  Forecast const cost = forecast(sized, 0);
+  if (options.dry_run) {
+    ExitCode const printed = print_result(forecast_text(sized, cost));
+    refuse_if_needed(sized, cost);
+    return printed;
+  }
+  refuse_if_needed(sized, cost);
+  settle_threads(input.scene.run.threads);
+  watch_for_interrupt();
+  std::vector<std::string> const warnings = input.warnings;
+  Run now(std::move(input), std::move(specimen));
+  for (std::string const& warning : warnings) now.warn(warning);
+  for (std::string const& warning : cost.warnings) now.warn(warning);
+  if (sized.run.force)
+    for (std::string const& refusal : cost.refusals) now.warn("forced: " + refusal);
+  return now.run();
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<RunOptions>();
+  CLI::App* const verb = program.add_subcommand("run", "Generate, consolidate and shear the specimen of a scene");
+  options->scene.add_to(*verb);
+  verb->add_option("--output", options->output, "folder of the results (output.folder)")->type_name("DIR");
+  verb->add_flag("--dry-run", options->dry_run, "only say what the run will cost");
+  verb->footer("Example: clathra run examples/quick.toml --set hydrate.saturation=\"41 %\" --output out/s41");
+  verb->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,34 @@
+#include "scene_options.hpp"
+
+#include <fmt/format.h>
+
+namespace clathra {
+
+void SceneOptions::add_to(CLI::App& verb) {
+  verb.add_option("scene", file, "scene file (TOML)")->required();
+  verb.add_option("--set", overrides, "override a key of the scene, as in --set test.confining_stress=\"2 MPa\"; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  verb.add_option("--threads", threads, "threads; results do not depend on them")->check(CLI::Range(1, 4096))->type_name("N");
+  verb.add_flag("--force", force, "go on where a guard refuses; noted in run.json");
+}
+
+LoadedScene SceneOptions::load(std::vector<std::string> more) const {
+  std::vector<std::string> all = overrides;
+  if (threads > 0) all.push_back(fmt::format("run.threads={}", threads));
+  if (force) all.push_back("run.force=true");
+  all.insert(all.end(), more.begin(), more.end());
+  return load_scene(file, all);
+}
+
+Scene sized_by(Scene scene, Specimen const& specimen) {
+  scene.sample.generator = Generator::under_compaction;
+  scene.sample.particles = static_cast<std::int64_t>(specimen.size());
+  scene.sample.width = specimen.width();
+  scene.sample.height = specimen.height();
+  scene.sample.void_ratio = specimen.void_ratio;
+  scene.grading.d50 = 0;  // follows from the other three
+  return scene;
+}
+
+}  // namespace clathra

@@ -1,0 +1,31 @@
+#include "specimen_source.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "io/digest.hpp"
+#include "stage_progress.hpp"
+
+namespace clathra {
+
+Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record) {
+  Speedometer const clock;
+  GeneratedSpecimen generated = generate_specimen(scene, progress);
+  record.wall_seconds["generate"] = clock.seconds();
+  record.stages["generate"] = generated.record;
+  record.layer_void_ratios = generated.layer_void_ratios;
+  if (generated.specimen.provenance.empty()) generated.specimen.provenance = provenance_text(record);
+  return std::move(generated.specimen);
+}
+
+std::string provenance_text(RunRecord const& record) {
+  nlohmann::ordered_json json;
+  json["program"] = "clathra " + record.version;
+  json["git_hash"] = record.git_hash;
+  json["scene_digest_xxh3_128"] = text_digest(record.input.source);
+  json["overrides"] = record.input.overrides;
+  json["seed"] = record.input.scene.run.seed;
+  if (auto const stage = record.stages.find("generate"); stage != record.stages.end()) json["generate"] = stage->second;
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace clathra

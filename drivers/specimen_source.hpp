@@ -1,0 +1,15 @@
+#pragma once
+/// Where a run's specimen comes from: generated now, or read from a file.
+#include "domain/experiment.hpp"
+#include "io/run_record.hpp"
+
+namespace clathra {
+
+/// Generates the specimen of a scene; Kokkos must have been started. Numbers, layers and wall time go into the record.
+/// @throws Refused, Diverged, Stopped
+Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record);
+
+/// JSON text: program, digest of the scene, seed; what a specimen file says of its making.
+std::string provenance_text(RunRecord const& record);
+
+}  // namespace clathra

@@ -1,0 +1,35 @@
+#include "stage_progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "interrupt.hpp"
+
+namespace clathra {
+
+double Speedometer::seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+std::string Speedometer::text(double fraction, std::int64_t disc_steps) const {
+  double const passed = seconds();
+  double const left = fraction > 0 ? passed * std::max(0.0, 1 - fraction) / fraction : -1;
+  return fmt::format("{} disc-steps/s | ETA {}", short_count(static_cast<double>(disc_steps) / passed), duration_text(left));
+}
+
+ProgressCallback show_stage(ProgressLine& line) {
+  struct Stage {
+    std::string name;
+    Speedometer speed;
+    std::int64_t disc_steps = 0;  // when the stage began
+  };
+  auto const stage = std::make_shared<Stage>();
+  return [&line, stage](Progress const& progress) {
+    if (progress.stage != stage->name) *stage = {progress.stage, Speedometer{}, progress.disc_steps};
+    std::string const speed = stage->speed.text(progress.fraction, progress.disc_steps - stage->disc_steps);
+    line.show(progress.stage, progress.fraction, progress.detail.empty() ? speed : progress.detail + " | " + speed);
+    return !interrupted();
+  };
+}
+
+}  // namespace clathra

@@ -1,0 +1,22 @@
+#pragma once
+/// From the reports of a stage to the progress line, and from Ctrl-C back to the stage.
+#include "domain/progress.hpp"
+#include "progress_line.hpp"
+
+namespace clathra {
+
+/// A callback for generation and consolidation: shows each report with its rate, and asks to stop after Ctrl-C.
+ProgressCallback show_stage(ProgressLine& line);
+
+/// Disc-steps per second and the time left, counted from its construction.
+class Speedometer {
+ public:
+  /// "31 M disc-steps/s | ETA 00:41"
+  std::string text(double fraction, std::int64_t disc_steps) const;
+  double seconds() const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace clathra

@@ -1,0 +1,57 @@
+#include "summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clathra {
+
+void Summary::add(HistoryRow const& row) {
+  constexpr double residual_part = 0.8, tolerance = 0.01;
+  last_ = row;
+  ++count_;
+  if (count_ == 1 || row.q_Pa > peak_.q_Pa) peak_ = row;
+  if (row.eps1 >= residual_part * axial_strain_) residual_sum_ += row.q_Pa, ++residual_count_;
+  if (std::fabs(row.sigma3_Pa - confining_stress_) <= tolerance * confining_stress_) ++held_;
+  double const contact_q = row.contact_sigma1_Pa - row.contact_sigma3_Pa;
+  if (row.p_Pa > 0) mismatch_ = std::max(mismatch_, std::fabs(row.q_Pa - contact_q) / row.p_Pa);
+}
+
+StageRecord Summary::numbers() const {
+  StageRecord numbers;
+  if (count_ == 0) return numbers;
+  numbers["records"] = count_;
+  numbers["peak_q_Pa"] = peak_.q_Pa;
+  numbers["peak_eps1"] = peak_.eps1;
+  numbers["peak_eps_v"] = peak_.eps_v;
+  if (residual_count_ > 0) numbers["residual_q_Pa"] = residual_sum_ / residual_count_;
+  numbers["end_eps1"] = last_.eps1;
+  numbers["end_eps_v"] = last_.eps_v;
+  numbers["end_intact_initial_pct"] = last_.intact_initial_pct;
+  numbers["sigma3_held"] = static_cast<double>(held_) / count_;
+  numbers["stress_mismatch"] = mismatch_;
+  if (has_energy_ && energy_.boundary_work != 0) numbers["energy_residual"] = std::fabs(energy_.residual / energy_.boundary_work);
+  return numbers;
+}
+
+std::string Summary::text() const {
+  if (count_ == 0) return {};
+  std::string text = fmt::format("peak      q {:.4g} MPa at eps1 {:.3g} %, eps_v {:.3g} %\n", peak_.q_Pa * 1e-6, peak_.eps1 * 100,
+                                 peak_.eps_v * 100);
+  if (residual_count_ > 0)
+    text += fmt::format("residual  q {:.4g} MPa, eps_v {:.3g} % at eps1 {:.3g} %\n", residual_sum_ / residual_count_ * 1e-6,
+                        last_.eps_v * 100, last_.eps1 * 100);
+  std::int64_t const broken = last_.broken_tension + last_.broken_compression + last_.broken_shear + last_.broken_rolling;
+  if (last_.bonds_intact + broken > 0)
+    text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {} tension, {} compression, {} shear, {} rolling\n",
+                        last_.bonds_intact, last_.intact_initial_pct, last_.broken_tension, last_.broken_compression,
+                        last_.broken_shear, last_.broken_rolling);
+  text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the records\n", 100.0 * held_ / count_);
+  if (has_energy_ && energy_.boundary_work != 0)
+    text += fmt::format("energy    {:.3g} % of the boundary work unaccounted for\n",
+                        100 * std::fabs(energy_.residual / energy_.boundary_work));
+  return text;
+}
+
+}  // namespace clathra

@@ -1,0 +1,30 @@
+#pragma once
+/// The numbers of a finished test that people compare: peak, residual, volume change, quality of the control.
+#include "domain/experiment.hpp"
+
+namespace clathra {
+
+/// Collects them from the records of a test as they come.
+class Summary {
+ public:
+  Summary(double confining_stress, double axial_strain) : confining_stress_(confining_stress), axial_strain_(axial_strain) {}
+  void add(HistoryRow const& row);
+  void add(EnergyRow const& row) { energy_ = row, has_energy_ = true; }
+
+  /// peak_q_Pa at peak_eps1 with peak_eps_v; residual_q_Pa (mean of the last fifth of the strain), end_eps_v,
+  /// end_intact_initial_pct; sigma3_held (part of the records with sigma3 within 1 %), stress_mismatch (largest difference of
+  /// wall and contact q over p); energy_residual (part of the boundary work) where there is a ledger.
+  StageRecord numbers() const;
+  /// A few lines for the screen.
+  std::string text() const;
+
+ private:
+  double confining_stress_, axial_strain_;
+  HistoryRow peak_, last_;
+  EnergyRow energy_;
+  bool has_energy_ = false;
+  double residual_sum_ = 0, mismatch_ = 0;
+  int residual_count_ = 0, count_ = 0, held_ = 0;
+};
+
+}  // namespace clathra

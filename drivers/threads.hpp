@@ -1,0 +1,27 @@
+#pragma once
+/// How many threads Kokkos gets, and on which cores they stay.
+#include <Kokkos_Core.hpp>
+
+namespace clathra {
+
+/// Threads that a run with this setting uses: the wanted number, else OMP_NUM_THREADS, else all cores of this process.
+int thread_count(int wanted);
+
+/// Settles the environment that OpenMP reads for `thread_count(wanted)` threads. OpenMP reads it when the program starts, so
+/// where something had to be changed the program is started anew, once, with the same arguments. Threads are bound to cores only
+/// if they take all cores: two runs that share a machine would else be bound to the same ones.
+void settle_threads(int wanted);
+
+/// Kokkos from here to the end of the scope, for the verbs that compute.
+class KokkosSession {
+ public:
+  KokkosSession() : guard_(argument_count_, arguments_) {}
+
+ private:
+  char name_[8] = "clathra";  // Kokkos looks through arguments of its own; ours are not for it
+  int argument_count_ = 1;
+  char* arguments_[2] = {name_, nullptr};
+  Kokkos::ScopeGuard guard_;
+};
+
+}  // namespace clathra

@@ -1,0 +1,19 @@
+#pragma once
+/// The verbs of the command line. Each adds its options; `Verb` is what the chosen one then does.
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "io/problems.hpp"
+
+namespace clathra {
+
+/// Set by the verb that the command line chose; run after all options are known.
+using Verb = std::function<ExitCode()>;
+
+void add_run(CLI::App& program, Verb& chosen);
+void add_check(CLI::App& program, Verb& chosen);
+void add_generate(CLI::App& program, Verb& chosen);
+void add_bond(CLI::App& program, Verb& chosen);
+void add_info(CLI::App& program, Verb& chosen);
+
+}  // namespace clathra
