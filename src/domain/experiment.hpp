@@ -8,36 +8,18 @@
 #include <vector>
 
 #include "domain/history_row.hpp"
+#include "domain/progress.hpp"
 #include "domain/scene.hpp"
 #include "domain/simulation.hpp"
 #include "domain/specimen.hpp"
 
 namespace clathra {
 
-
-/// Told now and then how far a long stage is; returns false to stop it (Ctrl-C). `fraction` runs from 0 to 1 within the stage.
-struct Progress {
-  std::string stage;              ///< "generate", "consolidate", "shear"
-  double fraction = 0;
-  std::string detail;             ///< a few words on the present state ("layer 3/5, e 0.251")
-  std::int64_t disc_steps = 0;    ///< disc-steps done since the start of the program, for the rate
-};
-using ProgressCallback = std::function<bool(Progress const&)>;
-
-/// Thrown where a guard refuses a scene or target (unreachable void ratio, not quasi-static): the text says what, with numbers.
-struct Refused : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-/// Thrown when the progress callback asked to stop.
-struct Stopped : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// Named numbers of a stage, for run.json and the screen.
 using StageRecord = std::map<std::string, double>;
 
-/// A generated specimen with the proof of its quality: void ratio (whole, each layer, standard deviation), distance to the grading, d50,
-/// friction used, stress and unbalanced ratio.
+/// A generated specimen with the proof of its quality: void ratio (whole, each layer, standard deviation), distance to the
+/// grading, d50, friction used, stress and unbalanced ratio.
 struct GeneratedSpecimen {
   Specimen specimen;
   StageRecord record;
@@ -52,13 +34,6 @@ GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& 
 /// The record holds bonds, bonds_per_disc, h_max, geometric (areal) saturation, rejected_no_tension, rejected_out_of_fit.
 Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record);
 
-/// A broken bond.
-struct BreakEvent {
-  std::int64_t step;
-  int id_a, id_b, mode;  ///< mode as in BreakMode
-  double x, y;           ///< [m]
-};
-
 /// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).
 class BiaxialTest {
  public:
@@ -70,23 +45,23 @@ class BiaxialTest {
   std::vector<std::string> const& warnings() const;
 
   bool finished() const;
-  void advance_to_next_record();           ///< steps until the next history row is due; @throws Diverged
-  HistoryRow record();                     ///< measured now
-  EnergyRow energy();                      ///< only with scene.output.energy
-  std::vector<BreakEvent> take_events();   ///< broken bonds since the last call, sorted by (step, id_a, id_b)
-  double strain_fraction() const;          ///< eps_1 / target
+  void advance_to_next_record();          ///< steps until the next history row is due; @throws Diverged
+  HistoryRow record();                    ///< measured now
+  EnergyRow energy();                     ///< only with scene.output.energy
+  std::vector<BreakEvent> take_events();  ///< broken bonds since the last call, sorted by (step, id_a, id_b)
+  double strain_fraction() const;         ///< eps_1 / target
   std::int64_t disc_steps() const;
   std::uint64_t state_hash() const;
-  Specimen snapshot() const;               ///< the present state
-  StageRecord plan() const;                ///< steps, dt, strain rate, I, W, wall time guess inputs
+  Specimen snapshot() const;  ///< the present state
+  StageRecord plan() const;   ///< steps, dt, strain rate, I, W, wall time guess inputs
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-/// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number, wave_number,
-/// memory_bytes, disk_bytes, disc_steps.
+/// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,
+/// wave_number, memory_bytes, disk_bytes, disc_steps.
 StageRecord predict(Scene const& scene);
 
 }  // namespace clathra

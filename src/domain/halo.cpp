@@ -63,7 +63,8 @@ struct CopyImages {
 }  // namespace
 
 void Halo::rebuild(ParticleSoA& particles, PeriodicCell const& cell, Real reach) {
-  if (2 * reach > cell.width || 2 * reach > cell.height) throw std::invalid_argument("the periodic cell is smaller than four disc diameters");
+  if (2 * reach > cell.width || 2 * reach > cell.height)
+    throw std::invalid_argument("the periodic cell is smaller than four disc diameters");
   Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
   particles.ghosts = 0;
   Kokkos::parallel_for("wrap", each, Wrap{particles, cell});

@@ -20,7 +20,7 @@ class Halo {
   void refresh(ParticleSoA const& particles, PeriodicCell const& cell) const;
 
  private:
-  Field<int> source_;          // owned index of each ghost
+  Field<int> source_;             // owned index of each ghost
   Field<int> shift_x_, shift_y_;  // in cell sizes
 };
 

@@ -8,17 +8,17 @@ namespace clathra {
 struct HistoryRow {
   std::int64_t step = 0;
   double time_s = 0;
-  double eps1 = 0, eps_v = 0;                    ///< natural strains since the start of the shear
+  double eps1 = 0, eps_v = 0;                               ///< natural strains since the start of the shear
   double sigma1_Pa = 0, sigma3_Pa = 0, q_Pa = 0, p_Pa = 0;  ///< q = s1 - s3, p = (s1 + s3) / 2
   double contact_sigma1_Pa = 0, contact_sigma3_Pa = 0;      ///< the same stresses from the contacts (Love-Weber)
-  double void_ratio = 0;                         ///< nominal
+  double void_ratio = 0;                                    ///< nominal
   std::int64_t bonds_intact = 0;
-  double intact_initial_pct = 0;                 ///< of the bonds at installation
-  double intact_mechanical_pct = 0;              ///< bonded / (touching or bonded), the paper's measure
+  double intact_initial_pct = 0;     ///< of the bonds at installation
+  double intact_mechanical_pct = 0;  ///< bonded / (touching or bonded), the paper's measure
   std::int64_t broken_tension = 0, broken_compression = 0, broken_shear = 0, broken_rolling = 0;
-  double coordination = 0;                       ///< 2 * mechanical contacts / discs
-  double inertial_number = 0, wave_number = 0;   ///< I and W
-  double unbalanced = 0;                         ///< mean unbalanced force / mean contact force
+  double coordination = 0;                      ///< 2 * mechanical contacts / discs
+  double inertial_number = 0, wave_number = 0;  ///< I and W
+  double unbalanced = 0;                        ///< mean unbalanced force / mean contact force
 };
 
 /// Visits (column name, value) in file order; values are double or int64.
@@ -48,8 +48,8 @@ void for_each_column(Row& row, Visit&& visit) {
   visit("unbalanced", row.unbalanced);
 }
 
-/// The energy ledger at a record [J/m], present only with output.energy: stored energies now, work and losses since the shear began.
-/// No account is computed as the remainder: `residual` = work - (change of stored energies) - losses is the check.
+/// The energy ledger at a record [J/m], present only with output.energy: stored energies now, work and losses since the shear
+/// began. No account is computed as the remainder: `residual` = work - (change of stored energies) - losses is the check.
 struct EnergyRow {
   double boundary_work = 0;
   double kinetic = 0, grain_elastic = 0, bond_elastic = 0, wall_elastic = 0;

@@ -14,9 +14,12 @@ namespace {
 /// Closing speed of either wall of a pair [m/s] for the next step.
 Real closing_speed(AxisDrive& drive, ServoLaw const& servo, Real stress, Real wall_length, Real span, int contacts, Real dt) {
   switch (drive.kind) {
-    case AxisDrive::Kind::hold: return 0;
-    case AxisDrive::Kind::rate: return drive.strain_rate * span * (drive.one_sided ? 1.0 : 0.5);
-    case AxisDrive::Kind::stress: break;
+    case AxisDrive::Kind::hold:
+      return 0;
+    case AxisDrive::Kind::rate:
+      return drive.strain_rate * span * (drive.one_sided ? 1.0 : 0.5);
+    case AxisDrive::Kind::stress:
+      break;
   }
   Real const error = drive.target_stress - stress;
   Real const proportional = servo.gain * wall_length / (servo.contact_stiffness * std::max(contacts, 4) * dt);

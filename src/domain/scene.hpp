@@ -17,38 +17,38 @@ enum class BondingMode { eq3, given_thickness, areal_target };
 struct SampleScene {
   Generator generator = Generator::under_compaction;
   std::int64_t particles = 0;
-  double void_ratio = 0;          ///< nominal, at the bonding stress; 0 = not given (then 0.24 if it is not the fourth)
-  double width = 0, height = 0;   ///< [m]; one of them alone fixes the other by aspect_ratio
-  double aspect_ratio = 2;        ///< height / width
-  int layers = 5;                 ///< of the under-compaction
+  double void_ratio = 0;                ///< nominal, at the bonding stress; 0 = not given (then 0.24 if it is not the fourth)
+  double width = 0, height = 0;         ///< [m]; one of them alone fixes the other by aspect_ratio
+  double aspect_ratio = 2;              ///< height / width
+  int layers = 5;                       ///< of the under-compaction
   std::int64_t tile_particles = 20000;  ///< discs of the periodic cell of `tiled`
-  std::string file;               ///< specimen to load (generator = file)
+  std::string file;                     ///< specimen to load (generator = file)
 };
 
 /// `[grains]`
 struct GrainScene {
-  double density = 2600;          ///< [kg/m^3]
-  double kn = 3e8, ks = 2e8;      ///< contact stiffness [N/m per m]
-  double kn_particle = 0;         ///< k_n of Eq. 16 [N/m per m]; 0 = kn (as printed)
+  double density = 2600;      ///< [kg/m^3]
+  double kn = 3e8, ks = 2e8;  ///< contact stiffness [N/m per m]
+  double kn_particle = 0;     ///< k_n of Eq. 16 [N/m per m]; 0 = kn (as printed)
   double friction = 0.5;
-  double shape_factor = 2;        ///< beta
-  double contact_damping = 0;     ///< viscous damping ratio of contacts
+  double shape_factor = 2;     ///< beta
+  double contact_damping = 0;  ///< viscous damping ratio of contacts
 };
 
 /// `[grading]`: a named table, a CSV file (diameter with unit in the header, percent finer), scaled to d50 if that is given.
 struct GradingScene {
   std::string table = "toyoura";  ///< "toyoura" or "uniform" (all discs d50)
   std::string file;
-  double d50 = 0;                 ///< [m]; 0 = the table's own (0.1694 mm for toyoura)
+  double d50 = 0;  ///< [m]; 0 = the table's own (0.1694 mm for toyoura)
 };
 
 /// `[hydrate]`
 struct HydrateScene {
-  double saturation = 0;          ///< S_MH as a fraction 0..1; 0 = clean sand
-  double temperature = 5;         ///< [deg C]
-  double pore_pressure = 8e6;     ///< sigma_w [Pa]
-  double density = 900;           ///< [kg/m^3]
-  bool allow_unstable = false;    ///< go on outside the stability field of hydrate
+  double saturation = 0;        ///< S_MH as a fraction 0..1; 0 = clean sand
+  double temperature = 5;       ///< [deg C]
+  double pore_pressure = 8e6;   ///< sigma_w [Pa]
+  double density = 900;         ///< [kg/m^3]
+  bool allow_unstable = false;  ///< go on outside the stability field of hydrate
 };
 
 /// `[bond]`
@@ -56,40 +56,40 @@ struct BondScene {
   BondLawKind law = BondLawKind::thickness_dependent;
   Composite composite = Composite::parallel;
   MomentScale moment_scale = MomentScale::similitude;
-  double moment_ratio = 1.0 / 14;         ///< c_r of similitude, L_r = c_r B
+  double moment_ratio = 1.0 / 14;  ///< c_r of similitude, L_r = c_r B
   CoefficientSource coefficients = CoefficientSource::thm;
   BondingMode mode = BondingMode::eq3;
-  double critical_thickness = 0;          ///< h_max for mode given_thickness [m]
-  double plate_thickness = 0;             ///< t_0 of constant_thickness [m]; 0 = h_max / 2
-  double stress = 50e3;                   ///< isotropic stress at which the specimen is generated and the hydrate forms [Pa]
-  bool after_consolidation = false;       ///< bond at the confining stress instead
+  double critical_thickness = 0;     ///< h_max for mode given_thickness [m]
+  double plate_thickness = 0;        ///< t_0 of constant_thickness [m]; 0 = h_max / 2
+  double stress = 50e3;              ///< isotropic stress at which the specimen is generated and the hydrate forms [Pa]
+  bool after_consolidation = false;  ///< bond at the confining stress instead
 };
 
 /// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it.
 struct TestScene {
-  double confining_stress = 1e6;   ///< sigma_3 [Pa]
-  double axial_strain = 0.15;      ///< to reach
-  double inertial_number = 1e-4;   ///< I; 0 where strain_rate is given
-  double strain_rate = 0;          ///< [1/s]
+  double confining_stress = 1e6;  ///< sigma_3 [Pa]
+  double axial_strain = 0.15;     ///< to reach
+  double inertial_number = 1e-4;  ///< I; 0 where strain_rate is given
+  double strain_rate = 0;         ///< [1/s]
   double wall_friction = 0;
 };
 
 /// `[run]`
 struct RunScene {
   std::uint64_t seed = 1;
-  int threads = 0;                 ///< 0 = OMP_NUM_THREADS or all cores
+  int threads = 0;  ///< 0 = OMP_NUM_THREADS or all cores
   double dt_safety = 0.7;
-  double damping = 0.3;            ///< alpha of local damping in the shear stage
-  double skin = 0;                 ///< Verlet skin [m]; 0 = chosen
-  bool force = false;              ///< go on where a guard refuses; noted in run.json
+  double damping = 0.3;  ///< alpha of local damping in the shear stage
+  double skin = 0;       ///< Verlet skin [m]; 0 = chosen
+  bool force = false;    ///< go on where a guard refuses; noted in run.json
 };
 
 /// `[output]`
 struct OutputScene {
   std::string folder = "out";
-  int records = 750;               ///< history rows over the whole strain
-  bool energy = false;             ///< keep the energy ledger
-  bool events = true;              ///< events.csv: each broken bond
+  int records = 750;    ///< history rows over the whole strain
+  bool energy = false;  ///< keep the energy ledger
+  bool events = true;   ///< events.csv: each broken bond
 };
 
 struct Scene {

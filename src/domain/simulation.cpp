@@ -39,7 +39,8 @@ void Simulation::rebuild() {
   Relocation const moved = sort_in_space(particles_, rows_, skin_);
   if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
   find_neighbours(particles_, skin_, moved, rows_, spare_, faults_, bonded_gap);
-  if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_contacts_, moved.new_index);
+  if (!periodic())
+    wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_contacts_, moved.new_index);
   if (laws_.contact.ledger) permute_losses(moved.old_index);
   mark_reference(particles_);
   reference_walls_ = walls_;
@@ -54,7 +55,9 @@ AffineFrame Simulation::frame() const {
   if (periodic()) {
     f.centre_x = f.reference_centre_x = cell_.left;
     f.centre_y = f.reference_centre_y = cell_.bottom;
-    return f;  // the cell is stretched after the discs have moved: see outdated()
+    f.stretch_x = cell_.width / reference_cell_.width;
+    f.stretch_y = cell_.height / reference_cell_.height;
+    return f;
   }
   f.centre_x = middle(walls_.position[left], walls_.position[right]);
   f.centre_y = middle(walls_.position[bottom], walls_.position[top]);
@@ -62,11 +65,15 @@ AffineFrame Simulation::frame() const {
   f.reference_centre_y = middle(reference_walls_.position[bottom], reference_walls_.position[top]);
   f.stretch_x = walls_.width() / reference_walls_.width();
   f.stretch_y = walls_.height() / reference_walls_.height();
+  f.gradient_x = (walls_.velocity[right] - walls_.velocity[left]) / walls_.width();
+  f.gradient_y = (walls_.velocity[top] - walls_.velocity[bottom]) / walls_.height();
+  f.drift_x = middle(walls_.velocity[left], walls_.velocity[right]);
+  f.drift_y = middle(walls_.velocity[bottom], walls_.velocity[top]);
   return f;
 }
 
-/// Whether two discs that are not in each other's rows could touch: twice the farthest disc's way off the homogeneous motion, plus what the
-/// homogeneous motion itself brings two discs nearer.
+/// Whether two discs that are not in each other's rows could touch: twice the farthest disc's way off the homogeneous motion,
+/// plus what the homogeneous motion itself brings two discs nearer.
 bool Simulation::outdated(Real farthest2) const {
   AffineFrame const f = frame();
   Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
@@ -88,12 +95,12 @@ void Simulation::evaluate_forces() {
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
-  bool const ledger = laws_.contact.ledger;
+  bool const ledger = laws_.contact.ledger, same_history = laws_.features() == laws.features();
   laws_ = laws;
   laws_.contact.ledger = ledger;
+  if (same_history) return;
   change_features(rows_, laws_.features());
   spare_ = ContactRows();
-  rebuild_pending_ = true;
 }
 
 void Simulation::set_ledger(bool on) {
@@ -122,9 +129,7 @@ void Simulation::stretch_homogeneously() {
   cell_.height *= stretch;
 }
 
-Measures Simulation::measures() const {
-  return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall);
-}
+Measures Simulation::measures() const { return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall); }
 
 void Simulation::throw_if_unstable() const {
   auto const disc = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
@@ -133,8 +138,8 @@ void Simulation::throw_if_unstable() const {
       "has more neighbours than a row holds (the grading's size ratio is too large)"};
   for (int fault = 0; fault < fault_count; ++fault) {
     if (disc(fault) < 0) continue;
-    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: disc " + std::to_string(disc(fault)) + " " +
-                   cause[fault]);
+    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: disc " +
+                   std::to_string(disc(fault)) + " " + cause[fault]);
   }
 }
 

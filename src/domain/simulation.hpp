@@ -20,7 +20,8 @@ struct Diverged : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the discs obey. Features follow from it: rolling moments, bonds, a separate bond history, a ledger exist only if asked for here.
+/// What the discs obey. Features follow from it: rolling moments, bonds, a separate bond history, a ledger exist only if asked
+/// for here.
 struct SimulationLaws {
   ContactLaws contact;
   WallLaw wall;
@@ -30,29 +31,46 @@ struct SimulationLaws {
   }
 };
 
+/// Bonds broken so far, by mode.
+struct BreakCounts {
+  std::int64_t tension = 0, compression = 0, shear = 0, rolling = 0;
+};
+
+/// A broken bond.
+struct BreakEvent {
+  std::int64_t step;
+  int id_a, id_b, mode;  ///< id_a < id_b; mode as in BreakMode
+  double x, y;           ///< midpoint of the branch [m]
+};
+
 class Simulation {
  public:
   /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
   /// @param skin  Verlet skin [m], surface to surface
   Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin);
 
-  /// One time step of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step behind.
+  /// One time step of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step
+  /// behind.
   void step();
 
   /// The present state on the host, discs ordered by id.
   Specimen specimen() const;
 
   // Settings that may change between steps.
-  Real time_step = 0;                    ///< dt [s]
+  Real time_step = 0;  ///< dt [s]
   Loading loading;
-  void set_laws(SimulationLaws const& laws);   ///< history that both laws need is kept
-  void set_skin(Real skin) { skin_ = skin; rebuild_pending_ = true; }
-  void set_ledger(bool on);              ///< opens the ledger with all losses at zero, or closes it
+  void set_laws(SimulationLaws const& laws);  ///< history that both laws need is kept
+  void set_skin(Real skin) {
+    skin_ = skin;
+    rebuild_pending_ = true;
+  }
+  void set_ledger(bool on);                            ///< opens the ledger with all losses at zero, or closes it
   void stretch_cell(Real rate) { cell_rate_ = rate; }  ///< periodic cell: isotropic closing strain rate [1/s]
   void stop_discs() { stop_motion(particles_); }
-  void add_uniform_strain_rate(Real rate_x, Real rate_y);  ///< sets the discs, not only the walls, in motion; closing positive [1/s]
+  void add_uniform_strain_rate(Real rate_x,
+                               Real rate_y);  ///< sets the discs, not only the walls, in motion; closing positive [1/s]
   void request_rebuild() { rebuild_pending_ = true; }
-  void evaluate_forces();                ///< forces of the present state without advancing it
+  void evaluate_forces();  ///< forces of the present state without advancing it
 
   // Reading.
   std::int64_t steps() const { return step_; }
@@ -62,6 +80,7 @@ class Simulation {
   Walls const& walls() const { return walls_; }
   PeriodicCell const& cell() const { return cell_; }
   bool periodic() const { return cell_.exists(); }
+  Real density() const { return density_; }  ///< of the grains [kg/m^3]
   Real area() const { return periodic() ? cell_.width * cell_.height : walls_.width() * walls_.height(); }
   Real solid_area() const { return solid_area_; }
   Real void_ratio() const { return area() / solid_area_ - 1; }  ///< nominal
@@ -72,7 +91,9 @@ class Simulation {
   LossTotals losses() const { return total_losses(losses_, particles_.owned); }
   std::uint64_t hash() const { return state_hash(particles_, rows_); }
   SimulationLaws const& laws() const { return laws_; }
-  BreakLog const& breaks() const { return breaks_; }
+  int broken_bonds() const;
+  BreakCounts break_counts() const;
+  std::vector<BreakEvent> break_events(int first) const;  ///< those from the first-th on, sorted by (step, id_a, id_b)
   std::size_t bytes() const { return clathra::bytes(particles_) + clathra::bytes(rows_) + clathra::bytes(spare_); }
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
   ParticleSoA const& particles() const { return particles_; }

@@ -9,9 +9,9 @@ namespace clathra {
 /// A pair with history, once per pair, id_a < id_b.
 struct SpecimenContact {
   int id_a = 0, id_b = 0;
-  double shear = 0;        ///< F_s [N/m], equal on both sides
-  double moment = 0;       ///< M on disc a [N m/m]
-  double equilibrium = 1e300;  ///< u_0 of an intact bond [m], 1e300 = not bonded
+  double shear = 0;                        ///< F_s [N/m], equal on both sides
+  double moment = 0;                       ///< M on disc a [N m/m]
+  double equilibrium = 1e300;              ///< u_0 of an intact bond [m], 1e300 = not bonded
   double bond_shear = 0, bond_moment = 0;  ///< of a bond in parallel to the grain contact
 };
 
@@ -27,7 +27,7 @@ struct Specimen {
   std::vector<int> id;                              ///< 0 .. N-1, in any order
   std::vector<double> x, y, angle, vx, vy, omega, radius;
   std::vector<SpecimenContact> contacts;
-  std::string provenance;                           ///< JSON text: how it was made
+  std::string provenance;  ///< JSON text: how it was made
   std::size_t size() const { return id.size(); }
   double width() const { return right - left; }
   double height() const { return top - bottom; }

@@ -46,7 +46,8 @@ std::vector<std::size_t> places_by_id(std::vector<int> const& id) {
 
 }  // namespace
 
-Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin) : laws_(laws), faults_(make_faults()), skin_(skin) {
+Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin)
+    : laws_(laws), faults_(make_faults()), skin_(skin) {
   std::size_t const n = s.size();
   if (n == 0) throw std::invalid_argument("a specimen needs at least one disc");
   particles_ = allocate_particles(static_cast<int>(n));
@@ -105,7 +106,8 @@ void Simulation::inject(Specimen const& s) {
     for (auto const& [mine, other, sign] : {std::tuple{c.id_a, c.id_b, 1.0}, std::tuple{c.id_b, c.id_a, -1.0}}) {
       int const i = at[static_cast<std::size_t>(mine)];
       for (int k = 0; k < length(i); ++k) {
-        std::size_t const e = static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
+        std::size_t const e =
+            static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
         if (id(neighbour(e)) != other) continue;
         set(shear, e, c.shear);
         set(moment, e, sign * c.moment);
@@ -115,8 +117,9 @@ void Simulation::inject(Specimen const& s) {
       }
     }
   }
-  for (auto const& [field, host] : {std::pair{&rows_.shear, &shear}, std::pair{&rows_.moment, &moment}, std::pair{&rows_.equilibrium, &equilibrium},
-                                    std::pair{&rows_.bond_shear, &bond_shear}, std::pair{&rows_.bond_moment, &bond_moment}}) {
+  for (auto const& [field, host] :
+       {std::pair{&rows_.shear, &shear}, std::pair{&rows_.moment, &moment}, std::pair{&rows_.equilibrium, &equilibrium},
+        std::pair{&rows_.bond_shear, &bond_shear}, std::pair{&rows_.bond_moment, &bond_moment}}) {
     if (field->extent(0) > 0) Kokkos::deep_copy(*field, *host);
   }
   if (laws_.contact.bond_kind != BondKind::none) breaks_ = make_break_log(bonds);
@@ -166,17 +169,43 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
   std::vector<SpecimenContact> contacts;
   for (int i = 0; i < particles_.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {
-      std::size_t const e = static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
+      std::size_t const e =
+          static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
       int const other = id(neighbour(e));
       if (other <= id(i)) continue;
-      SpecimenContact const c{id(i),  other, shear(e), get(moment, e, 0), get(equilibrium, e, no_bond), get(bond_shear, e, 0),
-                              get(bond_moment, e, 0)};
-      if (c.shear != 0 || c.moment != 0 || is_bonded(c.equilibrium) || c.bond_shear != 0 || c.bond_moment != 0) contacts.push_back(c);
+      SpecimenContact const c{
+          id(i), other, shear(e), get(moment, e, 0), get(equilibrium, e, no_bond), get(bond_shear, e, 0), get(bond_moment, e, 0)};
+      if (c.shear != 0 || c.moment != 0 || is_bonded(c.equilibrium) || c.bond_shear != 0 || c.bond_moment != 0)
+        contacts.push_back(c);
     }
   }
   std::sort(contacts.begin(), contacts.end(),
             [](auto const& a, auto const& b) { return a.id_a != b.id_a ? a.id_a < b.id_a : a.id_b < b.id_b; });
   return contacts;
+}
+
+int Simulation::broken_bonds() const { return breaks_.count.extent(0) > 0 ? download(breaks_.count)(0) : 0; }
+
+BreakCounts Simulation::break_counts() const {
+  if (breaks_.by_mode.extent(0) == 0) return {};
+  auto const by_mode = download(breaks_.by_mode);
+  auto const of = [&](BreakMode mode) { return static_cast<std::int64_t>(by_mode(static_cast<std::size_t>(mode))); };
+  return {of(BreakMode::tension), of(BreakMode::compression), of(BreakMode::shear), of(BreakMode::rolling)};
+}
+
+std::vector<BreakEvent> Simulation::break_events(int first) const {
+  int const count = broken_bonds();
+  if (count <= first) return {};
+  auto const step = download(breaks_.step);
+  auto const id_a = download(breaks_.id_a), id_b = download(breaks_.id_b);
+  auto const mode = download(breaks_.mode);
+  auto const x = download(breaks_.x), y = download(breaks_.y);
+  std::vector<BreakEvent> events;
+  for (int k = first; k < count; ++k) events.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
+  std::sort(events.begin(), events.end(), [](BreakEvent const& p, BreakEvent const& q) {
+    return p.step != q.step ? p.step < q.step : p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;
+  });
+  return events;
 }
 
 }  // namespace clathra

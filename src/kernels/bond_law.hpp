@@ -20,14 +20,14 @@ enum class Composite : std::int8_t { replace, parallel, memory };
 /// Everything one bond needs besides its pair: numbers of the hydrate and of the variant, the same for all bonds of a specimen.
 struct BondLaw {
   BondStrengthLaw strength;
-  Real modulus = 2.89e8;               ///< E_m [Pa]
-  Real particle_stiffness = 3.0e8;     ///< k_n of one grain in Eq. 16
-  Real critical_thickness = 0;         ///< h_max [m]
-  Real thickness_partner = 0;          ///< h_0 = (h_cr + partner) / 2 [m]: h_max, or the plate thickness t_0
-  Real gap_weight = 1;                 ///< h_cr = gap_weight * max(0, -u_0) + plate_thickness; 1 and 0 for the thickness-dependent law,
-  Real plate_thickness = 0;            ///< 0 and t_0 for the earlier constant-thickness law
-  Real preload_stiffness = 0;          ///< `memory`: k_n, which keeps the force of a contact that was loaded when the bond formed
-  Real least_shape_of_shear = 1.16;    ///< lower bounds of f_s and f_r over the gaps 0 .. h_max, for the quick test
+  Real modulus = 2.89e8;            ///< E_m [Pa]
+  Real particle_stiffness = 3.0e8;  ///< k_n of one grain in Eq. 16
+  Real critical_thickness = 0;      ///< h_max [m]
+  Real thickness_partner = 0;       ///< h_0 = (h_cr + partner) / 2 [m]: h_max, or the plate thickness t_0
+  Real gap_weight = 1;         ///< h_cr = gap_weight * max(0, -u_0) + plate_thickness; 1 and 0 for the thickness-dependent law,
+  Real plate_thickness = 0;    ///< 0 and t_0 for the earlier constant-thickness law
+  Real preload_stiffness = 0;  ///< `memory`: k_n, which keeps the force of a contact that was loaded when the bond formed
+  Real least_shape_of_shear = 1.16;  ///< lower bounds of f_s and f_r over the gaps 0 .. h_max, for the quick test
   Real least_shape_of_rolling = 1.13;
 
   /// h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
@@ -54,7 +54,8 @@ struct BondForce {
   L width, gap;
 };
 
-/// F_n = k_bn (u_n - u_0), F_s += k_bs Delta u_s, M += k_bm Delta theta (Eq. 7). With `memory` F_n keeps k_n u_0 of a loaded contact.
+/// F_n = k_bn (u_n - u_0), F_s += k_bs Delta u_s, M += k_bm Delta theta (Eq. 7). With `memory` F_n keeps k_n u_0 of a loaded
+/// contact.
 /// @param equilibrium  u_0 [m];  @param shear,moment  bond F_s [N/m] and M [N m/m] of the last step
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLaw const& law, ContactMotion<L> const& motion, L const& equilibrium,
@@ -63,13 +64,15 @@ KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLaw const& law, Contac
   bond.gap = law.gap(equilibrium);
   bond.width = law.width(motion.common_radius, bond.gap);
   bond.stiffness = law.stiffness(bond.width, bond.gap);
-  bond.force.normal = bond.stiffness.normal * (motion.overlap - equilibrium) + law.preload_stiffness * lane_max(equilibrium, L(0));
+  bond.force.normal =
+      bond.stiffness.normal * (motion.overlap - equilibrium) + law.preload_stiffness * lane_max(equilibrium, L(0));
   bond.force.shear = shear + bond.stiffness.shear * motion.slip;
   bond.force.moment = moment + bond.stiffness.rolling * motion.turn;
   return bond;
 }
 
-/// True where a bond is certainly within its strength: the envelope's lower bound already holds. Where false, the exact test decides.
+/// True where a bond is certainly within its strength: the envelope's lower bound already holds. Where false, the exact test
+/// decides.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION auto is_surely_intact(BondLaw const& law, BondForce<L> const& bond) {
   L const tension = tensile_strength(law.strength, bond.width, bond.gap);

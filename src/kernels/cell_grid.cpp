@@ -52,9 +52,7 @@ struct FillCells {
 struct SortCells {
   ParticleSoA p;
   CellGrid grid;
-  KOKKOS_INLINE_FUNCTION bool before(int a, int b) const {
-    return p.id(a) < p.id(b) || (p.id(a) == p.id(b) && a < b);
-  }
+  KOKKOS_INLINE_FUNCTION bool before(int a, int b) const { return p.id(a) < p.id(b) || (p.id(a) == p.id(b) && a < b); }
   KOKKOS_FUNCTION void operator()(int cell) const {
     int const begin = grid.start(cell), end = grid.start(cell + 1);
     for (int k = begin + 1; k < end; ++k) {
@@ -95,7 +93,8 @@ CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size) 
 
 Real largest_radius(ParticleSoA const& particles, int discs) {
   Real radius = 0;
-  Kokkos::parallel_reduce("largest_radius", Kokkos::RangePolicy<ExecutionSpace>(0, discs), LargestRadius{particles}, Kokkos::Max<Real>(radius));
+  Kokkos::parallel_reduce("largest_radius", Kokkos::RangePolicy<ExecutionSpace>(0, discs), LargestRadius{particles},
+                          Kokkos::Max<Real>(radius));
   return radius;
 }
 

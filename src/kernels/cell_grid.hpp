@@ -6,11 +6,11 @@ namespace clathra {
 
 /// Discs sorted by cell, and by id within a cell.
 struct CellGrid {
-  Coord x0 = 0, y0 = 0;   ///< lower left corner [m]
-  Real cell_size = 1;     ///< [m]
+  Coord x0 = 0, y0 = 0;  ///< lower left corner [m]
+  Real cell_size = 1;    ///< [m]
   int columns = 1, rows = 1;
-  Field<int> start;       ///< [columns * rows + 1] where each cell's discs begin in `disc`
-  Field<int> disc;        ///< disc indices
+  Field<int> start;  ///< [columns * rows + 1] where each cell's discs begin in `disc`
+  Field<int> disc;   ///< disc indices
 
   KOKKOS_INLINE_FUNCTION int column_of(Coord x) const { return clamp_index(static_cast<int>((x - x0) / cell_size), columns); }
   KOKKOS_INLINE_FUNCTION int row_of(Coord y) const { return clamp_index(static_cast<int>((y - y0) / cell_size), rows); }
@@ -20,8 +20,8 @@ struct CellGrid {
   KOKKOS_INLINE_FUNCTION static int clamp_index(int i, int n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 };
 
-/// Bins the first `discs` discs by counting, scanning and filling. Cells are at least `cell_size` [m] wide; they grow where discs are so
-/// scattered that there would be far more cells than discs.
+/// Bins the first `discs` discs by counting, scanning and filling. Cells are at least `cell_size` [m] wide; they grow where discs
+/// are so scattered that there would be far more cells than discs.
 CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size);
 
 /// The largest radius among the first `discs` discs [m].

@@ -34,9 +34,22 @@ struct ContactKernel {
 
   KOKKOS_FUNCTION void operator()(int slice) const {
     auto const first = static_cast<std::size_t>(slice) * lane_count;
-    Own own{load(&p.x(first)),  load(&p.y(first)),      load(&p.vx(first)), load(&p.vy(first)), load(&p.omega(first)),
-            load(&p.radius(first)), Dashpot ? load(&p.inverse_mass(first)) : Lanes(0), 0, 0, 0, 0, 0, 0, 0};
-    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) add_block(first, static_cast<std::size_t>(k) * lane_count, own);
+    Own own{load(&p.x(first)),
+            load(&p.y(first)),
+            load(&p.vx(first)),
+            load(&p.vy(first)),
+            load(&p.omega(first)),
+            load(&p.radius(first)),
+            Dashpot ? load(&p.inverse_mass(first)) : Lanes(0),
+            0,
+            0,
+            0,
+            0,
+            0,
+            0,
+            0};
+    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k)
+      add_block(first, static_cast<std::size_t>(k) * lane_count, own);
     store(&p.force_x(first), own.force_x);
     store(&p.force_y(first), own.force_y);
     store(&p.torque(first), own.torque);
@@ -126,8 +139,8 @@ struct ContactKernel {
   }
 
   /// The unbonded law on every entry; with `replace` the entries that are bonded are overruled by with_bond().
-  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> grain_force(ContactMotion<Lanes> const& motion, Lanes const& dashpot, History& h,
-                                                              Own& own) const {
+  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> grain_force(ContactMotion<Lanes> const& motion, Lanes const& dashpot,
+                                                              History& h, Own& own) const {
     if constexpr (Bond == BondKind::replace) return {};
     ContactForce<Lanes> const force = grain_contact<Rolling>(grain, motion, h.shear, h.moment, dashpot);
     if constexpr (Ledger) {
@@ -142,14 +155,15 @@ struct ContactKernel {
     return rolling_stiffness(grain, motion.common_radius) * motion.turn;
   }
 
-  /// Adds the bond (`parallel`) or puts it in the grain contact's place (`replace`), and breaks it where its strength is reached; a broken
-  /// bond's pair follows the unbonded law from this very step on.
-  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> with_bond(ContactForce<Lanes> const& grain_part, ContactMotion<Lanes> const& motion,
-                                                            Lanes const& dashpot, Site const& site, History& h, Own& own) const {
+  /// Adds the bond (`parallel`) or puts it in the grain contact's place (`replace`), and breaks it where its strength is reached;
+  /// a broken bond's pair follows the unbonded law from this very step on.
+  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> with_bond(ContactForce<Lanes> const& grain_part,
+                                                            ContactMotion<Lanes> const& motion, Lanes const& dashpot,
+                                                            Site const& site, History& h, Own& own) const {
     constexpr bool parallel = Bond == BondKind::parallel;
     auto const bonded = is_bonded(h.equilibrium);
-    BondForce<Lanes> const trial = bond_contact(bond, motion, h.equilibrium, parallel ? h.bond_shear : h.shear,
-                                                parallel ? h.bond_moment : h.moment);
+    BondForce<Lanes> const trial =
+        bond_contact(bond, motion, h.equilibrium, parallel ? h.bond_shear : h.shear, parallel ? h.bond_moment : h.moment);
     auto const doubt = bonded && !is_surely_intact(bond, trial);
     if (any(doubt)) break_bonds(trial, doubt, site, h);
     auto const intact = is_bonded(h.equilibrium);
@@ -180,7 +194,8 @@ struct ContactKernel {
       set_lane(h.equilibrium, l, no_bond);
       int const id = p.id(site.first + static_cast<std::size_t>(l)), other = p.id(site.other[l]);
       if (id >= other) continue;  // both discs of the pair see the same break; one of them reports it
-      breaks.record(step, id, other, mode, lane(site.own->x, l) + 0.5 * lane(site.dx, l), lane(site.own->y, l) + 0.5 * lane(site.dy, l));
+      breaks.record(step, id, other, mode, lane(site.own->x, l) + 0.5 * lane(site.dx, l),
+                    lane(site.own->y, l) + 0.5 * lane(site.dy, l));
     }
   }
 
@@ -198,7 +213,8 @@ struct ContactKernel {
                          b.force.moment * b.force.moment / lane_max(b.stiffness.rolling, floor));
   }
 
-  /// Work of slip and plastic rolling of a grain contact in this step, by the mean force over the step: exactly what leapfrog takes out.
+  /// Work of slip and plastic rolling of a grain contact in this step, by the mean force over the step: exactly what leapfrog
+  /// takes out.
   KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(ContactMotion<Lanes> const& motion, Lanes const& trial_shear,
                                                     Lanes const& trial_moment, History const& old, ContactForce<Lanes> const& now,
                                                     Own& own, Mask const& where = Mask(true)) const {
@@ -222,9 +238,11 @@ struct ContactKernel {
                                                       Own& own) const {
     add_grain_losses(motion, trial_shear, trial_moment, old, unbonded, own, !bonded);
     Lanes const spring = lane_max(grain.normal_stiffness * motion.overlap, Lanes(0));
-    Lanes after = spring * spring * Lanes(0.5 / grain.normal_stiffness) + unbonded.shear * unbonded.shear * Lanes(0.5 / grain.shear_stiffness);
+    Lanes after = spring * spring * Lanes(0.5 / grain.normal_stiffness) +
+                  unbonded.shear * unbonded.shear * Lanes(0.5 / grain.shear_stiffness);
     if constexpr (Rolling) {
-      after += Lanes(0.5) * unbonded.moment * unbonded.moment / lane_max(rolling_stiffness(grain, motion.common_radius), Lanes(1e-300));
+      after += Lanes(0.5) * unbonded.moment * unbonded.moment /
+               lane_max(rolling_stiffness(grain, motion.common_radius), Lanes(1e-300));
     }
     own.breakage += select(bonded && !intact, Lanes(0.5) * (bond_energy(trial) - after), Lanes(0));
   }

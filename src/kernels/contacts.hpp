@@ -9,11 +9,12 @@ struct ContactFeatures {
   bool rolling = true;         ///< contact moments
   bool bonds = false;          ///< bond equilibrium
   bool separate_bond = false;  ///< `parallel`: the bond has a history of its own beside the grain contact
+  bool operator==(ContactFeatures const&) const = default;
 };
 
-/// Full rows (each pair stands in both rows) in sliced ELLPACK: `lane_count` discs form a slice, entry k of its discs lies side by side.
-/// Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where discs are stored.
-/// Both sides of a pair hold equal `shear` and `equilibrium` and exactly opposite `moment`.
+/// Full rows (each pair stands in both rows) in sliced ELLPACK: `lane_count` discs form a slice, entry k of its discs lies side
+/// by side. Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where
+/// discs are stored. Both sides of a pair hold equal `shear` and `equilibrium` and exactly opposite `moment`.
 struct ContactRows {
   ContactFeatures features;
   Field<int> slice_start;   ///< [slices + 1] in units of lane_count entries
@@ -26,11 +27,13 @@ struct ContactRows {
   Field<Real> bond_moment;  ///< [entries] M of a separate bond [N m/m]
 
   KOKKOS_INLINE_FUNCTION std::size_t entry(int disc, int k) const {
-    return static_cast<std::size_t>(slice_start(disc / lane_count) + k) * lane_count + static_cast<std::size_t>(disc % lane_count);
+    return static_cast<std::size_t>(slice_start(disc / lane_count) + k) * lane_count +
+           static_cast<std::size_t>(disc % lane_count);
   }
 };
 
-/// The history of an entry, field by field, with the value that an entry without history holds. Only fields that the features need exist.
+/// The history of an entry, field by field, with the value that an entry without history holds. Only fields that the features
+/// need exist.
 template <class Rows, class Visit>
 void for_each_history(Rows& rows, Visit&& visit) {
   visit("shear", rows.shear, Real(0));

@@ -8,12 +8,12 @@
 
 namespace clathra {
 
-/// A real number as high * 2^-20 + low * 2^-56: resolution 1.4e-17, magnitude up to 8e12, up to 1e8 terms. Covers every sum in SI units
-/// that a specimen makes (forces, moments, energies, stress times area).
+/// A real number as high * 2^-20 + low * 2^-56: resolution 1.4e-17, magnitude up to 8e12, up to 1e8 terms. Covers every sum in SI
+/// units that a specimen makes (forces, moments, energies, stress times area).
 struct FixedPoint {
   std::int64_t high = 0, low = 0;
-  static constexpr Real high_scale = 1048576.0;      // 2^20
-  static constexpr Real low_scale = 68719476736.0;   // 2^36, of the remainder
+  static constexpr Real high_scale = 1048576.0;     // 2^20
+  static constexpr Real low_scale = 68719476736.0;  // 2^36, of the remainder
 
   KOKKOS_INLINE_FUNCTION static FixedPoint from(Real value) {
     Real const scaled = value * high_scale;
@@ -25,7 +25,8 @@ struct FixedPoint {
   }
 };
 
-/// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i. Same bits for any order and thread count.
+/// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i. Same bits for any order and thread
+/// count.
 template <int Count, class Terms>
 struct ExactSumKernel {
   using value_type = std::int64_t[];

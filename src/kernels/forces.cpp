@@ -17,9 +17,12 @@ static_assert(std::variant_size_v<AnyBond> * std::variant_size_v<AnySwitch> * st
 
 AnyBond bond_axis(BondKind kind) {
   switch (kind) {
-    case BondKind::replace: return BondAxis<BondKind::replace>{};
-    case BondKind::parallel: return BondAxis<BondKind::parallel>{};
-    default: return BondAxis<BondKind::none>{};
+    case BondKind::replace:
+      return BondAxis<BondKind::replace>{};
+    case BondKind::parallel:
+      return BondAxis<BondKind::parallel>{};
+    default:
+      return BondAxis<BondKind::none>{};
   }
 }
 
@@ -35,8 +38,8 @@ void compute_forces(ParticleSoA const& particles, ContactRows const& rows, Conta
   Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
   std::visit(
       [&](auto bond, auto rolling, auto dashpot, auto ledger) {
-        ContactKernel<bond(), rolling(), dashpot(), ledger()> const kernel{
-            particles, rows, laws.grain, laws.bond, dt, step, breaks, losses, faults};
+        ContactKernel<bond(), rolling(), dashpot(), ledger()> const kernel{particles, rows,   laws.grain, laws.bond, dt,
+                                                                           step,      breaks, losses,     faults};
         Kokkos::parallel_for("contact_forces", slices, kernel);
       },
       bond_axis(laws.bond_kind), on(rows.features.rolling), on(laws.grain.damping_ratio > 0), on(laws.ledger));

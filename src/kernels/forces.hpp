@@ -16,8 +16,8 @@ struct ContactLaws {
   bool ledger = false;
 };
 
-/// Sets force and torque of every owned disc from its contacts and bonds, advances their history by one step of length `dt` [s], and breaks
-/// bonds. Each disc sums its own row; both sides of a pair get exact opposites, so no atomics touch a force.
+/// Sets force and torque of every owned disc from its contacts and bonds, advances their history by one step of length `dt` [s],
+/// and breaks bonds. Each disc sums its own row; both sides of a pair get exact opposites, so no atomics touch a force.
 /// @param losses  written only with `laws.ledger`;  @param step  number noted with broken bonds
 void compute_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
                     BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults);

@@ -4,12 +4,12 @@ namespace clathra {
 
 namespace {
 
-/// Velocity after a kick by `force` with local damping; `lost` gains the damping's work.
+/// Velocity after a kick by `force` with local damping against the velocity relative to `frame`; `lost` gains the damping's work.
 template <bool Ledger>
-KOKKOS_FORCEINLINE_FUNCTION Lanes kicked(Lanes const& velocity, Lanes const& force, Lanes const& inverse_mass, Real alpha, Real dt,
-                                         Lanes& lost) {
+KOKKOS_FORCEINLINE_FUNCTION Lanes kicked(Lanes const& velocity, Lanes const& frame, Lanes const& force, Lanes const& inverse_mass,
+                                         Real alpha, Real dt, Lanes& lost) {
   Lanes const drag = alpha * lane_abs(force);
-  Lanes const damping = select(velocity > Lanes(0), -drag, select(velocity < Lanes(0), drag, Lanes(0)));
+  Lanes const damping = select(velocity > frame, -drag, select(velocity < frame, drag, Lanes(0)));
   Lanes const after = velocity + (force + damping) * inverse_mass * dt;
   if constexpr (Ledger) lost -= damping * (Lanes(0.5) * (velocity + after)) * dt;
   return after;
@@ -31,10 +31,16 @@ struct KickAndDrift {
     auto const free = inverse_mass > Lanes(0);  // padding discs have none
     Lanes lost(0);
     Lanes const fx = load(&p.force_x(i)), fy = load(&p.force_y(i));
-    Lanes const vx = kicked<Ledger>(load(&p.vx(i)), fx, inverse_mass, law.damping, dt, lost) + select(free, Lanes(law.gravity_x * dt), Lanes(0));
-    Lanes const vy = kicked<Ledger>(load(&p.vy(i)), fy, inverse_mass, law.damping, dt, lost) + select(free, Lanes(law.gravity_y * dt), Lanes(0));
-    Lanes const omega = kicked<Ledger>(load(&p.omega(i)), load(&p.torque(i)), load(&p.inverse_inertia(i)), law.damping, dt, lost);
-    Lanes const x = load(&p.x(i)) + vx * dt, y = load(&p.y(i)) + vy * dt;
+    Lanes const x0 = load(&p.x(i)), y0 = load(&p.y(i));
+    Lanes const frame_vx = frame.gradient_x * (x0 - frame.centre_x) + frame.drift_x;
+    Lanes const frame_vy = frame.gradient_y * (y0 - frame.centre_y) + frame.drift_y;
+    Lanes const vx = kicked<Ledger>(load(&p.vx(i)), frame_vx, fx, inverse_mass, law.damping, dt, lost) +
+                     select(free, Lanes(law.gravity_x * dt), Lanes(0));
+    Lanes const vy = kicked<Ledger>(load(&p.vy(i)), frame_vy, fy, inverse_mass, law.damping, dt, lost) +
+                     select(free, Lanes(law.gravity_y * dt), Lanes(0));
+    Lanes const omega =
+        kicked<Ledger>(load(&p.omega(i)), Lanes(0), load(&p.torque(i)), load(&p.inverse_inertia(i)), law.damping, dt, lost);
+    Lanes const x = x0 + vx * dt, y = y0 + vy * dt;
     store(&p.vx(i), vx);
     store(&p.vy(i), vy);
     store(&p.omega(i), omega);

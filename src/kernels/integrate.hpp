@@ -7,19 +7,25 @@ namespace clathra {
 
 /// How discs answer their forces.
 struct MotionLaw {
-  Real damping = 0.3;    ///< alpha of local damping, F_d = -alpha |F| sign(v), for forces and torque; 0 = none
-  Real gravity_x = 0;    ///< [m/s^2]
+  Real damping = 0.3;  ///< alpha of local damping, F_d = -alpha |F| sign(v - v_frame), for forces and torque; 0 = none
+  Real gravity_x = 0;  ///< [m/s^2]
   Real gravity_y = 0;
 };
 
-/// A homogeneous motion that neighbour lists may ignore: x maps to centre + stretch (x_ref - reference_centre).
+/// The homogeneous motion of the box. Neighbour lists may ignore it: x maps to centre + stretch (x_ref - reference_centre). Local
+/// damping is taken against the motion relative to it, v_frame = gradient * (x - centre) + drift: against the absolute velocity
+/// it would drag every disc of a specimen under compression the same way and hold up a share of the platens' stress that no
+/// contact carries.
 struct AffineFrame {
   Coord centre_x = 0, centre_y = 0;
   Coord reference_centre_x = 0, reference_centre_y = 0;
   Real stretch_x = 1, stretch_y = 1;
+  Real gradient_x = 0, gradient_y = 0;  ///< d v_x / d x and d v_y / d y [1/s]
+  Real drift_x = 0, drift_y = 0;        ///< velocity of the centre [m/s]
 };
 
-/// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of position.
+/// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
+/// position.
 /// @param losses  the damping account is written when its field exists
 /// @return the largest squared distance [m^2] of a disc from where the affine frame of this step puts it
 Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,

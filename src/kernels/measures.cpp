@@ -7,8 +7,22 @@ namespace clathra {
 namespace {
 
 enum Sum : int {
-  stress_xx, stress_xy, stress_yx, stress_yy, touching, mechanical, bonded, contact_force, force_carriers, unbalanced, kinetic, grain_energy,
-  bond_energy_sum, deep, area, pair_sums
+  stress_xx,
+  stress_xy,
+  stress_yx,
+  stress_yy,
+  touching,
+  mechanical,
+  bonded,
+  contact_force,
+  force_carriers,
+  unbalanced,
+  kinetic,
+  grain_energy,
+  bond_energy_sum,
+  deep,
+  area,
+  pair_sums
 };
 
 /// The share of one disc: half of each of its pairs.
@@ -88,7 +102,9 @@ KOKKOS_INLINE_FUNCTION std::uint64_t mix(std::uint64_t z) {  // the finaliser of
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
   return z ^ (z >> 31);
 }
-KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, std::uint64_t word) { return mix(hash * 0x9e3779b97f4a7c15ULL + word); }
+KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, std::uint64_t word) {
+  return mix(hash * 0x9e3779b97f4a7c15ULL + word);
+}
 KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, Real value) { return chain(hash, detail::bits_of(value + 0.0)); }
 
 struct HashDisc {
@@ -96,17 +112,19 @@ struct HashDisc {
   ContactRows rows;
   KOKKOS_FUNCTION void operator()(int i, std::uint64_t& sum) const {
     std::uint64_t hash = chain(1, static_cast<std::uint64_t>(p.id(i)));
-    for (Real value : {p.x(i), p.y(i), p.angle(i), p.vx(i), p.vy(i), p.omega(i), p.radius(i), p.inverse_mass(i)}) hash = chain(hash, value);
+    for (Real value : {p.x(i), p.y(i), p.angle(i), p.vx(i), p.vy(i), p.omega(i), p.radius(i), p.inverse_mass(i)})
+      hash = chain(hash, value);
     sum += hash;
     for (int k = 0; k < rows.length(i); ++k) {
       std::size_t const e = rows.entry(i, k);
-      Real const history[] = {rows.shear(e), rows.moment.extent(0) ? rows.moment(e) : 0,
-                              rows.equilibrium.extent(0) ? rows.equilibrium(e) : no_bond,
-                              rows.bond_shear.extent(0) ? rows.bond_shear(e) : 0, rows.bond_moment.extent(0) ? rows.bond_moment(e) : 0};
+      Real const history[] = {
+          rows.shear(e), rows.moment.extent(0) ? rows.moment(e) : 0, rows.equilibrium.extent(0) ? rows.equilibrium(e) : no_bond,
+          rows.bond_shear.extent(0) ? rows.bond_shear(e) : 0, rows.bond_moment.extent(0) ? rows.bond_moment(e) : 0};
       bool empty = !is_bonded(history[2]);
       for (int f : {0, 1, 3, 4}) empty = empty && history[f] == 0;
       if (empty) continue;  // which far neighbours are listed is no part of the state
-      std::uint64_t pair = chain(chain(2, static_cast<std::uint64_t>(p.id(i))), static_cast<std::uint64_t>(p.id(rows.neighbour(e))));
+      std::uint64_t pair =
+          chain(chain(2, static_cast<std::uint64_t>(p.id(i))), static_cast<std::uint64_t>(p.id(rows.neighbour(e))));
       for (Real value : history) pair = chain(pair, value);
       sum += pair;
     }
@@ -115,11 +133,12 @@ struct HashDisc {
 
 }  // namespace
 
-Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, WallContacts const& wall_contacts,
-                 Walls const& walls, WallLaw const& wall_law) {
+Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws,
+                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law) {
   Real pairs[pair_sums], at_walls[pair_sums] = {};
   exact_sums<pair_sums>("measure_discs", particles.owned, DiscSums{particles, rows, laws}, pairs);
-  if (wall_contacts.size > 0) exact_sums<pair_sums>("measure_walls", wall_contacts.size, WallSums{particles, wall_contacts, walls, wall_law}, at_walls);
+  if (wall_contacts.size > 0)
+    exact_sums<pair_sums>("measure_walls", wall_contacts.size, WallSums{particles, wall_contacts, walls, wall_law}, at_walls);
   Measures m;
   m.stress_area_xx = pairs[stress_xx] + at_walls[stress_xx];
   m.stress_area_xy = pairs[stress_xy] + at_walls[stress_xy];

@@ -7,17 +7,18 @@ namespace clathra {
 
 /// Sums over discs, pairs and wall contacts after a step.
 struct Measures {
-  Real stress_area_xx = 0, stress_area_xy = 0, stress_area_yx = 0, stress_area_yy = 0;  ///< sum f (x) l [N], stress times area, compression positive
-  Real touching = 0;         ///< pairs with u_n > 0
-  Real mechanical = 0;       ///< pairs touching or bonded
-  Real bonded = 0;           ///< pairs with an intact bond
-  Real contact_force = 0;    ///< sum of |F| over mechanical pairs and wall contacts [N/m]
-  Real force_carriers = 0;   ///< number of those
-  Real unbalanced = 0;       ///< sum of |F| over discs [N/m]
-  Real kinetic = 0;          ///< [J/m]
+  Real stress_area_xx = 0, stress_area_xy = 0, stress_area_yx = 0,
+       stress_area_yy = 0;                                  ///< sum f (x) l [N], stress times area, compression positive
+  Real touching = 0;                                        ///< pairs with u_n > 0
+  Real mechanical = 0;                                      ///< pairs touching or bonded
+  Real bonded = 0;                                          ///< pairs with an intact bond
+  Real contact_force = 0;                                   ///< sum of |F| over mechanical pairs and wall contacts [N/m]
+  Real force_carriers = 0;                                  ///< number of those
+  Real unbalanced = 0;                                      ///< sum of |F| over discs [N/m]
+  Real kinetic = 0;                                         ///< [J/m]
   Real grain_energy = 0, bond_energy = 0, wall_energy = 0;  ///< elastic [J/m]
-  Real deep = 0;             ///< pairs that overlap by more than 10 % of the smaller radius
-  Real bond_area = 0;        ///< sum of Eq. 5 over intact bonds [m^2]
+  Real deep = 0;                                            ///< pairs that overlap by more than 10 % of the smaller radius
+  Real bond_area = 0;                                       ///< sum of Eq. 5 over intact bonds [m^2]
 
   /// Mean unbalanced force per disc over mean contact force.
   Real unbalanced_ratio(int discs) const {
@@ -25,8 +26,8 @@ struct Measures {
   }
 };
 
-Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, WallContacts const& wall_contacts,
-                 Walls const& walls, WallLaw const& wall_law);
+Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws,
+                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law);
 
 /// Sums of an energy ledger's loss accounts [J/m].
 struct LossTotals {
@@ -34,8 +35,8 @@ struct LossTotals {
 };
 LossTotals total_losses(EnergyLosses const& losses, int discs);
 
-/// Identity of a state: 64 bits over (id, position, angle, velocity, history, bonds) of all owned discs, independent of how they are stored.
-/// The sum of a mix per disc and per row entry, so ranks may add their parts. -0 and +0 count as equal.
+/// Identity of a state: 64 bits over (id, position, angle, velocity, history, bonds) of all owned discs, independent of how they
+/// are stored. The sum of a mix per disc and per row entry, so ranks may add their parts. -0 and +0 count as equal.
 std::uint64_t state_hash(ParticleSoA const& particles, ContactRows const& rows);
 
 }  // namespace clathra

@@ -215,8 +215,8 @@ Relocation sort_in_space(ParticleSoA& particles, ContactRows const& rows, Real s
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   if (rows.equilibrium.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
   Real widest = 0;
-  Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), WidestBondedGap{particles, rows},
-                          Kokkos::Max<Real>(widest));
+  Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                          WidestBondedGap{particles, rows}, Kokkos::Max<Real>(widest));
   return lane_max(widest, Real(0));
 }
 
@@ -234,7 +234,8 @@ void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& 
   Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices)),
                         ScanSlices{spare.length, spare.slice_start, particles.owned}, total);
   make_room(spare, rows, std::max<std::size_t>(static_cast<std::size_t>(total), 1) * lane_count, owned, slices);
-  Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count), FillRows{search, spare});
+  Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
+                       FillRows{search, spare});
   std::swap(rows, spare);
 }
 

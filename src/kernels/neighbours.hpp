@@ -15,12 +15,12 @@ struct Relocation {
   Field<int> old_id;     ///< id by old index, ghosts included
 };
 
-/// Puts the discs in spatial order (by cell; within windows of a few slices by row length, which evens out the slices) and drops the
-/// ghosts. `rows` still speaks of the old order afterwards; find_neighbours() needs the relocation to read it.
+/// Puts the discs in spatial order (by cell; within windows of a few slices by row length, which evens out the slices) and drops
+/// the ghosts. `rows` still speaks of the old order afterwards; find_neighbours() needs the relocation to read it.
 Relocation sort_in_space(ParticleSoA& particles, ContactRows const& rows, Real skin);
 
-/// Replaces `rows` by rows of all pairs closer than `skin` [m] (surface to surface), plus all bonded pairs at any distance. History is kept by
-/// the pair's ids. `spare` is storage swapped with `rows`; keep it between calls to save allocations.
+/// Replaces `rows` by rows of all pairs closer than `skin` [m] (surface to surface), plus all bonded pairs at any distance.
+/// History is kept by the pair's ids. `spare` is storage swapped with `rows`; keep it between calls to save allocations.
 /// @param bonded_gap  widest_bonded_gap() before the discs were sorted [m]
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
 void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& relocation, ContactRows& rows, ContactRows& spare,

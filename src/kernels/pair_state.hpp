@@ -5,25 +5,28 @@
 namespace clathra {
 
 struct PairState {
-  int other = -1;                 ///< index of the other disc
-  bool touching = false;          ///< u_n > 0
+  int other = -1;         ///< index of the other disc
+  bool touching = false;  ///< u_n > 0
   bool bonded = false;
-  Real nx = 0, ny = 0;            ///< from the row's disc to the other
-  Real distance = 0, overlap = 0; ///< [m]
-  Real arm = 0, other_arm = 0;    ///< lever arms of the shear force [m], arm + other_arm = distance
-  Real normal = 0, shear = 0, moment = 0;                        ///< total force and moment of grain contact and bond
-  Real bond_normal = 0, bond_shear = 0, bond_moment = 0;         ///< the bond's part
+  Real nx = 0, ny = 0;                                    ///< from the row's disc to the other
+  Real distance = 0, overlap = 0;                         ///< [m]
+  Real arm = 0, other_arm = 0;                            ///< lever arms of the shear force [m], arm + other_arm = distance
+  Real normal = 0, shear = 0, moment = 0;                 ///< total force and moment of grain contact and bond
+  Real bond_normal = 0, bond_shear = 0, bond_moment = 0;  ///< the bond's part
   Real normal_stiffness = 0, shear_stiffness = 0, rolling_stiffness = 0;  ///< tangent stiffness while nothing slips or breaks
-  Real grain_energy = 0, bond_energy = 0;                        ///< elastic [J/m]
-  Real width = 0, gap = 0;                                       ///< B and h_cr of the bond [m]
+  Real grain_energy = 0, bond_energy = 0;                                 ///< elastic [J/m]
+  Real width = 0, gap = 0;                                                ///< B and h_cr of the bond [m]
   bool carries() const { return touching || bonded; }
 };
 
 /// Half of F^2 / k, 0 for a spring that is not there.
-KOKKOS_INLINE_FUNCTION Real spring_energy(Real force, Real stiffness) { return stiffness > 0 ? 0.5 * force * force / stiffness : 0; }
+KOKKOS_INLINE_FUNCTION Real spring_energy(Real force, Real stiffness) {
+  return stiffness > 0 ? 0.5 * force * force / stiffness : 0;
+}
 
 /// The pair behind entry `e` of disc `i`. No dashpot part.
-KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows const& rows, ContactLaws const& laws, int i, std::size_t e) {
+KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows const& rows, ContactLaws const& laws, int i,
+                                            std::size_t e) {
   PairState s;
   s.other = rows.neighbour(e);
   Real const dx = p.x(s.other) - p.x(i), dy = p.y(s.other) - p.y(i);
@@ -51,8 +54,9 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   }
   if (s.bonded) {
     ContactMotion<Real> const still{s.overlap, 0, 0, 0, common};
-    BondForce<Real> const bond = bond_contact(laws.bond, still, Real(rows.equilibrium(e)), Real(separate ? rows.bond_shear(e) : rows.shear(e)),
-                                              separate ? Real(rows.bond_moment(e)) : moment);
+    BondForce<Real> const bond =
+        bond_contact(laws.bond, still, Real(rows.equilibrium(e)), Real(separate ? rows.bond_shear(e) : rows.shear(e)),
+                     separate ? Real(rows.bond_moment(e)) : moment);
     s.width = bond.width;
     s.gap = bond.gap;
     s.bond_normal = bond.force.normal;

@@ -99,8 +99,10 @@ void permute(ParticleSoA& particles, Field<int> const& order) {
   for_each_field(particles, [&](char const* name, auto& field) {
     using T = typename std::decay_t<decltype(field)>::value_type;
     auto& to = [&]() -> Field<T>& {
-      if constexpr (std::is_same_v<T, int>) return free_int;
-      else return free_real;
+      if constexpr (std::is_same_v<T, int>)
+        return free_int;
+      else
+        return free_real;
     }();
     if (to.extent(0) != field.extent(0)) to = uninitialised<T>(name, field.extent(0));
     Kokkos::parallel_for("permute", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), Gather<T>{field, to, order});
@@ -121,7 +123,8 @@ void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, C
 
 Field<Accum> permuted(Field<Accum> const& field, Field<int> const& order, std::size_t size) {
   Field<Accum> to("permuted", size);
-  Kokkos::parallel_for("permuted", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))), Gather<Accum>{field, to, order});
+  Kokkos::parallel_for("permuted", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))),
+                       Gather<Accum>{field, to, order});
   return to;
 }
 
@@ -134,7 +137,9 @@ void stop_motion(ParticleSoA const& particles) {
 std::size_t bytes(ParticleSoA const& particles) {
   ParticleSoA copy = particles;
   std::size_t total = 0;
-  auto const count = [&](char const*, auto const& field) { total += field.span() * sizeof(typename std::decay_t<decltype(field)>::value_type); };
+  auto const count = [&](char const*, auto const& field) {
+    total += field.span() * sizeof(typename std::decay_t<decltype(field)>::value_type);
+  };
   for_each_field(copy, count);
   for_each_derived_field(copy, count);
   return total;

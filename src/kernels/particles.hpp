@@ -5,22 +5,22 @@
 namespace clathra {
 
 /// Discs `0 .. owned` have neighbour rows and move; `owned .. owned + ghosts` are images of discs across a periodic boundary.
-/// Behind them every field holds `lane_count` padding discs of radius 0 far outside, so that vector loads may overrun and unused row
-/// entries have a disc to point at. The order is spatial and changes; `id` is the identity of a disc.
+/// Behind them every field holds `lane_count` padding discs of radius 0 far outside, so that vector loads may overrun and unused
+/// row entries have a disc to point at. The order is spatial and changes; `id` is the identity of a disc.
 struct ParticleSoA {
   int owned = 0;
   int ghosts = 0;
   Field<int> id;
-  Field<Coord> x, y;             ///< centre [m]
-  Field<Coord> angle;            ///< accumulated rotation [rad], never wrapped
-  Field<Real> vx, vy;            ///< velocity half a step behind the position [m/s]
-  Field<Real> omega;             ///< angular velocity, likewise [rad/s]
-  Field<Real> radius;            ///< [m]
-  Field<Real> inverse_mass;      ///< 1 / (pi r^2 rho) [m/kg]
-  Field<Real> inverse_inertia;   ///< 2 / (m r^2) [1/(kg m)]
+  Field<Coord> x, y;            ///< centre [m]
+  Field<Coord> angle;           ///< accumulated rotation [rad], never wrapped
+  Field<Real> vx, vy;           ///< velocity half a step behind the position [m/s]
+  Field<Real> omega;            ///< angular velocity, likewise [rad/s]
+  Field<Real> radius;           ///< [m]
+  Field<Real> inverse_mass;     ///< 1 / (pi r^2 rho) [m/kg]
+  Field<Real> inverse_inertia;  ///< 2 / (m r^2) [1/(kg m)]
   // Derived, not part of the state:
-  Field<Real> force_x, force_y;  ///< [N/m]
-  Field<Real> torque;            ///< [N m/m]
+  Field<Real> force_x, force_y;           ///< [N/m]
+  Field<Real> torque;                     ///< [N m/m]
   Field<Coord> reference_x, reference_y;  ///< centre at the last neighbour search [m]
 
   int all() const { return owned + ghosts; }
@@ -28,7 +28,8 @@ struct ParticleSoA {
   KOKKOS_FUNCTION int padding() const { return static_cast<int>(x.extent(0)) - 1; }
 };
 
-/// The state of a disc, field by field: drives permutation, ghosts, hashing, files and byte counts, so that a new field cannot be forgotten.
+/// The state of a disc, field by field: drives permutation, ghosts, hashing, files and byte counts, so that a new field cannot be
+/// forgotten.
 template <class Particles, class Visit>
 void for_each_field(Particles& p, Visit&& visit) {
   visit("id", p.id);
@@ -58,8 +59,8 @@ void fill_padding(ParticleSoA const& particles);
 /// Reorders the owned discs: disc `order(i)` becomes disc i. Ghosts are dropped.
 void permute(ParticleSoA& particles, Field<int> const& order);
 
-/// Adds the velocity field of a homogeneous strain rate: v += -rate * (x - centre), compression positive [1/s]; a uniform strain starts
-/// without waves when the discs and not only the walls begin to move.
+/// Adds the velocity field of a homogeneous strain rate: v += -rate * (x - centre), compression positive [1/s]; a uniform strain
+/// starts without waves when the discs and not only the walls begin to move.
 void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y, Coord centre_x, Coord centre_y);
 
 /// Scales all owned centres about a fixed point: x = fixed + factor (x - fixed).

@@ -4,14 +4,15 @@
 
 namespace clathra {
 
-/// Bonds that broke, each once, in no particular order. Bonds never re-form, so the number of bonds at installation is a firm capacity.
+/// Bonds that broke, each once, in no particular order. Bonds never re-form, so the number of bonds at installation is a firm
+/// capacity.
 struct BreakLog {
-  Field<int> count;                  ///< [1] events so far
-  Field<int> by_mode;                ///< [break_mode_count] events of each BreakMode
-  Field<std::int64_t> step;          ///< [bonds] step number
-  Field<int> id_a, id_b;             ///< [bonds] id_a < id_b
-  Field<std::int8_t> mode;           ///< [bonds] BreakMode
-  Field<Coord> x, y;                 ///< [bonds] midpoint of the branch [m]
+  Field<int> count;          ///< [1] events so far
+  Field<int> by_mode;        ///< [break_mode_count] events of each BreakMode
+  Field<std::int64_t> step;  ///< [bonds] step number
+  Field<int> id_a, id_b;     ///< [bonds] id_a < id_b
+  Field<std::int8_t> mode;   ///< [bonds] BreakMode
+  Field<Coord> x, y;         ///< [bonds] midpoint of the branch [m]
 
   KOKKOS_INLINE_FUNCTION void record(std::int64_t at_step, int a, int b, BreakMode how, Coord at_x, Coord at_y) const {
     auto const slot = static_cast<std::size_t>(Kokkos::atomic_fetch_add(&count(0), 1));
@@ -44,7 +45,9 @@ inline constexpr int fault_count = 3;
 
 struct Faults {
   Field<int> disc;  ///< [fault_count]
-  KOKKOS_INLINE_FUNCTION void report(Fault what, int id) const { Kokkos::atomic_fetch_max(&disc(static_cast<std::size_t>(what)), id); }
+  KOKKOS_INLINE_FUNCTION void report(Fault what, int id) const {
+    Kokkos::atomic_fetch_max(&disc(static_cast<std::size_t>(what)), id);
+  }
 };
 
 inline Faults make_faults() {

@@ -20,10 +20,11 @@ struct LocalPeriod {
     int contacts = 0;
     for (int k = 0; k < rows.length(i); ++k) {
       PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
-      // A pair within the skin may close, a bonded gap too; both count as if they touched.
+      if (!s.carries()) continue;
+      // A bonded gap may close: with `parallel` its grain contact then adds to the bond.
       Real const common = common_radius(p.radius(i), p.radius(s.other));
       Real const k_m = rows.features.rolling ? rolling_stiffness(laws.grain, common) : 0;
-      bool const add_grain = !s.touching && (!s.bonded || laws.bond_kind == BondKind::parallel);
+      bool const add_grain = !s.touching && laws.bond_kind == BondKind::parallel;
       Real const kn = s.normal_stiffness + (add_grain ? laws.grain.normal_stiffness : 0);
       Real const ks = s.shear_stiffness + (add_grain ? laws.grain.shear_stiffness : 0);
       Real const turn = ks * p.radius(i) * p.radius(i) + s.rolling_stiffness + (add_grain ? k_m : 0);

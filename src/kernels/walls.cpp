@@ -11,10 +11,14 @@ constexpr int reaction_count = 3 * wall_count;
 /// Overlap u_n of a disc with a wall [m]; negative for a gap.
 KOKKOS_INLINE_FUNCTION Real wall_overlap(Walls const& walls, int wall, Coord x, Coord y, Real radius) {
   switch (wall) {
-    case left: return radius - (x - walls.position[left]);
-    case right: return radius - (walls.position[right] - x);
-    case bottom: return radius - (y - walls.position[bottom]);
-    default: return radius - (walls.position[top] - y);
+    case left:
+      return radius - (x - walls.position[left]);
+    case right:
+      return radius - (walls.position[right] - x);
+    case bottom:
+      return radius - (y - walls.position[bottom]);
+    default:
+      return radius - (walls.position[top] - y);
   }
 }
 
@@ -64,7 +68,8 @@ struct FindNearWalls {
   Field<int> disc;
   KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
     Real nearest = -1e300;
-    for (int wall = 0; wall < wall_count; ++wall) nearest = lane_max(nearest, wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i)));
+    for (int wall = 0; wall < wall_count; ++wall)
+      nearest = lane_max(nearest, wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i)));
     if (nearest < -skin) return;
     if (final) disc(slot) = i;
     ++slot;
@@ -92,8 +97,8 @@ struct CarryShear {
 
 }  // namespace
 
-WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction, WallContacts const& old,
-                                Field<int> const& new_index) {
+WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction,
+                                WallContacts const& old, Field<int> const& new_index) {
   WallContacts found;
   Field<int> const candidates = uninitialised<int>("wall_candidates", static_cast<std::size_t>(particles.owned));
   Kokkos::parallel_scan("find_near_walls", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
@@ -103,14 +108,17 @@ WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls
     found.shear = decltype(found.shear)("wall_shear", static_cast<std::size_t>(found.size));
     if (old.shear.extent(0) > 0) {
       Field<int> const slot_of("wall_slots", static_cast<std::size_t>(particles.owned));
-      Kokkos::parallel_for("scatter_slots", Kokkos::RangePolicy<ExecutionSpace>(0, old.size), ScatterSlots{old, slot_of, new_index});
-      Kokkos::parallel_for("carry_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, found.size), CarryShear{found, old, slot_of});
+      Kokkos::parallel_for("scatter_slots", Kokkos::RangePolicy<ExecutionSpace>(0, old.size),
+                           ScatterSlots{old, slot_of, new_index});
+      Kokkos::parallel_for("carry_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, found.size),
+                           CarryShear{found, old, slot_of});
     }
   }
   return found;
 }
 
-WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law, Real dt) {
+WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
+                              Real dt) {
   GrainLaw const as_grain{law.normal_stiffness, law.shear_stiffness, law.friction, 0, law.damping_ratio};
   Real sums[reaction_count];
   exact_sums<reaction_count>("wall_forces", contacts.size, WallForces{particles, contacts, walls, as_grain, dt}, sums);

@@ -20,14 +20,14 @@ struct Walls {
 struct WallLaw {
   Real normal_stiffness = 3.0e8;  ///< k_n of a wall contact; also used with a dashpot ratio
   Real shear_stiffness = 2.0e8;
-  Real friction = 0;              ///< mu_w; 0 = smooth: no shear history exists
-  Real damping_ratio = 0;         ///< xi of the normal dashpot
+  Real friction = 0;       ///< mu_w; 0 = smooth: no shear history exists
+  Real damping_ratio = 0;  ///< xi of the normal dashpot
 };
 
 /// The discs near a wall, in no particular order, with the shear history of their four possible wall contacts.
 struct WallContacts {
   int size = 0;
-  Field<int> disc;                 ///< [size]
+  Field<int> disc;                                      ///< [size]
   Kokkos::View<Real* [wall_count], MemorySpace> shear;  ///< [size][4] F_s [N/m], empty for smooth walls
 };
 
@@ -40,10 +40,12 @@ struct WallReactions {
 
 /// Finds the discs whose surface is within `skin` [m] of a wall; keeps the shear history of those that were in `old`.
 /// @param new_index  where each disc of `old` lies now; an empty field means that nothing moved
-WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction, WallContacts const& old,
-                                Field<int> const& new_index);
+WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction,
+                                WallContacts const& old, Field<int> const& new_index);
 
-/// Adds the wall forces to the discs near the walls and returns the reactions. A wall is a disc of infinite radius without rolling.
-WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law, Real dt);
+/// Adds the wall forces to the discs near the walls and returns the reactions. A wall is a disc of infinite radius without
+/// rolling.
+WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
+                              Real dt);
 
 }  // namespace clathra

@@ -1,0 +1,261 @@
+#include <algorithm>
+#include <cmath>
+
+#include "domain/bonding.hpp"
+#include "domain/experiment.hpp"
+#include "domain/hydrate.hpp"
+#include "domain/quasi_static.hpp"
+#include "domain/sample_design.hpp"
+#include "domain/settling.hpp"
+#include "kernels/stability.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr double skin_in_d50 = 0.05;
+constexpr double elastic_lateral_ratio = 0.25;  // lateral expansion per axial compression at the start: the servo's first guess
+
+bool wants_bonds(Scene const& scene) { return scene.bond.law != BondLawKind::none && scene.hydrate.saturation > 0; }
+
+BondKind bond_kind(Scene const& scene) {
+  return scene.bond.composite == Composite::parallel ? BondKind::parallel : BondKind::replace;
+}
+
+/// The laws of consolidation and shear: only what the scene needs.
+SimulationLaws test_laws(Scene const& scene, double h_max) {
+  SimulationLaws laws;
+  laws.contact.grain = {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor,
+                        scene.grains.contact_damping};
+  if (h_max > 0) {
+    laws.contact.bond_kind = bond_kind(scene);
+    laws.contact.bond = make_bond_law(scene, h_max);
+  }
+  laws.wall = {scene.grains.kn, scene.grains.ks, scene.test.wall_friction, 0};
+  laws.motion.damping = 0.7;
+  return laws;
+}
+
+double height_of(Simulation const& s) { return s.walls().height(); }
+
+}  // namespace
+
+/// Everything a running test knows.
+struct BiaxialTest::State {
+  Scene scene;
+  std::unique_ptr<Simulation> simulation;
+  StageRecord preparation;
+  std::vector<std::string> warnings;
+  RateNumbers rate;
+  double d50 = 0, height0 = 0, area0 = 0;
+  std::int64_t bonds0 = 0, steps_per_record = 1, first_step = 0;
+  std::int64_t disc_steps = 0;
+  int events_taken = 0;
+  EnergyRow start;
+
+  void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
+  void consolidate(double stress, ProgressCallback const& progress);
+  void begin_shear();
+  void count_disc_steps() { disc_steps += simulation->steps() * simulation->discs(); }
+};
+
+/// Bonds first and consolidates then, or the other way round (`bond.after_consolidation`).
+void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallback const& progress) {
+  bool const bond = wants_bonds(scene) && specimen.critical_thickness == 0;
+  if (bond && !scene.bond.after_consolidation) specimen = bond_specimen(scene, specimen, preparation);
+  auto const start_simulation = [&] {
+    SimulationLaws const laws = test_laws(scene, specimen.critical_thickness);
+    simulation = std::make_unique<Simulation>(specimen, laws, scene.run.skin > 0 ? scene.run.skin : skin_in_d50 * d50);
+  };
+  start_simulation();
+  preparation["void_ratio_before_consolidation"] = simulation->void_ratio();
+  consolidate(scene.test.confining_stress, progress);
+  if (bond && scene.bond.after_consolidation) {
+    count_disc_steps();
+    specimen = bond_specimen(scene, simulation->specimen(), preparation);
+    start_simulation();
+    double const before = simulation->void_ratio();
+    consolidate(scene.test.confining_stress, progress);
+    if (before - simulation->void_ratio() > 0.003 && !scene.run.force) {
+      throw Refused("bonding after consolidation with this composite lets the void ratio drop from " + std::to_string(before) +
+                    " to " + std::to_string(simulation->void_ratio()) +
+                    ": bond at low stress, or use composite 'parallel' or 'memory'");
+    }
+  }
+  preparation["void_ratio_after_consolidation"] = simulation->void_ratio();
+}
+
+/// Compresses homogeneously, discs and walls together, to near the stress, and lets the servo walls hold it there.
+void BiaxialTest::State::consolidate(double stress, ProgressCallback const& progress) {
+  constexpr double inertial_number = 2e-4;
+  Simulation& s = *simulation;
+  prepare_servo(s, stress, inertial_number, d50, scene.run.dt_safety);
+  double const squeeze = strain_rate_of(inertial_number, stress, s.density(), d50);
+  AxisDrive const servo_x = s.loading.x, servo_y = s.loading.y;
+  std::int64_t const most_steps = static_cast<std::int64_t>(0.1 / (squeeze * s.time_step));
+  if (mean_stress(s) < 0.95 * stress) {
+    s.loading.x = s.loading.y = AxisDrive::at_rate(squeeze);
+    s.add_uniform_strain_rate(squeeze, squeeze);
+    while (mean_stress(s) < 0.98 * stress && s.steps() < most_steps) {
+      for (int n = 0; n < 20; ++n) s.step();
+      if (s.steps() % 2000 == 0)
+        report(progress, {"consolidate", 0.5 * mean_stress(s) / stress, "compressing", s.steps() * s.discs()});
+    }
+    s.add_uniform_strain_rate(-squeeze, -squeeze);
+  }
+  s.loading.x = servo_x;
+  s.loading.y = servo_y;
+  bool const at_rest = hold_stress(s, stress, 1e-3, 200000, progress, "consolidate");
+  preparation["consolidation_steps"] = static_cast<double>(s.steps());
+  preparation["consolidated_unbalanced"] = s.measures().unbalanced_ratio(s.discs());
+  if (!at_rest) warnings.push_back("consolidation did not come to rest within its budget of steps");
+}
+
+/// Sets platens, discs and servo in motion together, so that the shear starts without a wave, and opens the accounts.
+void BiaxialTest::State::begin_shear() {
+  Simulation& s = *simulation;
+  SimulationLaws laws = s.laws();
+  laws.motion.damping = scene.run.damping;
+  s.set_laws(laws);
+  s.time_step = scene.run.dt_safety * local_time_step(s.particles(), s.rows(), s.laws().contact);
+  double const frequency =
+      largest_frequency(s.particles(), s.rows(), s.laws().contact, s.wall_contacts(), s.walls(), s.laws().wall);
+  preparation["time_step_s"] = s.time_step;
+  preparation["time_step_margin"] = frequency > 0 ? 2 / frequency / s.time_step : 0;
+  if (frequency > 0 && s.time_step > 2 / frequency)
+    warnings.push_back("the time step is above the stability limit of the contact network");
+  height0 = height_of(s);
+  area0 = s.area();
+  rate = rate_numbers(scene, d50, height0, s.void_ratio());
+  for (std::string const& warning : judge_rate(scene, rate)) warnings.push_back(warning);
+  s.loading.y = AxisDrive::at_rate(rate.strain_rate);
+  s.loading.x = AxisDrive::at_stress(scene.test.confining_stress, 2 * rate.strain_rate * height0);
+  s.loading.x.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.walls().width();
+  s.add_uniform_strain_rate(-elastic_lateral_ratio * rate.strain_rate, rate.strain_rate);
+  if (scene.output.energy) s.set_ledger(true);
+  first_step = s.steps();
+  double const steps = scene.test.axial_strain / (rate.strain_rate * s.time_step);
+  steps_per_record = std::max<std::int64_t>(1, std::llround(steps / scene.output.records));
+  bonds0 = std::llround(s.measures().bonded);
+  events_taken = s.broken_bonds();
+  preparation["broken_in_consolidation"] = events_taken;
+  preparation["bytes_per_disc"] = static_cast<double>(s.bytes()) / s.discs();
+  preparation["strain_rate_per_s"] = rate.strain_rate;
+  preparation["quasi_static"] = is_quasi_static(rate) ? 1 : 0;
+}
+
+BiaxialTest::BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressCallback const& progress)
+    : state_(std::make_unique<State>()) {
+  State& t = *state_;
+  t.scene = scene;
+  t.d50 = specimen.d50 > 0 ? specimen.d50 : diameter_finer(specimen.radius, 0.5);
+  t.bond_and_consolidate(specimen, progress);
+  t.begin_shear();
+  if (scene.output.energy) t.start = energy();
+}
+
+BiaxialTest::~BiaxialTest() = default;
+
+StageRecord const& BiaxialTest::preparation() const { return state_->preparation; }
+std::vector<std::string> const& BiaxialTest::warnings() const { return state_->warnings; }
+bool BiaxialTest::finished() const { return strain_fraction() >= 1 - 1e-9; }
+double BiaxialTest::strain_fraction() const {
+  return std::log(state_->height0 / height_of(*state_->simulation)) / state_->scene.test.axial_strain;
+}
+std::int64_t BiaxialTest::disc_steps() const {
+  return state_->disc_steps + state_->simulation->steps() * state_->simulation->discs();
+}
+std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->hash(); }
+
+Specimen BiaxialTest::snapshot() const {
+  Specimen specimen = state_->simulation->specimen();
+  specimen.stress = state_->scene.test.confining_stress;
+  return specimen;
+}
+
+void BiaxialTest::advance_to_next_record() {
+  Simulation& s = *state_->simulation;
+  double const target = state_->scene.test.axial_strain;
+  for (std::int64_t n = 0; n < state_->steps_per_record; ++n) {
+    s.step();
+    if (std::log(state_->height0 / height_of(s)) >= target) break;
+  }
+  s.throw_if_unstable();
+}
+
+HistoryRow BiaxialTest::record() {
+  Simulation const& s = *state_->simulation;
+  Measures const m = s.measures();
+  WallStress const stress = s.stress();
+  HistoryRow row;
+  row.step = s.steps() - state_->first_step;
+  row.time_s = static_cast<double>(row.step) * s.time_step;
+  row.eps1 = std::log(state_->height0 / height_of(s));
+  row.eps_v = std::log(state_->area0 / s.area());
+  row.sigma1_Pa = stress.y;
+  row.sigma3_Pa = stress.x;
+  row.q_Pa = stress.y - stress.x;
+  row.p_Pa = 0.5 * (stress.y + stress.x);
+  row.contact_sigma1_Pa = m.stress_area_yy / s.area();
+  row.contact_sigma3_Pa = m.stress_area_xx / s.area();
+  row.void_ratio = s.void_ratio();
+  row.bonds_intact = std::llround(m.bonded);
+  row.intact_initial_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
+  row.intact_mechanical_pct = m.mechanical > 0 ? 100.0 * m.bonded / m.mechanical : 0;
+  BreakCounts const broken = s.break_counts();
+  row.broken_tension = broken.tension;
+  row.broken_compression = broken.compression;
+  row.broken_shear = broken.shear;
+  row.broken_rolling = broken.rolling;
+  row.coordination = 2 * m.mechanical / s.discs();
+  row.inertial_number = state_->rate.strain_rate * state_->d50 * std::sqrt(s.density() / std::max(row.sigma3_Pa, 1.0));
+  row.wave_number = rate_numbers(state_->scene, state_->d50, height_of(s), row.void_ratio).wave_number;
+  row.unbalanced = m.unbalanced_ratio(s.discs());
+  return row;
+}
+
+EnergyRow BiaxialTest::energy() {
+  Simulation const& s = *state_->simulation;
+  Measures const m = s.measures();
+  LossTotals const lost = s.losses();
+  EnergyRow row;
+  row.boundary_work = s.boundary_work();
+  row.kinetic = m.kinetic;
+  row.grain_elastic = m.grain_energy;
+  row.bond_elastic = m.bond_energy;
+  row.wall_elastic = m.wall_energy;
+  row.sliding = lost.sliding;
+  row.rolling = lost.rolling;
+  row.dashpot = lost.dashpot;
+  row.damping = lost.damping;
+  row.breakage = lost.breakage;
+  EnergyRow const& start = state_->start;
+  double const stored = row.kinetic + row.grain_elastic + row.bond_elastic + row.wall_elastic;
+  double const stored_at_start = start.kinetic + start.grain_elastic + start.bond_elastic + start.wall_elastic;
+  row.residual =
+      row.boundary_work - (stored - stored_at_start) - (row.sliding + row.rolling + row.dashpot + row.damping + row.breakage);
+  return row;
+}
+
+std::vector<BreakEvent> BiaxialTest::take_events() {
+  std::vector<BreakEvent> events = state_->simulation->break_events(state_->events_taken);
+  state_->events_taken += static_cast<int>(events.size());
+  for (BreakEvent& event : events) event.step -= state_->first_step;
+  return events;
+}
+
+StageRecord BiaxialTest::plan() const {
+  Simulation const& s = *state_->simulation;
+  StageRecord plan;
+  plan["discs"] = s.discs();
+  plan["time_step_s"] = s.time_step;
+  plan["strain_rate_per_s"] = state_->rate.strain_rate;
+  plan["inertial_number"] = state_->rate.inertial_number;
+  plan["wave_number"] = state_->rate.wave_number;
+  plan["steps"] = std::ceil(state_->scene.test.axial_strain / (state_->rate.strain_rate * s.time_step));
+  plan["width_m"] = s.walls().width();
+  plan["height_m"] = s.walls().height();
+  return plan;
+}
+
+}  // namespace clathra

@@ -1,0 +1,180 @@
+#include "domain/bonding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/hydrate.hpp"
+
+namespace clathra {
+
+namespace {
+
+double gap_between(Specimen const& s, std::size_t a, std::size_t b) {
+  double const dx = s.x[b] - s.x[a], dy = s.y[b] - s.y[a];
+  return std::sqrt(dx * dx + dy * dy) - (s.radius[a] + s.radius[b]);
+}
+
+/// Discs by square cell.
+struct HostCells {
+  double left, bottom, size;
+  std::int64_t columns;
+  std::vector<std::pair<std::int64_t, std::size_t>> sorted;  // (cell, disc)
+  std::int64_t cell_of(double x, double y) const {
+    return static_cast<std::int64_t>((y - bottom) / size) * columns + static_cast<std::int64_t>((x - left) / size);
+  }
+};
+
+HostCells host_cells(Specimen const& s, double size) {
+  auto const [x0, x1] = std::minmax_element(s.x.begin(), s.x.end());
+  double const bottom = *std::min_element(s.y.begin(), s.y.end()) - size, left_edge = *x0 - size;
+  HostCells cells{left_edge, bottom, size, static_cast<std::int64_t>((*x1 - left_edge) / size) + 2, {}};
+  cells.sorted.reserve(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) cells.sorted.emplace_back(cells.cell_of(s.x[i], s.y[i]), i);
+  std::sort(cells.sorted.begin(), cells.sorted.end());
+  return cells;
+}
+
+enum class Verdict { bond, no_tension, out_of_fit };
+
+/// Whether a pair may be bonded: the traps 4, 6 and 7 of the strength laws.
+Verdict judge(BondLaw const& law, double radius, double gap) {
+  double const width = law.width(radius, gap);
+  BondStrength const strength = bond_strength(law.strength, width, gap);
+  if (!(strength.tension > 0)) return Verdict::no_tension;
+  bool const fits = strength.compression > 0 && strength.shear_slope > 0 && strength.moment_slope > 0;
+  return fits ? Verdict::bond : Verdict::out_of_fit;
+}
+
+/// Sum of Eq. 5 over the pairs that a critical thickness would bond [m^2].
+double area_at(Scene const& scene, Specimen const& s, std::vector<NearPair> const& pairs, double h_max) {
+  BondLaw const law = make_bond_law(scene, h_max);
+  double area = 0;
+  for (NearPair const& p : pairs) {
+    if (!(p.gap < h_max)) continue;
+    double const radius = common_radius(s.radius[p.a], s.radius[p.b]), gap = law.gap(-p.gap);
+    if (judge(law, radius, gap) == Verdict::bond) area += bond_area(radius, law.width(radius, gap), gap, h_max);
+  }
+  return area;
+}
+
+double area_of_equation_4(Scene const& scene, Specimen const& s) {
+  double const e = s.void_ratio, area = s.width() * s.height();
+  return std::max(0.0, scene.hydrate.saturation - 0.2) * e / (1 + e) * area;
+}
+
+}  // namespace
+
+std::vector<NearPair> near_pairs(Specimen const& s, double reach) {
+  double const widest = 2 * *std::max_element(s.radius.begin(), s.radius.end());
+  HostCells const cells = host_cells(s, widest + std::max(reach, 0.0));
+  auto const first_of = [&](std::int64_t cell) {
+    return static_cast<std::size_t>(
+        std::lower_bound(cells.sorted.begin(), cells.sorted.end(), std::pair<std::int64_t, std::size_t>{cell, 0}) -
+        cells.sorted.begin());
+  };
+  std::vector<NearPair> pairs;
+  std::size_t row_begin[3] = {0, 0, 0};
+  std::int64_t current = -1;
+  for (auto const& [cell, i] : cells.sorted) {
+    if (cell != current) {
+      for (int r = 0; r < 3; ++r) row_begin[r] = first_of(cell + (r - 1) * cells.columns - 1);
+      current = cell;
+    }
+    for (int r = 0; r < 3; ++r) {
+      std::int64_t const last = cell + (r - 1) * cells.columns + 1;
+      for (std::size_t k = row_begin[r]; k < cells.sorted.size() && cells.sorted[k].first <= last; ++k) {
+        std::size_t const j = cells.sorted[k].second;
+        if (s.id[i] >= s.id[j]) continue;
+        double const gap = gap_between(s, i, j);
+        if (gap < reach) pairs.push_back({i, j, gap});
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), [&](NearPair const& p, NearPair const& q) {
+    return s.id[p.a] != s.id[q.a] ? s.id[p.a] < s.id[q.a] : s.id[p.b] < s.id[q.b];
+  });
+  return pairs;
+}
+
+double critical_thickness(Scene const& scene, Specimen const& s) {
+  switch (scene.bond.mode) {
+    case BondingMode::eq3:
+      return critical_thickness_ratio(scene.hydrate.saturation) * s.d50;
+    case BondingMode::given_thickness:
+      return scene.bond.critical_thickness;
+    case BondingMode::areal_target:
+      break;
+  }
+  double const target = area_of_equation_4(scene, s);
+  if (target <= 0) return 0;
+  double low = 0, high = s.d50;  // a bond as thick as a grain is no bond any more
+  auto const pairs = near_pairs(s, high);
+  if (area_at(scene, s, pairs, high) < target) {
+    throw Refused("bond.mode = 'areal_target': even bonds of thickness d50 hold less hydrate than the saturation " +
+                  std::to_string(scene.hydrate.saturation) + " demands");
+  }
+  for (int n = 0; n < 60; ++n) {
+    double const middle = 0.5 * (low + high);
+    (area_at(scene, s, pairs, middle) < target ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+BondingOutcome install_bonds(Scene const& scene, Specimen& s) {
+  BondingOutcome outcome;
+  outcome.critical_thickness = critical_thickness(scene, s);
+  outcome.target_area = area_of_equation_4(scene, s);
+  if (!(outcome.critical_thickness > 0)) return outcome;
+  BondLaw const law = make_bond_law(scene, outcome.critical_thickness);
+  std::vector<SpecimenContact> contacts;
+  std::sort(s.contacts.begin(), s.contacts.end(),
+            [](auto const& p, auto const& q) { return p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b; });
+  auto old = s.contacts.begin();
+  // Both lists are sorted by ids: one walk merges the bonds into the contacts with history.
+  auto const before = [](SpecimenContact const& c, int id_a, int id_b) { return c.id_a != id_a ? c.id_a < id_a : c.id_b < id_b; };
+  for (NearPair const& p : near_pairs(s, outcome.critical_thickness)) {
+    int const id_a = s.id[p.a], id_b = s.id[p.b];
+    while (old != s.contacts.end() && before(*old, id_a, id_b)) contacts.push_back(*old++);
+    SpecimenContact contact{id_a, id_b};
+    if (old != s.contacts.end() && old->id_a == id_a && old->id_b == id_b) contact = *old++;
+    double const radius = common_radius(s.radius[p.a], s.radius[p.b]), gap = law.gap(-p.gap);
+    switch (judge(law, radius, gap)) {
+      case Verdict::no_tension:
+        ++outcome.rejected_no_tension;
+        break;
+      case Verdict::out_of_fit:
+        ++outcome.rejected_out_of_fit;
+        break;
+      case Verdict::bond:
+        ++outcome.bonds;
+        contact.equilibrium = -p.gap;
+        if (scene.bond.composite == Composite::replace)
+          contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
+        outcome.bond_area += bond_area(radius, law.width(radius, gap), gap, outcome.critical_thickness);
+    }
+    contacts.push_back(contact);
+  }
+  contacts.insert(contacts.end(), old, s.contacts.end());
+  s.contacts = std::move(contacts);
+  s.critical_thickness = outcome.critical_thickness;
+  s.separate_bonds = scene.bond.composite == Composite::parallel;
+  double const void_area = s.void_ratio / (1 + s.void_ratio) * s.width() * s.height();
+  outcome.areal_saturation = outcome.bond_area / void_area;
+  return outcome;
+}
+
+Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record) {
+  Specimen bonded = specimen;
+  BondingOutcome const outcome = install_bonds(scene, bonded);
+  record["h_max_m"] = outcome.critical_thickness;
+  record["bonds"] = static_cast<double>(outcome.bonds);
+  record["bonds_per_disc"] = static_cast<double>(outcome.bonds) / static_cast<double>(specimen.size());
+  record["rejected_no_tension"] = static_cast<double>(outcome.rejected_no_tension);
+  record["rejected_out_of_fit"] = static_cast<double>(outcome.rejected_out_of_fit);
+  record["bond_area_m2"] = outcome.bond_area;
+  record["areal_saturation"] = outcome.areal_saturation;
+  record["areal_saturation_demanded"] = std::max(0.0, scene.hydrate.saturation - 0.2);
+  return bonded;
+}
+
+}  // namespace clathra

@@ -1,0 +1,23 @@
+#pragma once
+/// Random placement of discs without overlap: the loose start of every generator.
+#include <cstdint>
+#include <vector>
+
+namespace clathra {
+
+/// A rectangle to fill [m]; periodic in both directions or bounded.
+struct Region {
+  double left = 0, bottom = 0, width = 0, height = 0;
+  bool periodic = false;
+};
+
+struct Placement {
+  std::vector<double> x, y;
+};
+
+/// Places discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). A region that
+/// proves too small for random addition (more than about 55 % solid) is refused.
+/// @return centres in the order of `radii`;  @throws std::runtime_error where a disc finds no place
+Placement place_loosely(std::vector<double> const& radii, Region const& region, std::uint64_t seed, std::uint64_t stream);
+
+}  // namespace clathra

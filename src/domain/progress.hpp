@@ -1,0 +1,33 @@
+#pragma once
+/// How long stages report, and how they end early.
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace clathra {
+
+/// Told now and then how far a long stage is; returns false to stop it (Ctrl-C). `fraction` runs from 0 to 1 within the stage.
+struct Progress {
+  std::string stage;  ///< "generate", "consolidate", "shear"
+  double fraction = 0;
+  std::string detail;           ///< a few words on the present state ("layer 3/5, e 0.251")
+  std::int64_t disc_steps = 0;  ///< disc-steps done in this stage, for the rate
+};
+using ProgressCallback = std::function<bool(Progress const&)>;
+
+/// Thrown where a guard refuses a scene or target (unreachable void ratio, not quasi-static): the text says what, with numbers.
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// Thrown when the progress callback asked to stop.
+struct Stopped : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Passes a report on, if anybody listens. @throws Stopped where the listener says so
+inline void report(ProgressCallback const& callback, Progress const& progress) {
+  if (callback && !callback(progress)) throw Stopped("stopped during '" + progress.stage + "'");
+}
+
+}  // namespace clathra

@@ -1,0 +1,28 @@
+#pragma once
+/// Whether a loading rate deserves to be called quasi-static.
+#include <string>
+#include <vector>
+
+#include "domain/scene.hpp"
+
+namespace clathra {
+
+/// The two numbers that matter: inertia of the grains and inertia of the specimen.
+struct RateNumbers {
+  double strain_rate = 0;      ///< [1/s]
+  double inertial_number = 0;  ///< I = rate d50 sqrt(rho / sigma_3)
+  double wave_number = 0;      ///< W = rho_bulk c v_platen / sigma_3, the stress of the wave that a platen sends out
+};
+
+inline constexpr double inertial_warning = 1e-3, inertial_limit = 1e-2, wave_warning = 0.2, wave_limit = 0.5;
+
+/// @param height [m], compressed by two platens that each do half;  @param d50 [m]
+RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio);
+
+/// True where a run may be called quasi-static: I below 1e-3 and W below 0.5.
+inline bool is_quasi_static(RateNumbers const& n) { return n.inertial_number < inertial_warning && n.wave_number < wave_limit; }
+
+/// Warnings in words; @throws Refused at I > 1e-2 unless the scene forces it.
+std::vector<std::string> judge_rate(Scene const& scene, RateNumbers const& numbers);
+
+}  // namespace clathra
