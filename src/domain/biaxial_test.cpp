@@ -16,8 +16,6 @@ namespace {
 constexpr double skin_in_d50 = 0.05;
 constexpr double elastic_lateral_ratio = 0.25;  // lateral expansion per axial compression at the start: the servo's first guess
 
-bool wants_bonds(Scene const& scene) { return scene.bond.law != BondLawKind::none && scene.hydrate.saturation > 0; }
-
 BondKind bond_kind(Scene const& scene) {
   return scene.bond.composite == Composite::parallel ? BondKind::parallel : BondKind::replace;
 }
@@ -61,7 +59,7 @@ struct BiaxialTest::State {
 
 /// Bonds first and consolidates then, or the other way round (`bond.after_consolidation`).
 void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallback const& progress) {
-  bool const bond = wants_bonds(scene) && specimen.critical_thickness == 0;
+  bool const bond = has_bonds(scene) && specimen.critical_thickness == 0;
   if (bond && !scene.bond.after_consolidation) specimen = bond_specimen(scene, specimen, preparation);
   auto const start_simulation = [&] {
     SimulationLaws const laws = test_laws(scene, specimen.critical_thickness);
