@@ -219,10 +219,11 @@ std::string format_quantity(double value, Dimension dimension) {
   for (std::string_view const unit : entry(dimension).shown) {
     if (unit.empty() || value == 0) break;
     Unit const parsed = parse_unit(unit, unit);
+    double const size = std::fabs(value) * std::pow(10.0, -parsed.decimals);
+    if (!(size > 0.0999 && size < 1e4)) continue;
     // The shortest digits of the value itself, their point moved: exact in decimal, so nothing is lost by the unit.
-    double const shown = shifted_number(bare, -parsed.decimals);
-    std::string const text = format_number(shown) + " " + std::string(unit);
-    if (std::abs(shown) >= 0.1 && std::abs(shown) < 1e4 && parse_quantity(text, dimension) == value) return text;
+    std::string const text = format_number(shifted_number(bare, -parsed.decimals)) + " " + std::string(unit);
+    if (parse_quantity(text, dimension) == value) return text;
   }
   if (dimension == Dimension::temperature) return bare + " degC";
   return bare;

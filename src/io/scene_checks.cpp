@@ -34,7 +34,7 @@ struct Check {
   void warn(std::string text) { found.warnings.push_back(std::move(text)); }
 };
 
-std::string length_text(double metres) { return format_quantity(metres, Dimension::length); }
+std::string length_text(double metres) { return fmt::format("{:.4g} mm", metres * 1e3); }
 
 void check_input_file(Check& check, std::string_view key, std::string const& path) {
   std::error_code ignored;

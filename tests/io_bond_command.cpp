@@ -1,0 +1,234 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clathra {
+namespace {
+
+struct Result {
+  int code;
+  std::string output;
+};
+
+Result clathra_command(std::string const& arguments) {
+  std::string const command = std::string(CLATHRA_BINARY) + " " + arguments + " 2>&1";
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  Result result{-1, ""};
+  if (!pipe) return result;
+  std::array<char, 4096> buffer;
+  while (std::size_t const count = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), count);
+  result.code = WEXITSTATUS(::pclose(pipe));
+  return result;
+}
+
+nlohmann::json bond(std::string const& arguments) {
+  Result const result = clathra_command("bond --json " + arguments);
+  EXPECT_EQ(result.code, 0) << result.output;
+  return nlohmann::json::parse(result.output);
+}
+
+/// Options for a bond; lengths in um, pressure in MPa, density in g/cm^3.
+std::string bond_arguments(double S, double r1, double r2, double gap, double T, double sigma_w, double rho, double F_n,
+                           bool printed) {
+  std::array<char, 512> text;
+  std::snprintf(
+      text.data(), text.size(),
+      "--saturation %.17g --d50 '0.1694 mm' --r1 '%.17g um' --r2 '%.17g um' --gap '%.17g um' --temperature '%.17g degC' "
+      "--pore-pressure '%.17g MPa' --hydrate-density '%.17g g/cm^3' --normal-force '%.17g N/m' --coefficients %s",
+      S, r1, r2, gap, T, sigma_w, rho, F_n, printed ? "printed" : "thm");
+  return text.data();
+}
+
+/// The equations as they stand in the paper, written down once more and independently, without the forms that avoid cancellation.
+struct PaperBond {
+  double h_max, r, B, h0, area, q_c, q_t, E_m, R_t, R_c, k_mh, k_bn, k_bm, f_s, K_s, f_r, K_r, R_s, R_r;
+  PaperBond(double S, double d50, double r1, double r2, double h, double T, double sigma_w, double rho, double F_n,
+            bool printed) {
+    using real = long double;
+    real const ratio = S <= 0.2 ? 0 : S <= 0.7 ? -0.3268L * S * S + 0.4879L * S - 0.0815L : 0.1L;
+    real const hm = ratio * d50, rr = 2 * static_cast<real>(r1) * r2 / (static_cast<real>(r1) + r2), pa = 1.01e5L, kn = 3e8L;
+    real const b = std::sqrt(4 * rr * rr - (2 * rr - hm + h) * (2 * rr - hm + h));
+    real const thick = (h + hm) / 2;
+    real const s = 0.5L * (hm + h) * b + b * rr - 2 * rr * rr * std::atan(b / std::sqrt(4 * rr * rr - b * b));
+    real const qc = pa * (0.81L * sigma_w / pa - 2.08L * T + 184.16L * rho / 1000 - 134.65L);
+    real const qt = pa * (0.45L * sigma_w / pa - 1.15L * T + 101.75L * rho / 1000 - 74.39L);
+    real const em = pa * (3 * sigma_w / pa - 1.98L * T + 4950.50L * rho / 1000 - 1821.78L);
+    real const rt = printed ? 1.421e7L * b + 2.67e5L * h - 160.2L : 3 * b * qt + 2.67e5L * (h - 0.6e-3L);
+    real const rc = printed ? 2.571e7L * b - 4.18e6L * h + 2508 : 3 * b * qc - 4.18e6L * (h - 0.6e-3L);
+    real const kmh = b * em / thick, bell = std::exp(-(1000.0L * h - 1.15L) * (1000.0L * h - 1.15L));
+    real const fs = 2.05L - 0.89L * bell, fr = 2.05L - 0.92L * bell, ks = 0.41L - 61.07L * h, kr = 0.83L - 146.36L * h;
+    real const shape = (F_n + rt) * std::pow(std::log((rc + rt) / (F_n + rt)), 0.59L);
+    auto const d = [](real value) { return static_cast<double>(value); };
+    h_max = d(hm), r = d(rr), B = d(b), h0 = d(thick), area = d(s), q_c = d(qc), q_t = d(qt), E_m = d(em), R_t = d(rt),
+    R_c = d(rc);
+    k_mh = d(kmh), k_bn = d(kn * kmh / (kn + 2 * kmh)), k_bm = d(em * b * b * b / (12 * thick));
+    f_s = d(fs), K_s = d(ks), f_r = d(fr), K_r = d(kr), R_s = d(fs * ks * shape), R_r = d(fr * kr * shape);
+  }
+};
+
+void expect_close(nlohmann::json const& json, char const* key, double wanted, double tolerance) {
+  EXPECT_NEAR(json.at(key).get<double>(), wanted, tolerance * std::fabs(wanted)) << key;
+}
+
+TEST(BondCommand, PrintsExactlyTheKeysItIsKnownFor) {
+  auto const json = nlohmann::ordered_json::parse(
+      clathra_command(
+          "bond --saturation 0.41 --d50 \"0.1694 mm\" --r1 \"0.0847 mm\" --r2 \"0.0847 mm\" --gap \"2 um\" --temperature "
+          "\"5 degC\" --pore-pressure \"8 MPa\" --hydrate-density \"0.9 g/cm^3\" --normal-force \"200 N/m\" --json")
+          .output);
+  std::string keys;
+  for (auto const& [key, value] : json.items()) keys += key + " ";
+  EXPECT_EQ(
+      keys,
+      "bonded h_max common_radius gap B h0 area q_c q_t E_m R_t R_c k_mh k_bn k_bs k_bm f_s K_s f_r K_r R_s R_r_per_length ");
+  EXPECT_EQ(json["bonded"], true);
+}
+
+TEST(BondCommand, AgreesWithTheEquationsEvaluatedIndependently) {
+  struct Case {
+    double S, r1, r2, gap, T, sigma_w, rho, F_n;
+  };
+  Case const cases[] = {{0.41, 84.7, 84.7, 2, 5, 8, 0.9, 200},  {0.26, 84.7, 84.7, 0, 5, 8, 0.9, 0},
+                        {0.55, 50, 150, 3.7, 5, 8, 0.9, 1000},  {0.70, 84.7, 60, 1, 1, 5, 0.9, -100},
+                        {0.9, 150, 150, 10, 4, 13, 0.84, 2000}, {0.3, 120, 90, 0.5, 3, 9, 0.88, 50},
+                        {0.55, 84.7, 84.7, 0, 5, 8, 0.9, 4000}};
+  for (Case const& c : cases)
+    for (bool const printed : {false, true}) {
+      auto const json = bond(bond_arguments(c.S, c.r1, c.r2, c.gap, c.T, c.sigma_w, c.rho, c.F_n, printed));
+      PaperBond const paper(c.S, 0.1694e-3, c.r1 * 1e-6, c.r2 * 1e-6, c.gap * 1e-6, c.T, c.sigma_w * 1e6, c.rho * 1e3, c.F_n,
+                            printed);
+      constexpr double tolerance = 1e-9;
+      for (auto const& [key, wanted] : {std::pair{"h_max", paper.h_max},
+                                        {"common_radius", paper.r},
+                                        {"B", paper.B},
+                                        {"h0", paper.h0},
+                                        {"area", paper.area},
+                                        {"q_c", paper.q_c},
+                                        {"q_t", paper.q_t},
+                                        {"E_m", paper.E_m},
+                                        {"R_t", paper.R_t},
+                                        {"R_c", paper.R_c},
+                                        {"k_mh", paper.k_mh},
+                                        {"k_bn", paper.k_bn},
+                                        {"k_bs", paper.k_bn * 2 / 3},
+                                        {"k_bm", paper.k_bm},
+                                        {"f_s", paper.f_s},
+                                        {"K_s", paper.K_s},
+                                        {"f_r", paper.f_r},
+                                        {"K_r", paper.K_r},
+                                        {"R_s", paper.R_s},
+                                        {"R_r_per_length", paper.R_r}})
+        expect_close(json, key, wanted, tolerance);
+    }
+}
+
+TEST(BondCommand, ReproducesTheGoldenNumbersOfUnequalDiscs) {
+  auto const json = bond("--saturation \"41 %\" --r1 \"0.05 mm\" --r2 \"0.15 mm\" --gap \"2 um\" --coefficients printed");
+  struct Golden {
+    char const* key;
+    double value;
+  };
+  for (Golden const& golden : {Golden{"common_radius", 0.075e-3},
+                               {"B", 50.55e-6},
+                               {"h0", 6.387e-6},
+                               {"R_t", 558.7},
+                               {"R_c", 3799},
+                               {"k_mh", 2.287e9},
+                               {"k_bn", 1.408e8},
+                               {"k_bs", 9.385e7},
+                               {"k_bm", 0.4871},
+                               {"f_s", 1.812},
+                               {"K_s", 0.4099},
+                               {"f_r", 1.804},
+                               {"K_r", 0.8297},
+                               {"area", 2.472e-10}}) {
+    double const last_digit = std::pow(10, std::floor(std::log10(golden.value)) - 3);
+    EXPECT_NEAR(json.at(golden.key).get<double>(), golden.value, 0.51 * last_digit) << golden.key;
+  }
+}
+
+TEST(BondCommand, ReproducesTheEnvelopeTable) {
+  // S in percent, gap, then R_s at F_n = 0, 100, 200, 500, 1000 and R_r / L_r at 0, 200, 1000 of physics section 13.
+  struct Row {
+    double S, part;
+    std::array<double, 5> R_s;
+    std::array<double, 3> R_r;
+  };
+  Row const rows[] = {{26, 0, {439.94, 527.97, 607.51, 804.98, 1025.5}, {886.68, 1224.4, 2067.0}},
+                      {26, .75, {153.17, 268.26, 366.06, 594.20, 828.22}, {308.68, 737.70, 1669.1}},
+                      {41, .25, {649.28, 726.15, 796.90, 977.25, 1188.2}, {1308.5, 1606.0, 2394.5}},
+                      {41, .50, {524.15, 606.69, 681.90, 870.70, 1085.3}, {1056.2, 1374.1, 2186.9}},
+                      {55, 0, {876.23, 945.41, 1009.9, 1177.7, 1382.5}, {1766.0, 2035.4, 2786.4}},
+                      {55, .75, {425.08, 512.87, 592.02, 787.67, 1003.9}, {856.36, 1192.7, 2022.5}}};
+  auto const expect_printed = [](double computed, double printed) {
+    double const last_digit = std::pow(10, std::floor(std::log10(printed)) - 4);
+    EXPECT_NEAR(computed, printed, 0.51 * last_digit);
+  };
+  for (Row const& row : rows) {
+    double const S = row.S / 100, gap = row.part * (-0.3268 * S * S + 0.4879 * S - 0.0815) * 169.4;
+    auto const at = [&](double F_n) { return bond(bond_arguments(S, 84.7, 84.7, gap, 5, 8, 0.9, F_n, true)); };
+    std::array const forces = {0.0, 100.0, 200.0, 500.0, 1000.0};
+    for (std::size_t i = 0; i < forces.size(); ++i) expect_printed(at(forces[i]).at("R_s").get<double>(), row.R_s[i]);
+    std::array const of_rolling = {0.0, 200.0, 1000.0};
+    for (std::size_t i = 0; i < of_rolling.size(); ++i)
+      expect_printed(at(of_rolling[i]).at("R_r_per_length").get<double>(), row.R_r[i]);
+  }
+}
+
+TEST(BondCommand, OutsideTheEnvelopeNothingIsLeft) {
+  auto const pulled = bond("--saturation 0.41 --normal-force \"-700 N/m\"");
+  EXPECT_EQ(pulled["R_s"], 0);
+  EXPECT_EQ(pulled["R_r_per_length"], 0);
+  EXPECT_EQ(bond("--saturation 0.41 --normal-force \"5 kN/m\"")["R_s"], 0);
+  EXPECT_EQ(bond("--saturation 0.41 --gap \"11 um\"")["bonded"], false);
+  EXPECT_EQ(bond("--saturation 0.2")["bonded"], false);
+  EXPECT_EQ(bond("--saturation 0.41 --gap \"-2 um\"")["gap"], 0);
+}
+
+TEST(BondCommand, RefusesNonsenseWithTheRightCode) {
+  EXPECT_EQ(clathra_command("bond").code, 64);
+  EXPECT_EQ(clathra_command("bond --saturation 0.41 --coefficients guessed").code, 64);
+  Result const length = clathra_command("bond --saturation 0.41 --pore-pressure \"8 mm\"");
+  EXPECT_EQ(length.code, 65);
+  EXPECT_NE(length.output.find("--pore-pressure needs a pressure, got a length ('8 mm'); example: \"1 MPa\""), std::string::npos)
+      << length.output;
+  Result const percent = clathra_command("bond --saturation 41");
+  EXPECT_EQ(percent.code, 65);
+  EXPECT_NE(percent.output.find("percent"), std::string::npos) << percent.output;
+  EXPECT_EQ(clathra_command("bond --saturation 0.41 --r1 \"0 mm\"").code, 65);
+}
+
+TEST(CommandLine, EndsEveryHelpWithAnExample) {
+  for (char const* const verb : {"", "run", "check", "generate", "bond", "info"}) {
+    Result const help = clathra_command(std::string(verb) + " --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.output.find("Example: clathra "), std::string::npos) << verb;
+  }
+}
+
+TEST(CommandLine, HasOneCodeForEachKindOfFailure) {
+  EXPECT_EQ(clathra_command("").code, 64);
+  EXPECT_EQ(clathra_command("rum").code, 64);
+  EXPECT_EQ(clathra_command("check no_such.toml").code, 66);
+  EXPECT_EQ(clathra_command("info no_such.h5").code, 66);
+  EXPECT_EQ(clathra_command("check " CLATHRA_EXAMPLES "/quick.toml --set hydrate.saturation=26").code, 65);
+  EXPECT_EQ(clathra_command("check " CLATHRA_EXAMPLES "/quick.toml --set test.inertial_number=0.02").code, 77);
+  EXPECT_EQ(clathra_command("check " CLATHRA_EXAMPLES "/quick.toml --set test.inertial_number=0.02 --force").code, 0);
+  EXPECT_EQ(clathra_command("run " CLATHRA_EXAMPLES "/quick.toml --output /proc/none").code, 73);
+}
+
+TEST(CommandLine, PricesThePapersStrainRate) {
+  Result const result =
+      clathra_command("check " CLATHRA_EXAMPLES "/paper/literal-s55-1mpa.toml --set test.strain_rate=\"5 %/min\"");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.output.find("7.2e-09"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("days"), std::string::npos) << result.output;
+}
+
+}  // namespace
+}  // namespace clathra

@@ -1,0 +1,222 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/digest.hpp"
+#include "io/events.hpp"
+#include "io/history.hpp"
+#include "io/output_folder.hpp"
+#include "io/problems.hpp"
+#include "io/run_record.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Output : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+  static std::string content(fs::path const& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  static std::vector<std::string> split(std::string const& text, char at) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+    return parts;
+  }
+  static ExitCode code_of(std::function<void()> const& act) {
+    try {
+      act();
+    } catch (FileProblem const& problem) {
+      return problem.code;
+    }
+    return ExitCode::done;
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_output_" + std::to_string(::getpid()));
+};
+
+using History = Output;
+using Events = Output;
+using Folder = Output;
+using Record = Output;
+
+TEST_F(History, HasTheColumnsThatTheDocumentationPromises) {
+  HistoryFile(folder / "history.csv", false);
+  auto const header = split(split(content(folder / "history.csv"), '\n').front(), ',');
+  for (char const* const column : {"step",
+                                   "time_s",
+                                   "eps1",
+                                   "eps_v",
+                                   "sigma1_Pa",
+                                   "sigma3_Pa",
+                                   "q_Pa",
+                                   "p_Pa",
+                                   "void_ratio",
+                                   "bonds_intact",
+                                   "intact_initial_pct",
+                                   "intact_mechanical_pct",
+                                   "broken_tension",
+                                   "broken_compression",
+                                   "broken_shear",
+                                   "broken_rolling",
+                                   "coordination",
+                                   "inertial_number",
+                                   "wave_number",
+                                   "unbalanced"})
+    EXPECT_EQ(std::count(header.begin(), header.end(), column), 1) << column;
+  EXPECT_EQ(std::count(header.begin(), header.end(), "residual_J"), 0);
+}
+
+TEST_F(History, WritesNumbersThatReadBackToTheSameBits) {
+  HistoryRow row;
+  row.step = 1234567890123;
+  row.eps1 = 0.1;
+  row.q_Pa = 1.0 / 3;
+  row.sigma3_Pa = 1e6;
+  row.unbalanced = 5e-324;
+  HistoryFile file(folder / "history.csv", false);
+  file.write(row);
+  file.close();
+  auto const lines = split(content(folder / "history.csv"), '\n');
+  ASSERT_EQ(lines.size(), 2u);
+  auto const names = split(lines[0], ','), cells = split(lines[1], ',');
+  ASSERT_EQ(names.size(), cells.size());
+  auto const cell = [&](std::string const& name) {
+    return cells[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+  };
+  EXPECT_EQ(cell("step"), "1234567890123");
+  EXPECT_EQ(cell("eps1"), "0.1");
+  EXPECT_EQ(cell("sigma3_Pa"), "1000000");
+  EXPECT_EQ(std::strtod(cell("q_Pa").c_str(), nullptr), 1.0 / 3);
+  EXPECT_EQ(std::strtod(cell("unbalanced").c_str(), nullptr), 5e-324);
+}
+
+TEST_F(History, AppendsTheEnergyLedgerWhereThereIsOne) {
+  HistoryFile file(folder / "history.csv", true);
+  EnergyRow energy;
+  energy.residual = 7;
+  file.write({}, energy);
+  file.close();
+  auto const lines = split(content(folder / "history.csv"), '\n');
+  auto const names = split(lines[0], ','), cells = split(lines[1], ',');
+  ASSERT_EQ(names.size(), cells.size());
+  EXPECT_EQ(names.back(), "residual_J");
+  EXPECT_EQ(cells.back(), "7");
+  EXPECT_EQ(names[names.size() - 11], "boundary_work_J");
+}
+
+TEST_F(History, IsTheSameInEveryLocale) {
+  char const* const before = std::setlocale(LC_ALL, nullptr);
+  std::string const saved = before ? before : "C";
+  std::setlocale(LC_ALL, "de_DE.UTF-8");
+  HistoryRow row;
+  row.eps1 = 0.5;
+  HistoryFile file(folder / "history.csv", false);
+  file.write(row);
+  std::setlocale(LC_ALL, saved.c_str());
+  EXPECT_NE(content(folder / "history.csv").find("0,0,0.5,0"), std::string::npos);
+}
+
+TEST_F(History, NamesTheFileThatCannotBeMadeOrWritten) {
+  EXPECT_EQ(code_of([&] { HistoryFile(folder / "none" / "history.csv", false); }), ExitCode::cannot_create);
+  rlimit unlimited{};
+  ::getrlimit(RLIMIT_FSIZE, &unlimited);
+  rlimit limited = unlimited;
+  limited.rlim_cur = 2000;
+  auto const previous = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &limited);
+  ExitCode const code = code_of([&] {
+    HistoryFile file(folder / "history.csv", false);
+    for (int i = 0; i < 1000; ++i) file.write({});
+  });
+  ::setrlimit(RLIMIT_FSIZE, &unlimited);
+  std::signal(SIGXFSZ, previous);
+  EXPECT_EQ(code, ExitCode::io_error);
+}
+
+TEST_F(History, DoesNotWriteThroughALink) {
+  std::ofstream(folder / "precious.txt") << "keep me";
+  fs::create_symlink(folder / "precious.txt", folder / "history.csv");
+  HistoryFile(folder / "history.csv", false);
+  EXPECT_EQ(content(folder / "precious.txt"), "keep me");
+}
+
+TEST_F(Events, AreOneRowEach) {
+  EventsFile file(folder / "events.csv");
+  file.write({});
+  file.write(
+      {{12, 3, 4, static_cast<int>(BreakMode::tension), 0.5, 1e-3}, {13, 1, 2, static_cast<int>(BreakMode::rolling), 0, 0}});
+  file.close();
+  EXPECT_EQ(content(folder / "events.csv"), "step,id_a,id_b,mode,x_m,y_m\n12,3,4,tension,0.5,0.001\n13,1,2,rolling,0,0\n");
+}
+
+TEST_F(Folder, IsMadeLockedAndClearedOfAnEarlierRun) {
+  fs::path const out = folder / "a" / "b";
+  {
+    OutputFolder const first(out, {});
+    std::ofstream(out / "run.json") << "{}";
+    std::ofstream(out / "notes.txt") << "mine";
+    EXPECT_EQ(code_of([&] { OutputFolder(out, {}); }), ExitCode::cannot_create) << "two runs in one folder";
+  }
+  OutputFolder const second(out, {});
+  EXPECT_FALSE(fs::exists(out / "run.json"));
+  EXPECT_TRUE(fs::exists(out / "notes.txt"));
+}
+
+TEST_F(Folder, KeepsTheSpecimenThatTheRunReads) {
+  fs::path const out = folder / "a";
+  { OutputFolder const first(out, {}); }
+  std::ofstream(out / "specimen.h5") << "x";
+  { OutputFolder const second(out, out / "specimen.h5"); }
+  EXPECT_TRUE(fs::exists(out / "specimen.h5"));
+  { OutputFolder const third(out, {}); }
+  EXPECT_FALSE(fs::exists(out / "specimen.h5"));
+}
+
+TEST_F(Folder, ThatBelongsToOthersIsRefused) {
+  std::ofstream(folder / "thesis.tex") << "x";
+  EXPECT_EQ(code_of([&] { OutputFolder(folder, {}); }), ExitCode::refused);
+  fs::create_directories(folder / "empty");
+  fs::create_directory_symlink(folder / "empty", folder / "link");
+  EXPECT_EQ(code_of([&] { OutputFolder(folder / "link", {}); }), ExitCode::refused);
+  EXPECT_EQ(code_of([&] { OutputFolder(folder / "link/", {}); }), ExitCode::refused);
+  EXPECT_EQ(code_of([&] { OutputFolder(folder / "thesis.tex", {}); }), ExitCode::cannot_create);
+  EXPECT_EQ(code_of([&] { OutputFolder(folder / "empty", {}); }), ExitCode::done);
+}
+
+TEST_F(Record, HoldsWhatARunNeedsToBeRepeated) {
+  RunRecord record;
+  record.version = "0.1.0";
+  record.input = parse_scene("[sample]\nparticles = 2000\n", "my.toml", "", {"run.seed=7"});
+  record.stages["generate"]["void_ratio"] = 0.24;
+  record.state_hash = 0xabcull;
+  record.exit_reason = "finished";
+  record.warnings = {"a \xff byte"};
+  write_run_record(folder / "run.json", record);
+  auto const json = nlohmann::json::parse(content(folder / "run.json"));
+  EXPECT_EQ(json["input"]["digest_xxh3_128"], text_digest("[sample]\nparticles = 2000\n"));
+  EXPECT_EQ(json["input"]["overrides"][0], "run.seed=7");
+  EXPECT_EQ(json["seed"], 7);
+  EXPECT_EQ(json["scene"]["sample"]["particles"], 2000);
+  EXPECT_EQ(json["scene"]["bond"]["composite"], "parallel");
+  EXPECT_EQ(json["state_hash"], "0x0000000000000abc");
+  EXPECT_EQ(json["exit"]["reason"], "finished");
+  EXPECT_EQ(json["program"]["backend"], ExecutionSpace::name());
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+}
+
+}  // namespace
+}  // namespace clathra

@@ -1,0 +1,295 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/scene_file.hpp"
+#include "io/scene_value.hpp"
+#include "io/schema.hpp"
+
+namespace clathra {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+LoadedScene load(std::string const& text, Texts const& overrides = {}) {
+  return parse_scene(text, "my.toml", "folder", overrides);
+}
+
+/// The messages of a scene that must be refused, one a line.
+std::string problems_of(std::string const& text, Texts const& overrides = {}, ExitCode code = ExitCode::bad_input) {
+  try {
+    load(text, overrides);
+  } catch (SceneProblems const& problems) {
+    EXPECT_EQ(problems.code(), code) << problems.what();
+    return problems.what();
+  }
+  ADD_FAILURE() << "taken:\n" << text;
+  return {};
+}
+
+void expect_problem(std::string const& text, std::string const& message, ExitCode code = ExitCode::bad_input) {
+  std::string const all = problems_of(text, {}, code);
+  EXPECT_NE(all.find(message), std::string::npos) << "got:\n" << all << "\nwanted: " << message;
+}
+
+std::string const sized = "[sample]\nparticles = 2000\n";
+
+TEST(SceneFile, StatesOnlyWhatDiffersFromTheDefaults) {
+  Scene const scene = load(sized + "[hydrate]\nsaturation = \"55 %\"\n[test]\nconfining_stress = \"2 MPa\"\n").scene;
+  EXPECT_EQ(scene.sample.particles, 2000);
+  EXPECT_EQ(scene.hydrate.saturation, 0.55);
+  EXPECT_EQ(scene.test.confining_stress, 2e6);
+  EXPECT_EQ(scene.test.inertial_number, Scene{}.test.inertial_number);
+  EXPECT_EQ(scene.grains.kn, Scene{}.grains.kn);
+}
+
+TEST(SceneFile, TakesQuantitiesNumbersChoicesAndTruthValues) {
+  Scene const scene = load(
+                          "sample.particles = 2e3\n"
+                          "[bond]\nlaw = 'constant_thickness'\ncomposite = \"memory\"\nafter_consolidation = true\n"
+                          "[hydrate]\nsaturation = 0.41\ntemperature = \"278.15 K\"\n[run]\nseed = 9223372036854775807\n")
+                          .scene;
+  EXPECT_EQ(scene.sample.particles, 2000);
+  EXPECT_EQ(scene.bond.law, BondLawKind::constant_thickness);
+  EXPECT_EQ(scene.bond.composite, Composite::memory);
+  EXPECT_TRUE(scene.bond.after_consolidation);
+  EXPECT_DOUBLE_EQ(scene.hydrate.temperature, 5);
+  EXPECT_EQ(scene.run.seed, 9223372036854775807u);
+}
+
+TEST(SceneFile, NamesPlaceCauseAndRemedyOfAProblem) {
+  expect_problem("[sample]\nparticles = 2000\n\n[run]\n# speed\n  seed = 3\ndt_saftey = 0.5\n",
+                 "my.toml:7:1: error: unknown key 'dt_saftey' in [run]; did you mean 'dt_safety'?");
+  expect_problem("[sample]\nparticles = 2000\n[test]\nconfining_stress   = \"1 mm\"\n",
+                 "my.toml:4:22: error: 'confining_stress' needs a pressure, got a length ('1 mm'); example: \"1 MPa\"");
+}
+
+TEST(SceneFile, ReportsAllProblemsAtOnceInTheOrderOfTheFile) {
+  std::string const all = problems_of(
+      "[sample]\nparticles = -5\nwidht = \"3 mm\"\n[hydrate]\nsaturation = 26\n[grain]\nkn = 3\n[test]\nconfining_stress = "
+      "true\n",
+      {"run.threads=many", "run.damping"});
+  Texts const wanted = {
+      "my.toml:2:13: error: 'particles' must lie between 16 and 1000000000, got -5",
+      "my.toml:3:1: error: unknown key 'widht' in [sample]; did you mean 'width'?",
+      "my.toml:5:14: error: 'saturation' must lie between 0 and 1, got 26; this looks like percent: write 0.26 or \"26 %\"",
+      "my.toml:6:2: error: unknown section [grain]; did you mean 'grains'?",
+      "my.toml:9:20: error: 'confining_stress' needs a pressure, got true",
+      "--set run.threads=many: error: 'run.threads' needs a number, got 'many'",
+      "--set run.damping: error: needs the form key=value"};
+  std::size_t at = 0;
+  for (std::string const& message : wanted) {
+    std::size_t const found = all.find(message, at);
+    ASSERT_NE(found, std::string::npos) << message << "\nin\n" << all;
+    at = found;
+  }
+}
+
+TEST(SceneFile, SuggestsTheNearestNameWhereverItIs) {
+  expect_problem(sized + "friction = 0.5\n", "unknown key 'friction' in [sample]; did you mean 'grains.friction'?");
+  expect_problem("particles = 2000\n", "unknown key 'particles' outside any section; did you mean 'sample.particles'?");
+  expect_problem(sized + "[bond]\ncomposite = \"paralel\"\n",
+                 "must be one of 'replace', 'parallel', 'memory', got 'paralel'; did you mean 'parallel'?");
+  EXPECT_EQ(problems_of(sized + "[run]\nqqqqqqqqqq = 1\n").find("did you mean"), std::string::npos);
+}
+
+TEST(SceneFile, AForgottenUnitIsFoundByTheRange) {
+  expect_problem(sized + "[test]\nconfining_stress = 1\n", "got 1 Pa; a number without unit is in Pa; example: \"1 MPa\"");
+  expect_problem(sized + "[hydrate]\ndensity = 0.9\n", "a number without unit is in kg/m^3");
+  expect_problem(sized + "[hydrate]\ntemperature = 5\n",
+                 "'temperature' needs a temperature, got a bare number ('5'), which could be degC or K");
+  expect_problem(sized + "[test]\naxial_strain = 15\n", "write 0.15 or \"15 %\"");
+}
+
+TEST(SceneFile, HostileValuesAreRefused) {
+  expect_problem("[sample]\nparticles = 9000000000000000000\n", "'particles' must lie between");
+  expect_problem("[sample]\nparticles = 9e18\n", "'particles' must lie between");
+  expect_problem("[sample]\nparticles = 2000.5\n", "'particles' needs a whole number");
+  expect_problem("[sample]\nparticles = 99999999999999999999\n", "my.toml:2");
+  expect_problem(sized + "[test]\nconfining_stress = \"1e400 Pa\"\n", "'confining_stress' is out of range");
+  expect_problem(sized + "[test]\nconfining_stress = 1e400\n", "my.toml:4");
+  expect_problem(sized + "[grains]\ndensity = \"-1 g/cm^3\"\n", "'density' must lie between");
+  expect_problem("[sample]\nwidth = \"1 km\"\nheight = \"1 km\"\n", "discs of this grading; between 16 and 1e9 are possible");
+  for (char const* const folder : {"..", "../..", "/", ".", "", "out/.."})
+    expect_problem(sized + "[output]\nfolder = \"" + folder + "\"\n", "'output.folder' must name a folder of its own");
+}
+
+TEST(SceneFile, TheGuardKeepsHostileTextFromTheParser) {
+  expect_problem(std::string((1 << 20) + 1, ' '), "my.toml: error: has 1048577 bytes");
+  expect_problem(sized + "# " + std::string(600, 'x') + "\n",
+                 "my.toml:3:513: error: the line has 602 bytes, at most 512 are allowed");
+  expect_problem(
+      "[sample]\nparticles = 2\xc2\xa0"
+      "000\n",
+      "my.toml:2:14: error: only ASCII characters are allowed outside comments");
+  expect_problem(std::string("[sample]\nparticles = 20\0 0\n", 24), "control characters");
+  expect_problem("[sample]\nvoid_ratio = nan\n", "my.toml:2:14: error: nan and inf are not allowed");
+  expect_problem("[sample]\nvoid_ratio = -inf\n", "nan and inf are not allowed");
+  expect_problem("[sample]\nfile = \"\"\"a\"\"\"\n", "multi-line");
+  expect_problem("[sample]\nfile = \"a\\\xff\"\n", "only ASCII");
+  EXPECT_EQ(load("# sable \xc3\xa0 la m\xc3\xa9thode, \xff nan\r\n" + sized + "layers = 7 # \"nan\" '''\r\n").scene.sample.layers,
+            7);
+  EXPECT_EQ(load(sized + "file = \"a#nan.h5\"\n").scene.sample.file, "folder/a#nan.h5");
+}
+
+TEST(SceneFile, DeeplyNestedAndWronglyShapedTextEndsInAMessage) {
+  std::string nested;
+  for (int i = 0; i < 200000; ++i) nested += "a.b.c\n";
+  problems_of(nested);
+  problems_of(sized + "layers = " + std::string(400, '[') + "\n");
+  expect_problem(sized + "layers = [5]\n", "'layers' needs one value, not a list or a date");
+  expect_problem(sized + "layers = 1979-05-27\n", "'layers' needs one value");
+  expect_problem(sized + "layers.deep = 5\n", "'layers' is one value, not a section");
+  expect_problem("sample = 5\n", "'sample' is a section");
+  expect_problem("[sample]\nparticles = 2000\nparticles = 3000\n", "my.toml:3");
+  expect_problem("[sample\n", "my.toml:1");
+  expect_problem("", "the size of the specimen is open");
+}
+
+TEST(SceneFile, OverridesWinOverTheFile) {
+  Scene const scene = load(sized, {"sample.particles=200000", "test.confining_stress=3 MPa", "bond.law=none",
+                                   "output.energy=true", "output.folder=\"out/a b\""})
+                          .scene;
+  EXPECT_EQ(scene.sample.particles, 200000);
+  EXPECT_EQ(scene.test.confining_stress, 3e6);
+  EXPECT_EQ(scene.bond.law, BondLawKind::none);
+  EXPECT_TRUE(scene.output.energy);
+  EXPECT_EQ(scene.output.folder, "out/a b");
+  EXPECT_NE(problems_of(sized, {"run.dt_saftey=1"})
+                .find("--set run.dt_saftey=1: error: unknown key 'run.dt_saftey'; did you mean 'dt_safety'?"),
+            std::string::npos);
+}
+
+TEST(SceneFile, AStrainRateReplacesTheDefaultInertialNumberButNotAStatedOne) {
+  Scene const scene = load(sized + "[test]\nstrain_rate = \"5 %/min\"\n").scene;
+  EXPECT_EQ(scene.test.strain_rate, 0.05 / 60);
+  EXPECT_EQ(scene.test.inertial_number, 0);
+  expect_problem(sized + "[test]\nstrain_rate = \"5 %/min\"\ninertial_number = 1e-4\n",
+                 "my.toml:4:15: error: give either 'test.inertial_number' or 'test.strain_rate', not both");
+  // An override of one replaces the other in the file; two overrides contradict each other.
+  EXPECT_EQ(load(sized + "[test]\ninertial_number = 1e-5\n", {"test.strain_rate=5 %/min"}).scene.test.inertial_number, 0);
+  EXPECT_EQ(load(sized + "[test]\nstrain_rate = 10\n", {"test.inertial_number=1e-5"}).scene.test.strain_rate, 0);
+  problems_of(sized, {"test.strain_rate=10", "test.inertial_number=1e-5"});
+  expect_problem(sized + "[test]\ninertial_number = 0\n", "one of 'test.inertial_number' and 'test.strain_rate' must be given");
+}
+
+TEST(SceneFile, ThreeOfFourFixTheSpecimen) {
+  std::string const box = "[sample]\nwidth = \"10 mm\"\nheight = \"20 mm\"\n";
+  EXPECT_NO_THROW(load(box));
+  EXPECT_NO_THROW(load(box + "particles = 8000\n"));
+  EXPECT_NO_THROW(load(box + "particles = 8000\nvoid_ratio = 0.22\n"));
+  expect_problem(box + "particles = 8000\nvoid_ratio = 0.22\n[grading]\nd50 = \"0.17 mm\"\n", "three of them fix the fourth");
+  expect_problem(box + "aspect_ratio = 3\n", "contradict each other");
+  EXPECT_DOUBLE_EQ(load("[sample]\nwidth = \"10 mm\"\n").scene.sample.height, 0.02);
+  expect_problem(box + "particles = 80000\n", "do not fit");
+}
+
+TEST(SceneFile, HydrateOutsideItsStabilityFieldIsRefusedUnlessAllowed) {
+  std::string const warm = sized + "[hydrate]\nsaturation = 0.55\ntemperature = \"12 degC\"\n";
+  expect_problem(
+      warm, "my.toml:5:15: error: hydrate is not stable at 12 degC and a pore pressure of 8 MPa: it dissociates above 9.78 degC");
+  LoadedScene const allowed = load(warm + "allow_unstable = true\n");
+  ASSERT_EQ(allowed.warnings.size(), 1u);
+  EXPECT_NO_THROW(load(sized + "[hydrate]\ntemperature = \"12 degC\"\n")) << "clean sand has no hydrate to be unstable";
+  EXPECT_NO_THROW(load(warm + "[bond]\nlaw = \"none\"\n"));
+}
+
+TEST(SceneFile, ASandTooFineForAnyBondIsRefused) {
+  expect_problem(sized + "[grading]\nd50 = \"10 um\"\n[hydrate]\nsaturation = 0.55\n",
+                 "my.toml:4:7: error: with d50 = 0.01 mm no bond has tensile strength");
+  EXPECT_NO_THROW(load(sized + "[grading]\nd50 = \"40 um\"\n[hydrate]\nsaturation = 0.55\n"));
+  EXPECT_NO_THROW(load(sized + "[grading]\nd50 = \"10 um\"\n"));
+}
+
+TEST(SceneFile, ReplaceAfterConsolidationIsRefusedUnlessForced) {
+  std::string const text = sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncomposite = \"replace\"\nafter_consolidation = true\n";
+  expect_problem(text, "my.toml:7:23: refused: composite 'replace' with 'after_consolidation'", ExitCode::refused);
+  EXPECT_EQ(load(text, {"run.force=true"}).warnings.size(), 1u);
+}
+
+TEST(SceneFile, FilesOfASceneAreFoundBesideItAndMissedWithTheirOwnCode) {
+  expect_problem("[sample]\ngenerator = \"file\"\n", "generator 'file' needs 'sample.file'");
+  expect_problem("[sample]\ngenerator = \"file\"\nfile = \"none.h5\"\n",
+                 "'sample.file' names a file that is not there: folder/none.h5", ExitCode::file_missing);
+  expect_problem(sized + "[grading]\nfile = \"none.csv\"\n", "'grading.file' names a file that is not there: folder/none.csv",
+                 ExitCode::file_missing);
+  EXPECT_THROW(load_scene("no/such/scene.toml"), FileProblem);
+
+  auto const folder = std::filesystem::temp_directory_path() / ("clathra_scene_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "broken.csv") << "d_mm,percent_finer\n0.1,0\n0.2,x\n";
+  std::ofstream(folder / "scene.toml") << sized << "[grading]\nfile = \"broken.csv\"\n";
+  try {
+    load_scene(folder / "scene.toml");
+    ADD_FAILURE() << "a broken grading was taken";
+  } catch (SceneProblems const& problems) {
+    EXPECT_EQ(problems.code(), ExitCode::bad_input);
+    EXPECT_NE(std::string(problems.what()).find("broken.csv:3"), std::string::npos) << problems.what();
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(SceneFile, KeysWithoutEffectAreWarnedOf) {
+  EXPECT_EQ(load(sized + "[bond]\ncomposite = \"memory\"\n").warnings.size(), 1u);
+  EXPECT_EQ(load(sized + "[hydrate]\nsaturation = 0.15\n").warnings.size(), 1u);
+  EXPECT_EQ(load(sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncritical_thickness = \"10 um\"\n").warnings.size(), 1u);
+  EXPECT_TRUE(load(sized).warnings.empty());
+}
+
+TEST(SceneFile, TheResolvedEchoLoadsToTheSameScene) {
+  LoadedScene const first = load(
+      "[sample]\nwidth = \"10.1 mm\"\n[hydrate]\nsaturation = 0.407\n[test]\nstrain_rate = \"5 %/min\"\n[grains]\nkn = "
+      "123456789.1\n"
+      "[output]\nfolder = \"a \\\"b\\\"\"\n");
+  std::string const echo = resolved_scene(first.scene, "elsewhere");
+  Scene const again = parse_scene(echo, "resolved.toml", "elsewhere").scene;
+  for (Key const& key : schema()) EXPECT_EQ(value_text(key, first.scene), value_text(key, again)) << key.name;
+}
+
+TEST(SceneFile, EveryExampleIsRight) {
+  int count = 0;
+  for (auto const& entry : std::filesystem::recursive_directory_iterator(CLATHRA_EXAMPLES)) {
+    if (entry.path().extension() != ".toml") continue;
+    LoadedScene const loaded = load_scene(entry.path());
+    EXPECT_TRUE(loaded.warnings.empty()) << entry.path() << ": " << loaded.warnings.front();
+    ++count;
+  }
+  EXPECT_GE(count, 17);
+}
+
+/// Counts the members of an aggregate: the most initialisers that it takes.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+template <class T, class... Members>
+consteval int member_count() {
+  if constexpr (requires { T{Members{}..., Anything{}}; })
+    return member_count<T, Members..., Anything>();
+  else
+    return sizeof...(Members);
+}
+
+TEST(Schema, HasAKeyForEveryFieldOfTheScene) {
+  int const fields = member_count<SampleScene>() + member_count<GrainScene>() + member_count<GradingScene>() +
+                     member_count<HydrateScene>() + member_count<BondScene>() + member_count<TestScene>() +
+                     member_count<RunScene>() + member_count<OutputScene>();
+  EXPECT_EQ(fields, static_cast<int>(schema().size()));
+  EXPECT_EQ(member_count<Scene>(), 8);
+}
+
+TEST(Schema, ItsKeysReachDifferentFieldsAndItsDefaultsAreAllowed) {
+  Scene const defaults;
+  for (Key const& key : schema()) {
+    EXPECT_FALSE(key.help.empty()) << key.name;
+    Scene scene;
+    std::string text = value_text(key, defaults);
+    if (text.front() == '"') text = text.substr(1, text.size() - 2);
+    EXPECT_NO_THROW(set_from_text(key, scene, text)) << key.name << " = " << text;
+  }
+}
+
+}  // namespace
+}  // namespace clathra

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "domain/units.hpp"
+
+namespace clathra {
+namespace {
+
+std::string refusal(std::string const& text, Dimension dimension) {
+  try {
+    parse_quantity(text, dimension);
+  } catch (std::invalid_argument const& problem) {
+    return problem.what();
+  }
+  return "taken";
+}
+
+TEST(Units, QuantitiesAreReadIntoSi) {
+  EXPECT_EQ(parse_quantity("1 MPa", Dimension::pressure), 1e6);
+  EXPECT_EQ(parse_quantity("0.1694 mm", Dimension::length), 0.1694e-3);
+  EXPECT_EQ(parse_quantity("5 degC", Dimension::temperature), 5);
+  EXPECT_EQ(parse_quantity("5 %/min", Dimension::rate), 0.05 / 60);
+  EXPECT_EQ(parse_quantity("0.9 g/cm^3", Dimension::density), 900);
+  EXPECT_EQ(parse_quantity("200 N/m", Dimension::line_force), 200);
+  EXPECT_EQ(parse_quantity("2 um", Dimension::length), 2e-6);
+  EXPECT_EQ(parse_quantity("26 %", Dimension::ratio), 0.26);
+  EXPECT_EQ(parse_quantity("0.26", Dimension::ratio), 0.26);
+  EXPECT_EQ(parse_quantity("1e6", Dimension::pressure), 1e6);
+  EXPECT_EQ(parse_quantity("10 bar", Dimension::pressure), 1e6);
+}
+
+TEST(Units, SpacesSignsAndExponentsMayBeWrittenAsUsual) {
+  EXPECT_EQ(parse_quantity("1MPa", Dimension::pressure), 1e6);
+  EXPECT_EQ(parse_quantity("  1.5e+0 \t kPa ", Dimension::pressure), 1500);
+  EXPECT_EQ(parse_quantity("+.5 mm", Dimension::length), 0.5e-3);
+  EXPECT_EQ(parse_quantity("-2 um", Dimension::length), -2e-6);
+  EXPECT_EQ(parse_quantity("3e8 N/m", Dimension::stiffness), parse_quantity("300 MPa", Dimension::stiffness));
+  EXPECT_EQ(parse_quantity("1 kg*m/s^2/m", Dimension::line_force), 1);
+}
+
+TEST(Units, TheSameQuantityGivesTheSameBitsInEveryUnit) {
+  EXPECT_EQ(parse_quantity("0.1694 mm", Dimension::length), parse_quantity("169.4 um", Dimension::length));
+  EXPECT_EQ(parse_quantity("0.1694 mm", Dimension::length), parse_quantity("1.694e-4", Dimension::length));
+  EXPECT_EQ(parse_quantity("0.9 g/cm^3", Dimension::density), parse_quantity("900 kg/m^3", Dimension::density));
+}
+
+TEST(Units, TemperaturesAreInCelsiusAndNeedTheirUnit) {
+  EXPECT_DOUBLE_EQ(parse_quantity("278.15 K", Dimension::temperature), 5);
+  EXPECT_NE(refusal("5", Dimension::temperature).find("degC or K"), std::string::npos);
+}
+
+TEST(Units, AWrongDimensionIsNamedWithAnExample) {
+  EXPECT_EQ(refusal("1 mm", Dimension::pressure), "needs a pressure, got a length ('1 mm'); example: \"1 MPa\"");
+  EXPECT_NE(refusal("5 min", Dimension::rate).find("got a time"), std::string::npos);
+  EXPECT_NE(refusal("2 kN", Dimension::line_force).find("got a force ('2 kN')"), std::string::npos);
+  EXPECT_NE(refusal("5 K/s", Dimension::temperature).find("something else"), std::string::npos);
+}
+
+TEST(Units, NonsenseIsRefusedAndNeverGuessed) {
+  for (char const* const text : {"",
+                                 " ",
+                                 "MPa",
+                                 "one MPa",
+                                 "1 Mpa",
+                                 "1 MPA",
+                                 "1,5 MPa",
+                                 "0x10 Pa",
+                                 "nan",
+                                 "inf",
+                                 "1e400 Pa",
+                                 "1e99999999999999999999 Pa",
+                                 "1 MPa MPa",
+                                 "1 /",
+                                 "1 m^",
+                                 "1 m^99",
+                                 "1 m^0",
+                                 "1 m//s",
+                                 "1 m*m*m*m*m*m*m*m*m*m",
+                                 "--1 m",
+                                 "1 \xc2\xb5m"})
+    EXPECT_NE(refusal(text, Dimension::pressure), "taken") << text;
+  EXPECT_LT(refusal(std::string(100000, 'x'), Dimension::length).size(), 200u);
+}
+
+TEST(Units, WhatIsWrittenReadsBackToTheSameBits) {
+  double const values[] = {0,         1,         -1, 0.1, 1.0 / 3, 1e6, 0.1694e-3, 2e-6, 8e6, 900, 1e-300, 1.7976931348623157e308,
+                           0.05 / 60, 123456.789};
+  for (double const value : values)
+    for (Dimension const dimension : {Dimension::ratio, Dimension::length, Dimension::pressure, Dimension::density,
+                                      Dimension::temperature, Dimension::rate, Dimension::stiffness, Dimension::line_force})
+      EXPECT_EQ(parse_quantity(format_quantity(value, dimension), dimension), value) << format_quantity(value, dimension);
+  EXPECT_EQ(format_quantity(1e6, Dimension::pressure), "1 MPa");
+  EXPECT_EQ(format_quantity(0.1694e-3, Dimension::length), "0.1694 mm");
+  EXPECT_EQ(format_quantity(5, Dimension::temperature), "5 degC");
+  EXPECT_EQ(format_quantity(0.26, Dimension::ratio), "0.26");
+}
+
+}  // namespace
+}  // namespace clathra
