@@ -8,6 +8,9 @@ target_compile_features(clathra_flags INTERFACE cxx_std_20)
 # be taken in another order). The two flags below do not change any result: they only drop errno and the floating-point
 # exception flags, which we do not read and which keep loops with sqrt and with selects from being vectorised.
 target_compile_options(clathra_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
+# GCC (12 at least) contracts neighbouring statements like x = a * b - c, y = d * e + f all the same: its vectoriser of
+# straight code makes one vfmaddsub of them and does not ask -ffp-contract. The test no_fma watches the machine code.
+target_compile_options(clathra_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
 target_compile_options(
   clathra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor

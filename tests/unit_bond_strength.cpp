@@ -225,6 +225,9 @@ TEST(BondStrength, LanesGiveTheBitsOfTheScalar) {
       double const alone_scale = compressive_strength(law, bond.width, bond.gap) + alone;
       ASSERT_TRUE(same_bits(lane(tension, l), alone));
       ASSERT_TRUE(same_bits(lane(scale, l), alone_scale));
+      BondStrength const exact = bond_strength(law, bond.width, bond.gap);  // side by side: here a compiler may fuse them
+      ASSERT_TRUE(same_bits(exact.tension, alone));
+      ASSERT_TRUE(same_bits(exact.compression + exact.tension, alone_scale));
       ASSERT_TRUE(same_bits(lane(of_shear, l), shear_slope(bond.gap)));
       ASSERT_TRUE(same_bits(lane(of_rolling, l), rolling_slope(bond.gap)));
       ASSERT_TRUE(same_bits(lane(length, l), moment_length(law, bond.width)));

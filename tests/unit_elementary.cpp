@@ -7,7 +7,7 @@
 namespace clathra {
 namespace {
 
-constexpr double accuracy = 2e-15;
+constexpr double accuracy = 1e-15;
 
 TEST(Elementary, LogarithmAgreesWithTheLibraryOverAllNormalNumbers) {
   Draw draw(1);
@@ -59,7 +59,7 @@ TEST(Elementary, PowerOfTheEnvelopeAgreesWithTheLibrary) {
   Draw draw(4);
   for (int n = 0; n < 200000; ++n) {
     double const base = draw.of_size(1e-3, 40);  // -ln x for 4e-18 < x < 0.999
-    ASSERT_TRUE(within(accuracy, power(base, 0.59), std::pow(static_cast<long double>(base), 0.59L))) << base;
+    ASSERT_TRUE(within(2e-15, power(base, 0.59), std::pow(static_cast<long double>(base), 0.59L))) << base;
   }
 }
 
@@ -77,7 +77,7 @@ TEST(Elementary, PowerKnowsTheExactCases) {
   EXPECT_EQ(power(1.0, 0.59), 1.0);
   EXPECT_EQ(power(7.3, 0.0), 1.0);
   EXPECT_TRUE(within(accuracy, power(2.0, 0.5), std::sqrt(2.0L)));
-  EXPECT_TRUE(within(accuracy, power(0x1p-52, 0.5), 0x1p-26L));
+  EXPECT_TRUE(within(18 * 4e-16, power(0x1p-52, 0.5), 0x1p-26L));
 }
 
 }  // namespace
