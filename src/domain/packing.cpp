@@ -13,7 +13,7 @@ namespace clathra {
 namespace {
 
 constexpr double loose_solid_fraction = 0.46;  // of the random placement
-constexpr double unsettled = 0.002;            // in void ratio: left for the settling of the whole specimen
+constexpr double unjammed = 0.04;              // in void ratio: how far above e_(i) a layer's compaction stops
 constexpr double slowing_range = 0.15;         // in void ratio: the wall slows down as the layers are about to jam
 constexpr double loose_skin = 0.25;            // in d50, while discs still fly
 
@@ -80,7 +80,7 @@ std::vector<double> random_radii(Grading const& grading, std::int64_t particles,
 PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress) {
   double const d50 = design.grading.d50();
   GenerationFriction knob;
-  if (design.void_ratio > 0.25) knob.shape_factor = 2;  // friction alone packs to about 0.25-0.27
+  knob.shape_factor = design.void_ratio > 0.28 ? 2 : 1;  // friction alone packs to about 0.25, with impacts to 0.24
   SimulationLaws const laws = generation_laws(scene, knob);
   Specimen specimen;
   specimen.right = design.width;
@@ -98,8 +98,8 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
     Simulation simulation(specimen, laws, loose_skin * d50);
     Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
-    compact(simulation, under_compaction_void_ratio(design.void_ratio, layer, layers) + unsettled, scene.bond.stress, speed,
-            stage, progress);
+    compact(simulation, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, scene.bond.stress, speed, stage,
+            progress);
     packed.disc_steps += simulation.steps() * simulation.discs();
     simulation.stop_discs();
     specimen = simulation.specimen();
