@@ -33,7 +33,12 @@ Real widest_gap(Specimen const& s, std::vector<std::size_t> const& place) {
   for (SpecimenContact const& c : s.contacts) {
     if (!is_bonded(c.equilibrium)) continue;
     std::size_t const a = place[static_cast<std::size_t>(c.id_a)], b = place[static_cast<std::size_t>(c.id_b)];
-    widest = std::max(widest, std::hypot(s.x[b] - s.x[a], s.y[b] - s.y[a]) - s.radius[a] - s.radius[b]);
+    double dx = s.x[b] - s.x[a], dy = s.y[b] - s.y[a];
+    if (s.periodic) {  // the nearest images
+      dx -= s.width() * std::round(dx / s.width());
+      dy -= s.height() * std::round(dy / s.height());
+    }
+    widest = std::max(widest, std::hypot(dx, dy) - s.radius[a] - s.radius[b]);
   }
   return widest;
 }
