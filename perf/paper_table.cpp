@@ -48,9 +48,19 @@ std::string read_text(std::string const& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The largest share of points within a straight band of the given width, over all directions.
-double best_band_share(std::vector<double> const& x, std::vector<double> const& y, double width) {
-  std::size_t best = 0;
+/// A straight band: points with `from` <= x cos(angle) + y sin(angle) <= `to`.
+struct Band {
+  double angle = 0, from = 0, to = 0;
+  std::size_t points = 0;
+  bool holds(double x, double y) const {
+    double const across = std::cos(angle) * x + std::sin(angle) * y;
+    return from <= across && across <= to;
+  }
+};
+
+/// The band of the given width that holds the most points, over all directions.
+Band best_band(std::vector<double> const& x, std::vector<double> const& y, double width) {
+  Band best;
   for (int degree = 0; degree < 180; ++degree) {
     double const angle = degree * 3.14159265358979 / 180, c = std::cos(angle), s = std::sin(angle);
     std::vector<double> across(x.size());
@@ -58,10 +68,28 @@ double best_band_share(std::vector<double> const& x, std::vector<double> const& 
     std::sort(across.begin(), across.end());
     for (std::size_t first = 0, last = 0; last < across.size(); ++last) {
       while (across[last] - across[first] > width) ++first;
-      best = std::max(best, last - first + 1);
+      if (last - first + 1 > best.points) best = {angle, across[first], across[last], last - first + 1};
     }
   }
-  return x.empty() ? 0 : static_cast<double>(best) / static_cast<double>(x.size());
+  return best;
+}
+
+/// The shares of points in the best band, and in it with the best band of what it leaves (a conjugate pair), as text.
+std::string band_shares(std::vector<double> const& x, std::vector<double> const& y, double width) {
+  if (x.empty()) return "-";
+  Band const first = best_band(x, y, width);
+  std::vector<double> rest_x, rest_y;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (first.holds(x[i], y[i])) continue;
+    rest_x.push_back(x[i]);
+    rest_y.push_back(y[i]);
+  }
+  Band const second = best_band(rest_x, rest_y, width);
+  double const all = static_cast<double>(x.size());
+  char text[48];
+  std::snprintf(text, sizeof text, "%.0f %% / %.0f %%", 100 * static_cast<double>(first.points) / all,
+                100 * static_cast<double>(first.points + second.points) / all);
+  return text;
 }
 
 double mean_between(Table const& h, std::string const& column, double from, double to) {
@@ -118,12 +146,10 @@ bool print_row(std::string const& folder, std::string& notes) {
   }
   double const d50 = json_number(record, "d50_m", 0.1694e-3);
   std::vector<std::string> const missed = misses(h, target);
-  std::printf(
-      "| %s | %.2f | %.2f | %.2f | %+.2f | %+.2f | %.1f | %.2f | %.3f | %.3f | %s |\n", folder.c_str(), q[peak] / 1e6,
-      100 * h.at("eps1")[peak], residual / 1e6, 100 * h.at("eps_v")[peak], 100 * h.at("eps_v")[last],
-      h.at("intact_initial_pct")[last], 100.0 * (1 - static_cast<double>(missed.size()) / static_cast<double>(last)),
-      100 * wall_contact, 100 * energy,
-      x.empty() ? "-" : (std::to_string(static_cast<int>(std::lround(100 * best_band_share(x, y, 25 * d50)))) + " %").c_str());
+  std::printf("| %s | %.2f | %.2f | %.2f | %+.2f | %+.2f | %.1f | %.2f | %.3f | %.3f | %s |\n", folder.c_str(), q[peak] / 1e6,
+              100 * h.at("eps1")[peak], residual / 1e6, 100 * h.at("eps_v")[peak], 100 * h.at("eps_v")[last],
+              h.at("intact_initial_pct")[last], 100.0 * (1 - static_cast<double>(missed.size()) / static_cast<double>(last)),
+              100 * wall_contact, 100 * energy, band_shares(x, y, 25 * d50).c_str());
   for (std::string const& line : missed) notes += "- " + folder + ": " + line + "\n";
   return true;
 }
@@ -139,7 +165,7 @@ int main(int argc, char** argv) {
       "| run | peak q [MPa] | at eps1 [%%] | residual q [MPa] | eps_v at peak [%%] | eps_v at end [%%] | intact at end [%%] | "
       "records with sigma3 within 1 %% [%%] | mean wall-contact difference [%%] | energy residual [%% of work] | post-peak "
       "breaks in a "
-      "25 d50 band |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "one / two bands of 25 d50 |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::string notes;
   bool complete = true;
   for (int k = 1; k < argc; ++k) complete = print_row(argv[k], notes) && complete;
