@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
   std::printf(
       "| run | peak q [MPa] | at eps1 [%%] | residual q [MPa] | eps_v at peak [%%] | eps_v at end [%%] | intact at end [%%] | "
       "records with sigma3 within 1 %% [%%] | mean wall-contact difference [%%] | energy residual [%% of work] | post-peak "
-      "breaks in a "
+      "breaks in "
       "one / two bands of 25 d50 |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::string notes;
   bool complete = true;

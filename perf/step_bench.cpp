@@ -28,7 +28,7 @@ struct Options {
   bool bonded = true;
   double seconds = 3;
   int repeat = 3;
-  double skin = 0.05;  // in d50
+  double skin = 0.1;  // in d50
 };
 
 Options read_options(int argc, char** argv) {
