@@ -1,0 +1,28 @@
+#pragma once
+/// Runs the program `clathra` as a user does.
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace clathra {
+
+struct CommandResult {
+  int code;            ///< exit code
+  std::string output;  ///< stdout and stderr together
+};
+
+/// @param arguments  as in a shell, after the program's name
+inline CommandResult run_clathra(std::string const& arguments) {
+  std::string const command = std::string(CLATHRA_BINARY) + " " + arguments + " 2>&1";
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  CommandResult result{-1, ""};
+  if (!pipe) return result;
+  std::array<char, 4096> buffer;
+  while (std::size_t const count = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), count);
+  result.code = WEXITSTATUS(::pclose(pipe));
+  return result;
+}
+
+}  // namespace clathra

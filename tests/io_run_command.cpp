@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "command.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(fs::path const& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A folder with a scene of a few hundred discs, sheared a little: about a second.
+class RunCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder);
+    std::ofstream(scene)
+        << "# a small one\n[sample]\nparticles = 300\n[hydrate]\nsaturation = \"55 %\"\n[test]\naxial_strain = \"0.5 %\"\n"
+           "[output]\nrecords = 20\nenergy = true\n";
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  CommandResult run(std::string const& name, std::string const& more = "") {
+    return run_clathra("run " + scene.string() + " --output " + (folder / name).string() + " " + more);
+  }
+  nlohmann::json record(std::string const& name) const { return nlohmann::json::parse(content(folder / name / "run.json")); }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_run_" + std::to_string(::getpid()));
+  fs::path const scene = folder / "small.toml";
+};
+
+TEST_F(RunCommand, LeavesEverythingThatARunPromises) {
+  CommandResult const result = run("out");
+  ASSERT_EQ(result.code, 0) << result.output;
+  for (char const* const name :
+       {"run.json", "input.toml", "resolved.toml", "history.csv", "events.csv", "specimen.h5", "final.h5"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_EQ(content(folder / "out" / "input.toml"), content(scene));
+  auto const json = record("out");
+  EXPECT_EQ(json["exit"]["code"], 0);
+  EXPECT_EQ(json["exit"]["reason"], "finished");
+  EXPECT_EQ(json["state_hash"].get<std::string>().size(), 18u);
+  EXPECT_GT(json["stages"]["shear"]["peak_q_Pa"].get<double>(), 1e5);
+  std::string const history = content(folder / "out" / "history.csv");
+  EXPECT_GE(std::count(history.begin(), history.end(), '\n'), 21);
+  EXPECT_NE(result.output.find("peak "), std::string::npos);
+}
+
+TEST_F(RunCommand, TheResolvedSceneAndTheKeptSpecimenGiveTheSameBits) {
+  ASSERT_EQ(run("first").code, 0);
+  std::string const again = " --output " + (folder / "second").string();
+  ASSERT_EQ(run_clathra("run " + (folder / "first" / "resolved.toml").string() + again).code, 0);
+  EXPECT_EQ(record("second")["state_hash"], record("first")["state_hash"]);
+  EXPECT_EQ(content(folder / "second" / "history.csv"), content(folder / "first" / "history.csv"));
+  std::string const kept = (folder / "first" / "specimen.h5").string();
+  ASSERT_EQ(run("third", "--set sample.generator=file --set sample.file=" + kept).code, 0);
+  EXPECT_EQ(record("third")["state_hash"], record("first")["state_hash"]);
+  EXPECT_FALSE(record("third")["input"]["specimen_digest_xxh3_128"].get<std::string>().empty());
+  EXPECT_FALSE(fs::exists(folder / "third" / "specimen.h5"));
+  // The specimen of the folder itself may be read; it stays.
+  ASSERT_EQ(run("first", "--set sample.generator=file --set sample.file=" + kept).code, 0);
+  EXPECT_TRUE(fs::exists(kept));
+}
+
+TEST_F(RunCommand, GenerateAndInfoShareTheSpecimenFile) {
+  fs::path const file = folder / "specimen.h5";
+  CommandResult const made = run_clathra("generate " + scene.string() + " -o " + file.string());
+  ASSERT_EQ(made.code, 0) << made.output;
+  ASSERT_EQ(run("out").code, 0);
+  std::string const hash = run_clathra("info --state-hash " + file.string()).output;
+  EXPECT_EQ(hash.size(), 19u) << hash;
+  EXPECT_EQ(run_clathra("info --state-hash " + (folder / "out" / "specimen.h5").string()).output, hash);
+  EXPECT_EQ(run_clathra("info --state-hash " + (folder / "out").string()).output,
+            record("out")["state_hash"].get<std::string>() + "\n");
+  CommandResult const info = run_clathra("info " + file.string());
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.output.find("discs              300\n"), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("void ratio         0.2"), std::string::npos) << info.output;
+  EXPECT_NE(run_clathra("info " + (folder / "out").string()).output.find("peak_q_Pa"), std::string::npos);
+}
+
+TEST_F(RunCommand, ADryRunWritesNothing) {
+  CommandResult const result = run("out", "--dry-run");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.output.find("time step"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(RunCommand, ClosedOrFullStandardStreamsChangeNoByteOfTheResults) {
+  ASSERT_EQ(run("first").code, 0);
+  std::string const program =
+      std::string(CLATHRA_BINARY) + " run " + scene.string() + " --output " + (folder / "second").string();
+  ASSERT_EQ(std::system((program + " <&- >&- 2>&-").c_str()), 0);
+  EXPECT_EQ(content(folder / "second" / "history.csv"), content(folder / "first" / "history.csv"));
+  ASSERT_EQ(std::system((program + " >/dev/full 2>/dev/full").c_str()), 0);
+  EXPECT_EQ(record("second")["state_hash"], record("first")["state_hash"]);
+}
+
+TEST_F(RunCommand, AFullDiskEndsWithTheFileAndItsCode) {
+  // A limit of 100 blocks of 512 bytes for each file stands for a full disk.
+  CommandResult const full = run_clathra("--version; ulimit -f 100; " + std::string(CLATHRA_BINARY) + " run " + scene.string() +
+                                         " --output " + (folder / "out").string() + " --set output.records=500");
+  EXPECT_EQ(full.code, 74) << full.output;
+  EXPECT_NE(full.output.find("out/"), std::string::npos) << full.output;
+  EXPECT_EQ(record("out")["exit"]["code"], 74);
+  for (auto const& entry : fs::directory_iterator(folder / "out"))
+    EXPECT_EQ(entry.path().string().find(".tmp-"), std::string::npos) << entry.path();
+}
+
+TEST_F(RunCommand, AFolderWithoutTheRightToWriteCannotBeUsed) {
+  fs::create_directories(folder / "closed");
+  ::chmod((folder / "closed").c_str(), 0500);
+  if (::geteuid() == 0)
+    EXPECT_EQ(run_clathra("run " + scene.string() + " --output /proc/out").code, 73);  // rights do not bind root
+  else
+    EXPECT_EQ(run("closed/out").code, 73);
+}
+
+/// A run in the background that takes long enough to be disturbed.
+class RunningCommand : public RunCommand {
+ protected:
+  void start() {
+    child = ::fork();
+    if (child != 0) return;
+    std::string const out = (folder / "out").string();
+    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) ::_exit(1);
+    ::execl(CLATHRA_BINARY, CLATHRA_BINARY, "run", scene.c_str(), "--output", out.c_str(), "--set", "test.axial_strain=0.2",
+            "--set", "output.records=4000", static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  /// Waits until history.csv has rows. @return false after 60 s
+  bool wait_for_rows() const {
+    for (int i = 0; i < 600; ++i) {
+      if (std::string const text = content(folder / "out" / "history.csv"); std::count(text.begin(), text.end(), '\n') > 3)
+        return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return false;
+  }
+  int finish() const {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  pid_t child = 0;
+};
+
+TEST_F(RunningCommand, CtrlCEndsItCleanly) {
+  start();
+  ASSERT_TRUE(wait_for_rows());
+  ::kill(child, SIGINT);
+  EXPECT_EQ(finish(), 130);
+  EXPECT_EQ(record("out")["exit"]["code"], 130);
+  EXPECT_NE(record("out")["exit"]["reason"].get<std::string>().find("stopped by Ctrl-C at an axial strain of"),
+            std::string::npos);
+  EXPECT_FALSE(record("out").contains("state_hash"));
+  std::string const history = content(folder / "out" / "history.csv");
+  EXPECT_EQ(history.back(), '\n');
+  EXPECT_FALSE(fs::exists(folder / "out" / "final.h5"));
+}
+
+TEST_F(RunningCommand, ASecondRunInItsFolderIsRefused) {
+  start();
+  ASSERT_TRUE(wait_for_rows());
+  CommandResult const second = run("out");
+  EXPECT_EQ(second.code, 73);
+  EXPECT_NE(second.output.find("another run is writing into this folder"), std::string::npos) << second.output;
+  EXPECT_EQ(record("out")["exit"]["reason"], "running");
+  ::kill(child, SIGTERM);
+  EXPECT_EQ(finish(), 130);
+}
+
+}  // namespace
+}  // namespace clathra
