@@ -87,6 +87,10 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   specimen.density = scene.grains.density;
   specimen.d50 = d50;
   PackedSpecimen packed;
+  ProgressCallback const counted = [&](Progress p) {
+    p.disc_steps += packed.disc_steps;  // of the layers before
+    return !progress || progress(p);
+  };
   double const speed = 0.5 * std::sqrt(scene.bond.stress / scene.grains.density);
   int const layers =
       static_cast<int>(std::min<std::int64_t>(scene.sample.layers, std::max<std::int64_t>(1, design.particles / 50)));
@@ -99,7 +103,7 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
     Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
     compact(simulation, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, scene.bond.stress, speed, stage,
-            progress);
+            counted);
     packed.disc_steps += simulation.steps() * simulation.discs();
     simulation.stop_discs();
     specimen = simulation.specimen();
@@ -110,7 +114,7 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   target.stress = scene.bond.stress;
   target.void_ratio = design.void_ratio;
   target.d50 = d50;
-  double const share = settle(simulation, scene, knob, target, progress);
+  double const share = settle(simulation, scene, knob, target, counted);
   packed.disc_steps += simulation.steps() * simulation.discs();
   packed.specimen = simulation.specimen();
   packed.specimen.stress = scene.bond.stress;

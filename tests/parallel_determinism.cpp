@@ -1,0 +1,103 @@
+/// Same bits for any thread count and any order of the input. ctest runs this file with one and with two threads; the golden
+/// values below are what makes the two comparable.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "domain/experiment.hpp"
+#include "domain/random.hpp"
+
+namespace clathra {
+namespace {
+
+/// A small hydrate-bearing specimen, sheared well past its peak.
+Scene small_test() {
+  Scene scene;
+  scene.sample.particles = 400;
+  scene.sample.void_ratio = 0.24;
+  scene.sample.layers = 2;
+  scene.hydrate.saturation = 0.55;
+  scene.test.axial_strain = 0.04;
+  scene.output.records = 40;
+  return scene;
+}
+
+Specimen const& small_specimen() {
+  static Specimen const specimen = generate_specimen(small_test(), {}).specimen;
+  return specimen;
+}
+
+/// The same specimen with its discs in another order.
+Specimen shuffled(Specimen specimen) {
+  std::vector<std::size_t> order(specimen.size());
+  std::iota(order.begin(), order.end(), 0);
+  shuffle(order, 7, 1);
+  Specimen const original = specimen;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    specimen.id[i] = original.id[order[i]];
+    specimen.x[i] = original.x[order[i]];
+    specimen.y[i] = original.y[order[i]];
+    specimen.angle[i] = original.angle[order[i]];
+    specimen.vx[i] = original.vx[order[i]];
+    specimen.vy[i] = original.vy[order[i]];
+    specimen.omega[i] = original.omega[order[i]];
+    specimen.radius[i] = original.radius[order[i]];
+  }
+  shuffle(specimen.contacts, 7, 2);
+  return specimen;
+}
+
+struct Outcome {
+  std::uint64_t hash = 0;
+  std::vector<HistoryRow> rows;
+};
+
+Outcome shear(Specimen const& specimen) {
+  BiaxialTest test(small_test(), specimen, {});
+  Outcome outcome;
+  while (!test.finished()) {
+    test.advance_to_next_record();
+    outcome.rows.push_back(test.record());
+  }
+  outcome.hash = test.state_hash();
+  return outcome;
+}
+
+Outcome const& sheared() {
+  static Outcome const outcome = shear(small_specimen());
+  return outcome;
+}
+
+/// Every column of a row as text that tells any two bit patterns apart.
+std::string exact_text(HistoryRow const& row) {
+  std::string text;
+  for_each_column(row, [&](char const* name, auto value) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, "%s=%a ", name, static_cast<double>(value));
+    text += buffer;
+  });
+  return text;
+}
+
+TEST(Determinism, ASpecimenShearedThroughBreakageHasTheGoldenState) {
+  EXPECT_GT(sheared().rows.back().broken_rolling, 100);
+  EXPECT_EQ(sheared().hash, 0x21c10cba5d8856bdULL) << std::hex << sheared().hash;
+}
+
+TEST(Determinism, TheOrderOfTheInputDoesNotShow) {
+  Outcome const other = shear(shuffled(small_specimen()));
+  EXPECT_EQ(other.hash, sheared().hash);
+  ASSERT_EQ(other.rows.size(), sheared().rows.size());
+  for (std::size_t i = 0; i < other.rows.size(); ++i)
+    EXPECT_EQ(exact_text(other.rows[i]), exact_text(sheared().rows[i])) << "record " << i;
+}
+
+TEST(Determinism, AChangedBitChangesTheHash) {
+  Specimen other = small_specimen();
+  other.x[0] = std::nextafter(other.x[0], 1.0);
+  SimulationLaws const laws;
+  EXPECT_NE(Simulation(other, laws, 1e-5).hash(), Simulation(small_specimen(), laws, 1e-5).hash());
+}
+
+}  // namespace
+}  // namespace clathra
