@@ -85,7 +85,8 @@ TEST(HexagonalLattice, CarriesCompressionWavesAtItsExactFrequency) {
 TEST(HexagonalLattice, CarriesShearWavesAtItsExactFrequency) {
   SimulationLaws const laws = lattice_laws();
   auto const [kn, ks, km] = bond_of(laws);
-  double const m = grain_mass(), inertia = m * grain_radius * grain_radius / 2, continuum = d * std::sqrt(3 * (kn + ks) / (8 * m));
+  double const m = grain_mass(), inertia = m * grain_radius * grain_radius / 2,
+               continuum = d * std::sqrt(3 * (kn + ks) / (8 * m));
   double error[2];
   for (int level = 0; level < 2; ++level) {
     int const columns = 16 << level;

@@ -98,8 +98,8 @@ inline Specimen shuffled(Specimen const& s, std::uint64_t seed) {
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   shuffle(order, seed, 7);
   for (std::size_t i = 0; i < order.size(); ++i) mixed.id[i] = s.id[order[i]];
-  for (auto field : {&Specimen::x, &Specimen::y, &Specimen::angle, &Specimen::vx, &Specimen::vy, &Specimen::omega,
-                     &Specimen::radius}) {
+  for (auto field :
+       {&Specimen::x, &Specimen::y, &Specimen::angle, &Specimen::vx, &Specimen::vy, &Specimen::omega, &Specimen::radius}) {
     for (std::size_t i = 0; i < order.size(); ++i) (mixed.*field)[i] = (s.*field)[order[i]];
   }
   shuffle(mixed.contacts, seed, 8);

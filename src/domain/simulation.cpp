@@ -25,7 +25,7 @@ void Simulation::step() {
   WallReactions const before = reactions_;
   compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, breaks_, losses_, faults_);
   if (!periodic()) {
-    reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, time_step);
+    reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, time_step, losses_, faults_);
     account_boundary_work(before);
     loading.steer(walls_, reactions_, time_step);
   }
@@ -35,6 +35,7 @@ void Simulation::step() {
 }
 
 void Simulation::rebuild() {
+  throw_if_unstable();  // discs that are nowhere have no cell
   Real const bonded_gap = widest_bonded_gap(particles_, rows_);
   Relocation const moved = sort_in_space(particles_, rows_, skin_);
   if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
@@ -91,7 +92,7 @@ void Simulation::account_boundary_work(WallReactions const& before) {
 void Simulation::evaluate_forces() {
   if (rebuild_pending_) rebuild();
   compute_forces(particles_, rows_, laws_.contact, 0, step_, breaks_, losses_, faults_);
-  if (!periodic()) reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, 0);
+  if (!periodic()) reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, 0, losses_, faults_);
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
@@ -134,7 +135,7 @@ Measures Simulation::measures() const { return measure(particles_, rows_, laws_.
 void Simulation::throw_if_unstable() const {
   auto const disc = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
   static constexpr char const* cause[fault_count] = {
-      "has a position or velocity that is not finite", "overlaps a neighbour by more than half the smaller radius",
+      "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than half the smaller radius",
       "has more neighbours than a row holds (the grading's size ratio is too large)"};
   for (int fault = 0; fault < fault_count; ++fault) {
     if (disc(fault) < 0) continue;

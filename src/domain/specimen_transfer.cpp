@@ -43,6 +43,16 @@ Real widest_gap(Specimen const& s, std::vector<std::size_t> const& place) {
   return widest;
 }
 
+/// @throws Diverged where a number of a disc is not finite: a neighbour search would have no place for it
+void require_finite(Specimen const& s) {
+  for (auto const* field : {&s.x, &s.y, &s.angle, &s.vx, &s.vy, &s.omega, &s.radius}) {
+    for (std::size_t i = 0; i < field->size(); ++i) {
+      if (!std::isfinite((*field)[i]))
+        throw Diverged("step 0: disc " + std::to_string(s.id[i]) + " has a position, velocity or radius that is not finite");
+    }
+  }
+}
+
 std::vector<std::size_t> places_by_id(std::vector<int> const& id) {
   std::vector<std::size_t> place(id.size());
   for (std::size_t i = 0; i < id.size(); ++i) place.at(static_cast<std::size_t>(id[i])) = i;
@@ -55,6 +65,7 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin)
     : laws_(laws), faults_(make_faults()), skin_(skin) {
   std::size_t const n = s.size();
   if (n == 0) throw std::invalid_argument("a specimen needs at least one disc");
+  require_finite(s);
   particles_ = allocate_particles(static_cast<int>(n));
   std::vector<double> inverse_mass(n), inverse_inertia(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -29,16 +29,16 @@ struct WallForces {
   Walls walls;
   GrainLaw law;  // a wall contact follows the grain law with the wall's constants
   Real dt;
+  EnergyLosses losses;
+  Faults faults;
 
   KOKKOS_FUNCTION void operator()(int c, Real* reactions) const {
     int const i = contacts.disc(c);
     bool const friction = contacts.shear.extent(0) > 0;
     for (int wall = 0; wall < wall_count; ++wall) {
       Real const overlap = wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i));
-      if (overlap <= 0) {
-        if (friction) contacts.shear(c, wall) = 0;
-        continue;
-      }
+      Real const old_shear = friction ? contacts.shear(c, wall) : 0;
+      if (overlap <= 0 && old_shear == 0) continue;
       bool const upright = wall == left || wall == right;
       Real const outward = wall == right || wall == top ? 1 : -1;  // the normal points from the disc into the wall
       Real const nx = upright ? outward : 0, ny = upright ? 0 : outward;
@@ -47,16 +47,26 @@ struct WallForces {
       ContactMotion<Real> const motion{overlap, -(dvx * nx + dvy * ny), ((dvy * nx - dvx * ny) - p.omega(i) * arm) * dt, 0,
                                        2 * p.radius(i)};
       Real const dashpot = law.damping_ratio > 0 ? dashpot_coefficient(law, p.inverse_mass(i), Real(0)) : 0;
-      ContactForce<Real> const force =
-          grain_contact<false>(law, motion, friction ? contacts.shear(c, wall) : Real(0), Real(0), dashpot);
+      ContactForce<Real> const force = grain_contact<false>(law, motion, old_shear, Real(0), dashpot);
       if (friction) contacts.shear(c, wall) = force.shear;
+      if (losses.sliding.extent(0) > 0) add_losses(i, motion, old_shear, force);
+      if (overlap > 0.5 * p.radius(i)) faults.report(Fault::deep_overlap, p.id(i));
       p.force_x(i) -= force.normal * nx + force.shear * ny;
       p.force_y(i) += force.shear * nx - force.normal * ny;
       p.torque(i) += arm * force.shear;
       reactions[wall] = force.normal;
       reactions[wall_count + wall] = force.shear * (upright ? -nx : ny);  // on the wall: opposite to the force on the disc
-      reactions[2 * wall_count + wall] = 1;
+      reactions[2 * wall_count + wall] = overlap > 0 ? 1 : 0;
     }
+  }
+
+  /// As between grains, but all of it on the disc's account.
+  KOKKOS_INLINE_FUNCTION void add_losses(int i, ContactMotion<Real> const& motion, Real old_shear,
+                                         ContactForce<Real> const& now) const {
+    Real const slid = motion.slip + (old_shear - now.shear) / law.shear_stiffness;
+    losses.sliding(i) += 0.5 * (old_shear + now.shear) * slid;
+    if (law.damping_ratio > 0)
+      losses.dashpot(i) += (now.normal - lane_max(law.normal_stiffness * motion.overlap, Real(0))) * (motion.approach * dt);
   }
 };
 
@@ -118,10 +128,11 @@ WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls
 }
 
 WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt) {
+                              Real dt, EnergyLosses const& losses, Faults const& faults) {
   GrainLaw const as_grain{law.normal_stiffness, law.shear_stiffness, law.friction, 0, law.damping_ratio};
   Real sums[reaction_count];
-  exact_sums<reaction_count>("wall_forces", contacts.size, WallForces{particles, contacts, walls, as_grain, dt}, sums);
+  exact_sums<reaction_count>("wall_forces", contacts.size, WallForces{particles, contacts, walls, as_grain, dt, losses, faults},
+                             sums);
   WallReactions reactions;
   for (int wall = 0; wall < wall_count; ++wall) {
     reactions.normal[wall] = sums[wall];

@@ -44,8 +44,9 @@ WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls
                                 WallContacts const& old, Field<int> const& new_index);
 
 /// Adds the wall forces to the discs near the walls and returns the reactions. A wall is a disc of infinite radius without
-/// rolling.
+/// rolling. A disc more than half a radius deep in a wall is a fault.
+/// @param losses  sliding and dashpot are written when their fields exist
 WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt);
+                              Real dt, EnergyLosses const& losses, Faults const& faults);
 
 }  // namespace clathra
