@@ -104,6 +104,7 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
 double settle(Simulation& simulation, Scene const& scene, GenerationFriction friction, SettlingTarget const& target,
               ProgressCallback const& progress) {
   constexpr int look = 10;                 // steps between looks at the stress
+  constexpr double loose_margin = 0.1;     // in void ratio
   constexpr double slowing_range = 0.004;  // in void ratio
   prepare_servo(simulation, target.stress, target.inertial_number, target.d50, scene.run.dt_safety);
   AxisDrive const servo_x = simulation.loading.x, servo_y = simulation.loading.y;
@@ -112,7 +113,10 @@ double settle(Simulation& simulation, Scene const& scene, GenerationFriction fri
   while (simulation.void_ratio() > target.void_ratio + 1e-5) {
     // Ever slower towards the target, so that it arrives at rest: the force network of a flowing assembly would collapse once it
     // stops.
-    double const slowed = full_rate * std::clamp((simulation.void_ratio() - target.void_ratio) / slowing_range, 0.05, 1.0);
+    // A loose assembly, far from touching all over, may close much faster.
+    double const above = simulation.void_ratio() - target.void_ratio;
+    double const hurry = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
+    double const slowed = full_rate * hurry * std::clamp(above / slowing_range, 0.05, 1.0);
     close_homogeneously(simulation, slowed, rate);
     rate = slowed;
     for (int n = 0; n < look; ++n) simulation.step();
