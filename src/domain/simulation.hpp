@@ -88,7 +88,7 @@ class Simulation {
   WallStress stress() const { return wall_stress(walls_, reactions_); }
   Real boundary_work() const { return boundary_work_; }
   Measures measures() const;
-  LossTotals losses() const { return total_losses(losses_, particles_.owned); }
+  LossTotals losses() const { return laws_.contact.ledger ? total_losses(losses_, particles_.owned) : LossTotals(); }
   std::uint64_t hash() const { return state_hash(particles_, rows_); }
   SimulationLaws const& laws() const { return laws_; }
   int broken_bonds() const;

@@ -40,7 +40,7 @@ void compute_forces(ParticleSoA const& particles, ContactRows const& rows, Conta
       [&](auto bond, auto rolling, auto dashpot, auto ledger) {
         ContactKernel<bond(), rolling(), dashpot(), ledger()> const kernel{particles, rows,   laws.grain, laws.bond, dt,
                                                                            step,      breaks, losses,     faults};
-        Kokkos::parallel_for("contact_forces", slices, kernel);
+        Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", slices, kernel);
       },
       bond_axis(laws.bond_kind), on(rows.features.rolling), on(laws.grain.damping_ratio > 0), on(laws.ledger));
 }
