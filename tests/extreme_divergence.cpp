@@ -1,0 +1,175 @@
+/// Runs that cannot go on are stopped within 100 steps, naming a disc and the step.
+#include <limits>
+
+#include "kernels/stability.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+
+/// A bonded packing between walls under compression.
+Simulation pressed_packing(double dt_share = 0.7) {
+  Scene const scene = hydrate_scene(0.55, Composite::replace);
+  Specimen s = disordered_patch(10, 10, 0.02);
+  bond_all(s, scene);
+  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
+  sim.time_step = dt_share * local_time_step(sim.particles(), sim.rows(), sim.laws().contact);
+  sim.loading.x = sim.loading.y = AxisDrive::at_rate(100);
+  return sim;
+}
+
+/// The text of the fault that stops a run within 100 steps.
+std::string fault_of(Simulation& sim) {
+  std::int64_t const first = sim.steps();
+  try {
+    while (sim.steps() < first + 100) sim.step();
+  } catch (Diverged const& fault) {
+    return fault.what();
+  }
+  return "none";
+}
+
+bool names(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
+
+TEST(Diverged, ByANumberThatIsNotFiniteInAnyFieldOfADisc) {
+  for (double bad : {nan, infinity, -infinity}) {
+    for (int field = 0; field < 5; ++field) {
+      Simulation sim = pressed_packing();
+      for (int n = 0; n < 150; ++n) sim.step();
+      ParticleSoA const& p = sim.particles();
+      Field<Real> const fields[] = {p.x, p.y, p.vx, p.vy, p.omega};
+      assign(fields[field], index_of(sim, 42), bad);
+      std::string const text = fault_of(sim);
+      EXPECT_TRUE(names(text, "step ")) << text;
+      EXPECT_TRUE(names(text, "disc ")) << text;
+      EXPECT_TRUE(names(text, "not finite")) << field << " " << text;
+    }
+  }
+}
+
+TEST(Diverged, ByAForceThatIsNotFiniteNamesTheDisc) {
+  Specimen s = two_discs(-1e-5);
+  Simulation sim(s, sand_laws(), 1e-5);
+  sim.time_step = 1e-7;
+  assign(sim.particles().vx, index_of(sim, 1), nan);
+  EXPECT_TRUE(names(fault_of(sim), "disc 1 has a position or velocity that is not finite"));
+}
+
+TEST(Diverged, BeforeTheFirstStepWhereTheSpecimenIsNotFinite) {
+  for (auto field : {&Specimen::x, &Specimen::y, &Specimen::vx, &Specimen::omega, &Specimen::radius}) {
+    Specimen s = disordered_patch(4, 4);
+    (s.*field)[7] = nan;
+    try {
+      Simulation const sim(s, sand_laws(), 1e-5);
+      ADD_FAILURE() << "went on";
+    } catch (Diverged const& fault) {
+      EXPECT_TRUE(names(fault.what(), "disc 7")) << fault.what();
+    }
+  }
+}
+
+TEST(Diverged, ByATimeStepThreeTimesTooLong) {
+  Simulation sim = pressed_packing(3 * 0.7);
+  std::string const text = fault_of(sim);
+  EXPECT_TRUE(names(text, "disc ")) << text;
+  EXPECT_TRUE(names(text, "step ")) << text;
+}
+
+TEST(Diverged, ByCoincidentDiscs) {
+  Specimen s = disordered_patch(5, 5);
+  s.x[11] = s.x[3];
+  s.y[11] = s.y[3];
+  Simulation sim(s, sand_laws(), 1e-5);
+  sim.time_step = 1e-7;
+  std::string const text = fault_of(sim);
+  EXPECT_TRUE(names(text, "disc 11 overlaps a neighbour")) << text;
+}
+
+TEST(Diverged, ByADiscFarOutsideTheWalls) {
+  for (double out : {2 * grain_radius, 1.0, 1e6, 1e12}) {
+    Specimen s = disordered_patch(5, 5);
+    s.x[6] = s.right + out;
+    Simulation sim(s, sand_laws(), 1e-5);
+    sim.time_step = 1e-7;
+    std::string const text = fault_of(sim);
+    EXPECT_TRUE(names(text, "disc 6 ")) << out << ": " << text;
+  }
+}
+
+TEST(Diverged, ByMoreNeighboursThanARowHolds) {
+  Specimen s = open_space();
+  add_disc(s, 0, 0, 40 * grain_radius);
+  for (int n = 0; n < 100; ++n) {
+    double const angle = 2 * pi * n / 100;
+    add_disc(s, 41 * grain_radius * std::cos(angle), 41 * grain_radius * std::sin(angle));
+  }
+  try {
+    Simulation const sim(s, sand_laws(), 1e-5);
+    ADD_FAILURE() << "went on";
+  } catch (Diverged const& fault) {
+    EXPECT_TRUE(names(fault.what(), "disc 0 has more neighbours than a row holds")) << fault.what();
+  }
+}
+
+/// Discs of 1 : 15 squeezed between walls, at rest in the end.
+TEST(ExtremeSizes, RestTogetherUnderStress) {
+  Specimen s = open_space();
+  double const large = 15 * grain_radius;
+  for (double x : {1.0, 3.0}) {
+    for (double y : {1.0, 3.0}) add_disc(s, 1.02 * x * large, 1.02 * y * large, large);
+  }
+  for (int n = 0; n < 9; ++n) {  // in the hole between them
+    double const x = 2.04 * large + (n % 3 - 1) * 2.2 * grain_radius, y = 2.04 * large + (n / 3 - 1) * 2.2 * grain_radius;
+    add_disc(s, x, y);
+  }
+  enclose(s);
+  SimulationLaws laws = sand_laws();
+  laws.motion.damping = 0.7;
+  Simulation sim(s, laws, 0.5 * grain_radius);
+  sim.time_step = 0.7 * local_time_step(sim.particles(), sim.rows(), sim.laws().contact);
+  sim.loading.x = sim.loading.y = AxisDrive::at_stress(1e5, 0.5);
+  for (int n = 0; n < 40000; ++n) sim.step();
+  sim.loading.x = sim.loading.y = AxisDrive::held();
+  for (int n = 0; n < 40000; ++n) sim.step();
+  sim.throw_if_unstable();
+  Measures const m = sim.measures();
+  EXPECT_NEAR(m.stress_area_xx / sim.area() / sim.stress().x, 1, 1e-3);
+  EXPECT_GE(m.touching, 4);
+  EXPECT_LT(m.kinetic, 1e-9 * (m.grain_energy + m.wall_energy));
+}
+
+TEST(SmallestSpecimen, OfOneDiscFallsAndBounces) {
+  Specimen s = disc_on_floor(-1e-6);
+  SimulationLaws laws = sand_laws();
+  laws.motion.gravity_y = -10;
+  Simulation sim(s, laws, 1e-7);
+  sim.time_step = 1e-7;
+  EXPECT_EQ(sim.measures().touching, 0);
+  EXPECT_GT(local_time_step(sim.particles(), sim.rows(), sim.laws().contact), 0);
+  EXPECT_EQ(largest_frequency(sim.particles(), sim.rows(), sim.laws().contact, sim.wall_contacts(), sim.walls(), laws.wall), 0);
+  double lowest = 1;
+  for (int n = 0; n < 9000; ++n) {  // 2 sqrt(2 h / g) = 0.9 ms
+    sim.step();
+    lowest = std::min(lowest, disc(sim, 0).y);
+  }
+  EXPECT_LT(lowest, grain_radius);
+  EXPECT_NEAR(disc(sim, 0).y - grain_radius, 1e-6, 0.02e-6);
+}
+
+TEST(SmallestSpecimen, OfNoDiscIsRefused) { EXPECT_THROW(Simulation(open_space(), sand_laws(), 1e-5), std::invalid_argument); }
+
+TEST(ScatteredDiscs, TakeNoMoreMemoryThanCloseOnes) {
+  Specimen s = two_discs(1e-8);
+  add_disc(s, 1e6, 1e6);
+  add_disc(s, -1e7, 3);
+  Simulation sim(s, sand_laws(), 1e-5);
+  sim.time_step = 1e-8;
+  for (int n = 0; n < 20; ++n) sim.step();
+  EXPECT_EQ(sim.measures().touching, 1);
+  EXPECT_LT(sim.bytes(), 20000u);
+}
+
+}  // namespace
+}  // namespace clathra

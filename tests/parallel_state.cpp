@@ -1,0 +1,149 @@
+/// The same bits whatever the threads, the order of the input and the way through a specimen. The packings are made by hand with
+/// + - * / and sqrt alone, so that their golden values do not lean on any libm.
+#include "kernels/stability.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+Specimen bonded_patch(Composite composite) {
+  Specimen s = disordered_patch(20, 20);
+  for (std::size_t i = 0; i < s.size(); ++i) {  // many contacts are loaded when the bonds form
+    s.x[i] *= 0.98;
+    s.y[i] *= 0.98;
+  }
+  enclose(s);
+  bond_all(s, hydrate_scene(0.41, composite));
+  return s;
+}
+
+/// Sheared through breakage.
+Simulation ready(Specimen const& s, Composite composite) {
+  SimulationLaws laws = bonded_laws(hydrate_scene(0.41, composite), s.critical_thickness);
+  laws.motion.damping = 0.3;
+  laws.wall.friction = 0.2;
+  laws.contact.grain.damping_ratio = 0.02;
+  Simulation sim(s, laws, 0.05 * grain_d50);
+  sim.time_step = 1e-7;
+  sim.loading.y = AxisDrive::at_rate(200);
+  sim.loading.x = AxisDrive::at_rate(-60);
+  return sim;
+}
+Simulation sheared(Specimen const& s, Composite composite, int steps = 3000) {
+  Simulation sim = ready(s, composite);
+  for (int n = 0; n < steps; ++n) sim.step();
+  return sim;
+}
+
+struct Golden {
+  Composite composite;
+  std::uint64_t hash;
+  int broken;
+};
+constexpr Golden golden[] = {{Composite::replace, 0xcd0fb531f7ca43bcULL, 211},
+                             {Composite::parallel, 0x931d29321efb401eULL, 476},
+                             {Composite::memory, 0x7bc8460515ada0adULL, 269}};
+
+TEST(State, AfterThousandsOfStepsThroughBreakageIsTheGoldenOne) {
+  for (Golden const& g : golden) {
+    Simulation const sim = sheared(bonded_patch(g.composite), g.composite);
+    EXPECT_GT(sim.rebuilds(), 5);
+    EXPECT_GT(sim.broken_bonds(), 20);
+    EXPECT_EQ(sim.broken_bonds(), g.broken);
+    EXPECT_EQ(sim.hash(), g.hash) << "composite " << static_cast<int>(g.composite) << ": 0x" << std::hex << sim.hash();
+  }
+}
+
+TEST(State, DoesNotKnowTheOrderOfTheInput) {
+  Specimen const s = bonded_patch(Composite::parallel);
+  Simulation const one = sheared(s, Composite::parallel);
+  for (std::uint64_t seed : {1, 2}) {
+    Simulation const other = sheared(shuffled(s, seed), Composite::parallel);
+    EXPECT_EQ(other.hash(), one.hash());
+    EXPECT_EQ(other.stress().x, one.stress().x);
+    EXPECT_EQ(other.stress().y, one.stress().y);
+    EXPECT_EQ(other.boundary_work(), one.boundary_work());
+    Measures const a = one.measures(), b = other.measures();
+    EXPECT_EQ(a.kinetic, b.kinetic);
+    EXPECT_EQ(a.grain_energy, b.grain_energy);
+    EXPECT_EQ(a.bond_energy, b.bond_energy);
+    EXPECT_EQ(a.stress_area_xy, b.stress_area_xy);
+    EXPECT_EQ(a.bond_area, b.bond_area);
+    auto const first = one.break_events(0), second = other.break_events(0);
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      EXPECT_EQ(first[k].step, second[k].step);
+      EXPECT_EQ(first[k].id_a, second[k].id_a);
+      EXPECT_EQ(first[k].id_b, second[k].id_b);
+      EXPECT_EQ(first[k].mode, second[k].mode);
+      EXPECT_EQ(first[k].x, second[k].x);
+    }
+  }
+}
+
+TEST(State, OfUnboundSandDoesNotKnowTheOrderOfTheInput) {
+  auto const run = [](Specimen const& s) {
+    SimulationLaws laws = sand_laws();
+    laws.motion.damping = 0.5;
+    Simulation sim(s, laws, 0.05 * grain_d50);
+    sim.time_step = 1e-7;
+    sim.loading.x = sim.loading.y = AxisDrive::at_rate(300);
+    for (int n = 0; n < 3000; ++n) sim.step();
+    EXPECT_GT(sim.measures().touching, 200);
+    return sim.hash();
+  };
+  Specimen const s = disordered_patch(14, 14);
+  EXPECT_EQ(run(s), run(shuffled(s, 5)));
+}
+
+TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
+  for (Composite composite : {Composite::replace, Composite::parallel}) {
+    Specimen const s = bonded_patch(composite);
+    Simulation original = ready(s, composite);
+    SimulationLaws laws = original.laws();
+    laws.wall.friction = 0;  // a specimen does not hold the shear of rough walls
+    original.set_laws(laws);
+    for (int n = 0; n < 1500; ++n) original.step();
+    AxisDrive const drive_x = original.loading.x, drive_y = original.loading.y;
+    original.loading.x = original.loading.y = AxisDrive::held();
+    original.step();  // the walls stand: a specimen holds no wall velocities
+    Simulation copy(shuffled(original.specimen(), 3), laws, 0.05 * grain_d50);
+    EXPECT_EQ(copy.hash(), original.hash());
+    // Rows are ordered by touch at the last search: both search at the same state.
+    original.request_rebuild();
+    original.evaluate_forces();
+    copy.time_step = original.time_step;
+    for (Simulation* sim : {&original, &copy}) {
+      sim->loading.x = drive_x;
+      sim->loading.y = drive_y;
+    }
+    for (int n = 0; n < 1500; ++n) {
+      original.step();
+      copy.step();
+    }
+    EXPECT_GT(copy.broken_bonds(), 0);
+    EXPECT_EQ(copy.hash(), original.hash());
+  }
+}
+
+TEST(State, EveryBitOfAFieldChangesItsHash) {
+  Specimen const s = bonded_patch(Composite::parallel);
+  SimulationLaws const laws = bonded_laws(hydrate_scene(0.41, Composite::parallel), s.critical_thickness);
+  std::uint64_t const hash = Simulation(s, laws, 1e-5).hash();
+  for (auto field : {&Specimen::x, &Specimen::y, &Specimen::angle, &Specimen::vx, &Specimen::vy, &Specimen::omega}) {
+    Specimen other = s;
+    (other.*field)[17] = std::nextafter((s.*field)[17], 1.0);
+    EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash);
+  }
+  Specimen other = s;
+  other.contacts[5].equilibrium = std::nextafter(s.contacts[5].equilibrium, 0.0);
+  EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash);
+  other = s;
+  other.contacts[5].bond_shear = 1e-12;
+  EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash);
+  other.contacts[5].bond_shear = -0.0;
+  EXPECT_EQ(Simulation(other, laws, 1e-5).hash(), hash);
+}
+
+}  // namespace
+}  // namespace clathra

@@ -1,0 +1,62 @@
+/// Servo walls on an elastic block.
+#include "domain/settling.hpp"
+#include "kernels/stability.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+/// A bonded lattice between walls, under an isotropic stress, that cannot break.
+Simulation elastic_block(double stress, double alpha) {
+  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Specimen s = hexagonal_patch(16, 18);
+  enclose(s);
+  bond_all(s, scene);
+  SimulationLaws laws = unbreakable(bonded_laws(scene, s.critical_thickness));
+  laws.motion.damping = alpha;
+  Simulation sim(s, laws, 0.1 * grain_d50);
+  prepare_servo(sim, stress, 1e-3, grain_d50, 0.6);
+  EXPECT_TRUE(hold_stress(sim, stress, 1e-3, 40000, {}, "test"));
+  return sim;
+}
+
+TEST(ServoWall, ThatMustMoveAtAConstantRateKeepsTheStress) {
+  double const stress = 1e6;
+  Simulation sim = elastic_block(stress, 0.3);
+  // Compressed along y, the block spreads along x at a constant rate.
+  double const rate = strain_rate_of(1e-4, stress, sand_density, grain_d50), width = sim.walls().width();
+  sim.loading.y = AxisDrive::at_rate(rate);
+  sim.loading.x.largest_speed = rate * width;
+  for (int n = 0; n < 2000; ++n) sim.step();  // the servo finds the rate
+  double const from = sim.walls().width();
+  double mean = 0, worst = 0, speed_early = 0, speed_late = 0;
+  constexpr int steps = 6000;
+  for (int n = 0; n < steps; ++n) {
+    sim.step();
+    mean += sim.stress().x / stress / steps;
+    worst = std::max(worst, std::abs(sim.stress().x / stress - 1));
+    (n < steps / 2 ? speed_early : speed_late) += sim.walls().velocity[right] / (steps / 2);
+  }
+  EXPECT_GT(sim.walls().width(), from);
+  EXPECT_NEAR(speed_late / speed_early, 1, 0.15);  // it does move at a constant rate
+  EXPECT_GT(speed_late, 0.02 * rate * width);
+  EXPECT_NEAR(mean, 1, 1e-3);
+  EXPECT_LT(worst, 0.01);
+  EXPECT_EQ(sim.broken_bonds(), 0);
+}
+
+TEST(ServoWall, NeverMovesFasterThanItsCap) {
+  Specimen s = hexagonal_patch(6, 6);
+  enclose(s, grain_radius);  // out of touch: all error, no contact
+  Simulation sim(s, sand_laws(), 0.1 * grain_d50);
+  sim.time_step = 1e-7;
+  sim.loading.x = sim.loading.y = AxisDrive::at_stress(1e6, 0.1);
+  for (int n = 0; n < 200; ++n) {
+    sim.step();
+    EXPECT_EQ(sim.walls().velocity[left], 0.1);
+    EXPECT_EQ(sim.walls().velocity[top], -0.1);
+  }
+}
+
+}  // namespace
+}  // namespace clathra
