@@ -80,7 +80,8 @@ class Simulation {
   Walls const& walls() const { return walls_; }
   PeriodicCell const& cell() const { return cell_; }
   bool periodic() const { return cell_.exists(); }
-  Real density() const { return density_; }  ///< of the grains [kg/m^3]
+  Real density() const { return density_; }                        ///< of the grains [kg/m^3]
+  Real critical_thickness() const { return critical_thickness_; }  ///< h_max of the bonds [m], 0 = none
   Real area() const { return periodic() ? cell_.width * cell_.height : walls_.width() * walls_.height(); }
   Real solid_area() const { return solid_area_; }
   Real void_ratio() const { return area() / solid_area_ - 1; }  ///< nominal

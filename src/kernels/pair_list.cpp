@@ -1,0 +1,115 @@
+#include "kernels/pair_list.hpp"
+
+#include "kernels/pair_state.hpp"
+
+namespace clathra {
+
+namespace {
+
+/// How many pairs disc i is the first of.
+struct CountPairs {
+  ParticleSoA p;
+  ContactRows rows;
+  ContactLaws laws;
+  Field<int> first;  ///< [owned + 1] on return: where the pairs of a disc begin
+
+  KOKKOS_FUNCTION void operator()(int i, int& sum, bool final) const {
+    if (final) first(i) = sum;
+    if (i == p.owned) return;
+    for (int k = 0; k < rows.length(i); ++k) {
+      PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
+      if (s.other > i && s.carries()) ++sum;
+    }
+  }
+};
+
+struct FillPairs {
+  ParticleSoA p;
+  ContactRows rows;
+  ContactLaws laws;
+  Field<int> first;
+  PairList list;
+
+  KOKKOS_FUNCTION void operator()(int i) const {
+    int at = first(i);
+    for (int k = 0; k < rows.length(i); ++k) {
+      PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
+      if (s.other <= i || !s.carries()) continue;
+      list.a(at) = i;
+      list.b(at) = s.other;
+      list.bonded(at) = s.bonded ? 1 : 0;
+      list.normal(at) = static_cast<float>(s.normal);
+      list.shear(at) = static_cast<float>(s.shear);
+      list.moment(at) = static_cast<float>(s.moment);
+      list.gap(at) = static_cast<float>(-s.overlap);
+      list.width(at) = static_cast<float>(s.width);
+      ++at;
+    }
+  }
+};
+
+struct SumLoads {
+  ParticleSoA p;
+  ContactRows rows;
+  ContactLaws laws;
+  Walls walls;
+  WallLaw wall_law;
+  DiscLoads loads;
+
+  KOKKOS_FUNCTION void operator()(int i) const {
+    Real xx = 0, yy = 0, xy = 0;
+    int carriers = 0, bonds = 0;
+    for (int k = 0; k < rows.length(i); ++k) {
+      PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
+      if (!s.carries()) continue;
+      Real const fx = s.normal * s.nx + s.shear * s.ny, fy = s.normal * s.ny - s.shear * s.nx;  // against the force on disc i
+      xx += s.arm * s.nx * fx;
+      yy += s.arm * s.ny * fy;
+      xy += 0.5 * s.arm * (s.nx * fy + s.ny * fx);
+      ++carriers;
+      bonds += s.bonded ? 1 : 0;
+    }
+    Real const gap[wall_count] = {p.x(i) - walls.position[left], walls.position[right] - p.x(i), p.y(i) - walls.position[bottom],
+                                  walls.position[top] - p.y(i)};
+    for (int wall = 0; wall < wall_count; ++wall) {
+      Real const overlap = p.radius(i) - gap[wall];
+      if (overlap <= 0) continue;
+      (wall == left || wall == right ? xx : yy) += wall_law.normal_stiffness * overlap * gap[wall];
+      ++carriers;
+    }
+    Real const area = pi * p.radius(i) * p.radius(i);
+    loads.stress_xx(i) = static_cast<float>(xx / area);
+    loads.stress_yy(i) = static_cast<float>(yy / area);
+    loads.stress_xy(i) = static_cast<float>(xy / area);
+    loads.carriers(i) = carriers;
+    loads.bonds(i) = bonds;
+  }
+};
+
+}  // namespace
+
+PairList list_pairs(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws) {
+  PairList list;
+  Field<int> const first("pair_list.first", static_cast<std::size_t>(particles.owned) + 1);
+  Kokkos::parallel_scan("count_pairs", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned + 1),
+                        CountPairs{particles, rows, laws, first}, list.size);
+  auto const size = static_cast<std::size_t>(list.size);
+  for (auto* field : {&list.a, &list.b, &list.bonded}) *field = Field<int>("pair_list", size);
+  for (auto* field : {&list.normal, &list.shear, &list.moment, &list.gap, &list.width}) *field = Field<float>("pair_list", size);
+  Kokkos::parallel_for("fill_pairs", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                       FillPairs{particles, rows, laws, first, list});
+  return list;
+}
+
+DiscLoads disc_loads(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Walls const& walls,
+                     WallLaw const& wall_law) {
+  auto const size = static_cast<std::size_t>(particles.owned);
+  DiscLoads loads;
+  for (auto* field : {&loads.stress_xx, &loads.stress_yy, &loads.stress_xy}) *field = Field<float>("disc_loads", size);
+  for (auto* field : {&loads.carriers, &loads.bonds}) *field = Field<int>("disc_loads", size);
+  Kokkos::parallel_for("disc_loads", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                       SumLoads{particles, rows, laws, walls, wall_law, loads});
+  return loads;
+}
+
+}  // namespace clathra
