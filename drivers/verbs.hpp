@@ -15,5 +15,9 @@ void add_check(CLI::App& program, Verb& chosen);
 void add_generate(CLI::App& program, Verb& chosen);
 void add_bond(CLI::App& program, Verb& chosen);
 void add_info(CLI::App& program, Verb& chosen);
+void add_export(CLI::App& program, Verb& chosen);
+void add_verify(CLI::App& program, Verb& chosen);
+void add_init(CLI::App& program, Verb& chosen);
+void add_schema(CLI::App& program, Verb& chosen);
 
 }  // namespace clathra
