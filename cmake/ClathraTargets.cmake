@@ -1,8 +1,8 @@
-# clathra_layer(NAME LINK targets...): the library of the current folder, from all its *.cpp. A folder without sources
+# clathra_layer(NAME LINK targets...): the library of the current folder, from all its *.cpp and those of its subfolders. A folder without sources
 # makes an INTERFACE library, so that what stands above it can be configured.
 function(clathra_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINK")
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(sources)
     add_library(${name} STATIC ${sources})
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
