@@ -58,9 +58,9 @@ Rgb ramp(double part) {
 }
 
 std::string ramp_css() {
-  std::string stops;
-  for (Rgb const colour : viridis) stops += "," + hex(colour);
-  return "linear-gradient(to right" + stops + ")";
+  std::string gradient = "linear-gradient(to right";
+  for (Rgb const colour : viridis) gradient += fmt::format(",{}", hex(colour));
+  return gradient + ")";
 }
 
 }  // namespace clathra

@@ -28,7 +28,7 @@ Plot plot_of(std::vector<RunResults> const& runs, std::string const& column, dou
     strains.include(plot.curves.back().x);
     values.include(plot.curves.back().y);
   }
-  plot.x = strains.axis(strain_axis);
+  plot.x = strains.exact_axis(strain_axis);
   plot.y = values.axis(std::move(axis));
   return plot;
 }
@@ -89,7 +89,7 @@ std::string mode_figure(RunResults const& run) {
     values.include(curve.y);
     plot.curves.push_back(std::move(curve));
   }
-  plot.x = strains.axis(strain_axis);
+  plot.x = strains.exact_axis(strain_axis);
   plot.y = values.axis("broken bonds [% of the first]");
   return figure(
       "What broke the bonds: " + run_label(run), svg(plot) + legend(plot.curves),
@@ -136,7 +136,7 @@ std::string energy_figure(RunResults const& run) {
   values.include(plot.curves[0].y);
   Range strains;
   strains.include(strain);
-  plot.x = strains.axis(strain_axis);
+  plot.x = strains.exact_axis(strain_axis);
   plot.y = values.axis("energy [J per metre]");
   plot.title = "Energy ledger, " + run_label(run);
   double const work = history["boundary_work_J"].back(), residual = history["residual_J"].back();

@@ -90,7 +90,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string dash_attribute(Stroke const& stroke) {
-  return stroke.dash.empty() ? "" : " stroke-dasharray=\"" + stroke.dash + "\"";
+  return stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
 }
 
 std::string line_entry(Stroke const& stroke, std::string const& name) {

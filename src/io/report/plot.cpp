@@ -53,7 +53,7 @@ std::string points(Scale const& scale, std::vector<double> const& x, std::vector
   std::string text;
   for (std::size_t const i : which) {
     double const px = scale.x(x[i]), py = scale.y(y[i]);
-    if (std::isfinite(px) && std::isfinite(py)) fmt::format_to(std::back_inserter(text), "{:.2f},{:.2f} ", px, py);
+    if (std::isfinite(px) && std::isfinite(py)) fmt::format_to(std::back_inserter(text), "{:.1f},{:.1f} ", px, py);
   }
   if (!text.empty()) text.pop_back();
   return text;
@@ -136,6 +136,8 @@ Axis Range::axis(std::string title) const {
   return {std::move(title), std::floor(low_ / step + 1e-9) * step, std::ceil((low_ + span) / step - 1e-9) * step};
 }
 
+Axis Range::exact_axis(std::string title) const { return {std::move(title), low_, high_ > low_ ? high_ : low_ + 1}; }
+
 double tick_step(double from, double to, int count) {
   double const rough = (to - from) / count, decade = std::pow(10, std::floor(std::log10(rough)));
   for (double const factor : {1.0, 2.0, 5.0})
@@ -144,7 +146,7 @@ double tick_step(double from, double to, int count) {
 }
 
 std::vector<double> ticks(double from, double to, int count) {
-  double const step = tick_step(from, to, count), first = std::ceil(from / step - 1e-9), last = std::floor(to / step + 1e-9);
+  double const step = tick_step(from, to, count), first = std::ceil(from / step - 1e-3), last = std::floor(to / step + 1e-3);
   std::vector<double> marks;
   for (double k = first; k <= last; ++k) marks.push_back(k == 0 ? 0 : k * step);
   return marks;

@@ -39,7 +39,8 @@ class Range {
  public:
   void include(double value);
   void include(std::vector<double> const& values);
-  Axis axis(std::string title) const;  ///< widened to round numbers
+  Axis axis(std::string title) const;        ///< widened to round numbers
+  Axis exact_axis(std::string title) const;  ///< ends where the values do
 
  private:
   double low_ = 0, high_ = 0;
