@@ -72,29 +72,41 @@ std::string intact_figure(std::vector<RunResults> const& runs) {
                 "broken bond does not heal.");
 }
 
-std::string mode_figure(RunResults const& run) {
-  HistoryTable const& history = run.history;
-  Plot plot;
-  Range strains, values;
-  plot.title = "Broken bonds by mode against axial strain, " + run_label(run);
+/// What broke the bonds of a run: a curve for each mode.
+std::vector<Curve> mode_curves(HistoryTable const& history) {
+  std::vector<Curve> curves;
   for (ModeStyle const& mode : mode_styles()) {
-    Curve curve{std::string("broken in ") + mode.name, scaled(history["eps1"], percent), {}, mode.stroke};
+    Curve curve{"", scaled(history["eps1"], percent), {}, mode.stroke};
     for (std::size_t i = 0; i < history.rows(); ++i) {
       double all = history["bonds_intact"][i];
       for (ModeStyle const& other : mode_styles()) all += history[other.column][i];
       curve.y.push_back(all > 0 ? history[mode.column][i] / all * percent : 0);
     }
-    plot.description += fmt::format("{}: {:.3g} % at the end. ", curve.name, curve.y.back());
-    strains.include(curve.x);
-    values.include(curve.y);
-    plot.curves.push_back(std::move(curve));
+    curve.name = fmt::format("{}: {:.3g} % at the end", mode.name, curve.y.back());
+    curves.push_back(std::move(curve));
   }
-  plot.x = strains.exact_axis(strain_axis);
-  plot.y = values.axis("broken bonds [% of the first]");
-  return figure(
-      "What broke the bonds: " + run_label(run), svg(plot) + legend(plot.curves),
-      "A bond breaks in tension, compression, shear, or rolling (bending by grains that roll over each other), whichever "
-      "of its strengths it spends most of at the moment it fails.");
+  return curves;
+}
+
+/// A figure for each run with bonds, on the same axes.
+std::string mode_figures(std::vector<RunResults> const& runs) {
+  Range strains, shares;
+  for (RunResults const& run : runs)
+    for (Curve const& curve : mode_curves(run.history)) strains.include(curve.x), shares.include(curve.y);
+  std::string figures;
+  for (RunResults const& run : runs) {
+    if (!run.has_bonds()) continue;
+    Plot plot;
+    plot.title = "Broken bonds by mode against axial strain, " + run_label(run);
+    plot.curves = mode_curves(run.history);
+    for (Curve const& curve : plot.curves) plot.description += curve.name + ". ";
+    plot.x = strains.exact_axis(strain_axis);
+    plot.y = shares.axis("broken bonds [% of the first]");
+    figures += figure("What broke the bonds: " + run_label(run), svg(plot) + legend(plot.curves),
+                      "A bond breaks in tension, compression, shear, or rolling (bending by grains that roll over each other), "
+                      "whichever of its strengths it spends most of at the moment it fails.");
+  }
+  return figures;
 }
 
 struct Account {
@@ -169,10 +181,7 @@ std::string run_label(RunResults const& run) {
 }
 
 std::string curve_figures(std::vector<RunResults> const& runs) {
-  std::string figures = stress_figure(runs) + volume_figure(runs) + intact_figure(runs);
-  for (RunResults const& run : runs)
-    if (run.has_bonds()) figures += mode_figure(run);
-  return figures;
+  return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs);
 }
 
 std::string energy_figures(std::vector<RunResults> const& runs) {

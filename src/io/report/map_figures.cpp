@@ -36,16 +36,25 @@ struct Shown {
 
 std::string strain_text(Snapshot const& s) { return fmt::format("ε₁ = {:.3g} %", s.eps1 * percent); }
 
-/// As high as `bytes` allow, but no higher than is of use: 24 pixels a grain, 1400 in all.
-std::string drawn(MapView view, double unit, std::size_t bytes, std::string const& alt,
-                  std::function<Canvas(MapView const&)> const& draw) {
-  constexpr double pixels_per_unit = 24, lowest = 120, highest = 1400, safety = 0.93;
-  double pixels = std::clamp(view.height / unit * pixels_per_unit, lowest, highest);
+/// A picture to be made: what of, how many pixels a grain is worth, and who draws it.
+struct Picture {
+  MapView view;
+  double grain;  ///< mean diameter [m]
+  std::string alt;
+  std::function<Canvas(MapView const&)> draw;
+  double pixels_per_grain = 24;
+};
+
+/// As high as `bytes` allow, but no higher than is of use, and at most 1400 pixels.
+std::string drawn(Picture const& wanted, std::size_t bytes) {
+  constexpr double lowest = 120, highest = 1400, safety = 0.93;
+  MapView view = wanted.view;
+  double pixels = std::clamp(view.height / wanted.grain * wanted.pixels_per_grain, lowest, highest);
   for (;;) {
     view.pixels = static_cast<int>(pixels);
-    Canvas const canvas = draw(view);
+    Canvas const canvas = wanted.draw(view);
     std::string const png = png_bytes(canvas);
-    if (png.size() <= bytes || pixels <= lowest) return picture(png, canvas, alt);
+    if (png.size() <= bytes || pixels <= lowest) return picture(png, canvas, wanted.alt);
     double const shrink = std::sqrt(static_cast<double>(bytes) / static_cast<double>(png.size()));
     pixels = std::max(lowest, pixels * std::min(safety, shrink));
   }
@@ -67,37 +76,44 @@ std::string mode_entries() {
   return entries;
 }
 
+/// The grains in the middle, at the start and at the end.
+std::string detail_pictures(Shown const& shown) {
+  constexpr double detail_grains = 13, pixels_per_grain = 55;
+  std::vector<Snapshot const*> ends{&shown.first()};
+  if (shown.snapshots.size() > 1) ends.push_back(&shown.last());
+  std::string pictures;
+  for (Snapshot const* const at : ends) {
+    MapView const view = detail_of(*at, detail_grains);
+    Picture const detail{view, mean_diameter(*at),
+                         fmt::format("Grains and bonds in the middle at {}, {}", strain_text(*at), run_label(shown.run)),
+                         [at](MapView const& v) { return detail_map(*at, v); }, pixels_per_grain};
+    pictures +=
+        titled(drawn(detail, shown.bytes), fmt::format("middle, {:.2g} mm wide, at {}", view.width * milli, strain_text(*at)));
+  }
+  return pictures;
+}
+
 std::string specimen_figure(Shown const& shown) {
   Snapshot const& s = shown.first();
-  std::string const label = run_label(shown.run);
-  double const unit = mean_diameter(s);
   auto const [least, most] = std::minmax_element(s.radius.begin(), s.radius.end());
-  std::string pictures =
-      titled(drawn(shown.view, unit, shown.bytes, "Grains of the specimen by size, " + label,
-                   [&](MapView const& view) { return grain_map(s, view); }),
-             fmt::format("{:.3g} mm wide, {:.3g} mm high", (s.right - s.left) * milli, (s.top - s.bottom) * milli));
-  constexpr double detail_diameters = 22;
-  std::vector<Snapshot const*> ends{&s};
-  if (shown.snapshots.size() > 1) ends.push_back(&shown.last());
-  for (Snapshot const* const at : ends) {
-    MapView const view = detail_of(*at, detail_diameters);
-    pictures += titled(drawn(view, unit, shown.bytes, "Grains and bonds in the middle of the specimen, " + label,
-                             [&](MapView const& v) { return detail_map(*at, v); }),
-                       fmt::format("middle, {:.2g} mm wide, at {}", view.width * milli, strain_text(*at)));
-  }
+  Picture const grains{shown.view, mean_diameter(s), "Grains of the specimen by size, " + run_label(shown.run),
+                       [&](MapView const& view) { return grain_map(s, view); }};
+  std::string const whole =
+      titled(drawn(grains, shown.bytes), fmt::format("{:.3g} mm wide, {:.3g} mm high, at {}", (s.right - s.left) * milli,
+                                                     (s.top - s.bottom) * milli, strain_text(s)));
   std::string entries = patch_entry(map_colours::grain, "grain");
-  if (shown.run.has_bonds())
-    entries += patch_entry(map_colours::hydrate, "hydrate bond") + patch_entry(colours::dark, "intact") + mode_entries();
-  std::string caption = fmt::format("Left: the {} discs at the start of the shear, coloured by their size. ", s.x.size());
-  caption += "The details show the grains in the middle of the specimen";
-  if (shown.run.has_bonds())
-    caption += ", with each intact bond in its true width, a line on each bond that holds, and a coloured mark where one broke";
-  return figure(
-      "The specimen",
-      strip(pictures) +
-          colour_bar("diameter", fmt::format("{:.3g} mm", 2e3 * double(*least)), fmt::format("{:.3g} mm", 2e3 * double(*most))) +
-          legend(entries),
-      caption + ".", true);
+  std::string caption = fmt::format(
+      "The {} discs at the start of the shear, coloured by their size, and the grains in the middle of the specimen", s.x.size());
+  if (shown.run.has_bonds()) {
+    entries += patch_entry(map_colours::hydrate, "hydrate") + patch_entry(colours::dark, "bond that holds") + mode_entries();
+    caption +=
+        ". Hydrate is drawn in the width of its bond, with a line on each bond that holds and a coloured mark where one broke";
+  }
+  std::string const size_bar = colour_bar("diameter", fmt::format("{:.3g} mm", 2 * milli * double(*least)),
+                                          fmt::format("{:.3g} mm", 2 * milli * double(*most)));
+  return figure("The specimen",
+                strip(whole + "<div class=\"stack\">" + detail_pictures(shown) + "</div>") + size_bar + legend(entries),
+                caption + ".", true);
 }
 
 std::string bond_figure(Shown const& shown) {
@@ -105,9 +121,10 @@ std::string bond_figure(Shown const& shown) {
   std::string pictures;
   for (Snapshot const& s : shown.snapshots) {
     auto const broken = std::count_if(s.state.begin(), s.state.end(), [](std::uint8_t state) { return state > std::uint8_t{1}; });
-    pictures += titled(drawn(shown.view, mean_diameter(s), shown.bytes,
-                             fmt::format("Intact and broken bonds at {}, {}", strain_text(s), run_label(shown.run)),
-                             [&](MapView const& view) { return bond_map(s, view); }),
+    pictures += titled(drawn({shown.view, mean_diameter(s),
+                              fmt::format("Intact and broken bonds at {}, {}", strain_text(s), run_label(shown.run)),
+                              [&](MapView const& view) { return bond_map(s, view); }},
+                             shown.bytes),
                        fmt::format("{}, {} broken", strain_text(s), broken));
   }
   return figure("Bonds", strip(pictures) + legend(patch_entry(colours::grey, "intact bond") + mode_entries()),
@@ -118,9 +135,10 @@ std::string bond_figure(Shown const& shown) {
 
 std::string force_figure(Shown const& shown) {
   Snapshot const& s = shown.snapshots[shown.peak];
-  std::string const image = drawn(shown.view, mean_diameter(s), shown.bytes,
-                                  fmt::format("Normal forces at {}, {}", strain_text(s), run_label(shown.run)),
-                                  [&](MapView const& view) { return force_map(s, view); });
+  std::string const image =
+      drawn({shown.view, mean_diameter(s), fmt::format("Normal forces at {}, {}", strain_text(s), run_label(shown.run)),
+             [&](MapView const& view) { return force_map(s, view); }},
+            shown.bytes);
   std::string entries =
       patch_entry(map_colours::pressing, "pressing, above the mean") + patch_entry(map_colours::weak, "pressing, below the mean");
   if (shown.run.has_bonds()) entries += patch_entry(map_colours::pulling, "pulling");
@@ -145,9 +163,10 @@ std::string strain_figure(Shown const& shown) {
   std::vector<float> const values = shear_strain(s);
   double const most = upper_end(values);
   if (!(most > 0)) return "";
-  std::string const image = drawn(shown.view, mean_diameter(s), shown.bytes,
-                                  fmt::format("Shear strain at {}, {}", strain_text(s), run_label(shown.run)),
-                                  [&](MapView const& view) { return value_map(s, values, most, view); });
+  std::string const image =
+      drawn({shown.view, mean_diameter(s), fmt::format("Shear strain at {}, {}", strain_text(s), run_label(shown.run)),
+             [&](MapView const& view) { return value_map(s, values, most, view); }},
+            shown.bytes);
   return figure(
       "Where it sheared",
       strip(titled(image, strain_text(s))) + colour_bar("shear strain", "0 %", fmt::format("{:g} % and more", most * percent)),

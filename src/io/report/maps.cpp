@@ -99,7 +99,7 @@ Canvas detail_map(Snapshot const& s, MapView const& view) {
     ContactState const state = state_of(s, k);
     if (state == ContactState::contact) continue;
     Branch const at = Branch(s, k).middle_half();  // so that pairs stay apart
-    draw(canvas, view, at, is_broken(state) ? 4 : 2.5, is_broken(state) ? state_colour(state) : colours::dark);
+    draw(canvas, view, at, is_broken(state) ? 6 : 2.5, is_broken(state) ? state_colour(state) : colours::dark);
   }
   return canvas;
 }

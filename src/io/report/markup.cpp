@@ -44,8 +44,10 @@ figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-w
 .bar span{display:flex;justify-content:space-between}
 .strip{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,210px),1fr));gap:.9rem}
 .strip>div{min-width:0}
+.stack{display:grid;gap:.9rem;align-content:start}
 .strip p{margin:.3rem 0 0;font-size:.9rem;text-align:center}
 .strip img,.strip .rose{display:block;width:100%;height:auto;max-height:88vh;object-fit:contain}
+.strip .stack img{max-height:42vh}.strip .rose{max-height:26rem}
 @media(max-width:520px){.strip{grid-template-columns:repeat(auto-fit,minmax(150px,1fr))}figure{padding:.6rem .55rem}
 th,td{padding:.3rem .45rem}}
 @media print{body{max-width:none}.beside{grid-template-columns:1fr 1fr}}

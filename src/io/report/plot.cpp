@@ -97,11 +97,18 @@ std::vector<double> axis_ticks(Axis const& axis, int count) {
   return marks;
 }
 
+/// Of the marks of a logarithmic axis those with the digits 1, 2, 3 and 5 have room for their number.
+bool is_labelled(double mark) {
+  long const digit = std::lround(mark / std::pow(10, std::floor(std::log10(mark) + 1e-9)));
+  return digit == 1 || digit == 2 || digit == 3 || digit == 5;
+}
+
 std::string axes(Scale const& scale) {
   auto const& [left, top, width, height] = scale.frame;
   std::string grid, labels;
   for (double const mark : axis_ticks(scale.plot.x, 6)) {
     grid += fmt::format("<path d=\"M{0:.2f} {1:.2f}v{2:.2f}\"/>", scale.x(mark), top, height);
+    if (scale.plot.x.logarithmic && !is_labelled(mark)) continue;
     labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{:.4g}</text>", scale.x(mark),
                           top + height + 17, mark);
   }
