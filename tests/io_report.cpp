@@ -206,6 +206,24 @@ TEST_F(Report, FindsCohesionAndFrictionAngleOfTwoConfiningStresses) {
   EXPECT_EQ(page_on({runs[0], made("other", other)}).find("Mohr"), std::string::npos) << "another saturation is another material";
 }
 
+TEST_F(Report, DrawsCohesionAndFrictionAngleAgainstTheSaturation) {
+  std::vector<fs::path> runs;
+  for (double const saturation : {0.0, 0.26, 0.55})
+    for (double const sigma3 : {1e6, 2e6}) {
+      MadeUpTest test;
+      test.saturation = saturation;
+      test.sigma3 = sigma3;
+      test.peak_q = failure_stress(2e6 * saturation, 0.5, sigma3) - sigma3;
+      test.residual_q = test.peak_q / 2;
+      runs.push_back(made(std::to_string(saturation) + "-" + std::to_string(sigma3), test));
+    }
+  auto const curves = curves_of(page_on(runs), "Cohesion against hydrate saturation");
+  ASSERT_EQ(curves.size(), 2u);
+  ASSERT_EQ(curves[0].size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(curves[0][i].second, 2 * curves[0][i].first / 100, 0.01) << i;
+  EXPECT_NEAR(curves[0][2].first, 55, 0.2);
+}
+
 TEST(ReportEnvelope, IsTheLeastSquaresLineAndKnowsWhenThereIsNone) {
   std::vector<FailureStress> tests;
   for (double const sigma3 : {0.5e6, 1e6, 2e6, 4e6}) tests.push_back({failure_stress(0.3e6, 0.5, sigma3), sigma3});

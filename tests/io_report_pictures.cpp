@@ -4,12 +4,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <random>
 
 #include "io/report/colours.hpp"
 #include "io/report/fabric.hpp"
 #include "io/report/grading_figure.hpp"
 #include "io/report/map_figures.hpp"
 #include "io/report/maps.hpp"
+#include "io/report/markup.hpp"
 #include "io/report/png.hpp"
 #include "io/report/report.hpp"
 #include "io/report/strain_field.hpp"
@@ -126,6 +128,19 @@ TEST(ReportPictures, KeepTheirFlatColoursWhenThereAreMoreThanAPaletteHolds) {
   EXPECT_LT(error, 8);
 }
 
+TEST(ReportPage, WritesNumbersForPeople) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(-1234567), "−1,234,567");
+  EXPECT_EQ(grouped(NAN), "–");
+}
+
+TEST(ReportPage, MakesTextHarmless) {
+  EXPECT_EQ(escaped("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
+  EXPECT_EQ(escaped("\xff\x01 σ₃ \xe2\x82"), "?? σ₃ ??");
+}
+
 TEST(ReportPictures, AreTextInThePage) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
@@ -210,7 +225,13 @@ TEST(ReportSnapshots, AreThoseAtTheStartThePeakAndTheEnd) {
 TEST(ReportLong, OfAMillionDiscsIsWrittenInHalfAMinute) {
   fs::path const folder = fs::temp_directory_path() / ("clathra_report_million_" + std::to_string(::getpid()));
   write_made_up_run(folder, {});
-  write_made_up_snapshots(folder, made_up_lattice(700, 1430), 0.2);
+  Snapshot grains = made_up_lattice(700, 1430);
+  std::mt19937 random(1);  // no two grains alike, which makes large pictures
+  std::uniform_real_distribution<float> any(0.3f, 1.0f);
+  for (float& radius : grains.radius) radius *= any(random);
+  for (float& force : grains.normal_force) force = any(random) * any(random) - 0.3f;
+  for (std::uint8_t& state : grains.state) state = std::uint8_t(random() % contact_state_count);
+  write_made_up_snapshots(folder, grains, 0.2);
   auto const start = std::chrono::steady_clock::now();
   write_report({folder}, folder / "report.html");
   std::chrono::duration<double> const seconds = std::chrono::steady_clock::now() - start;

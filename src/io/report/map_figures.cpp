@@ -102,8 +102,9 @@ std::string specimen_figure(Shown const& shown) {
       titled(drawn(grains, shown.bytes), fmt::format("{:.3g} mm wide, {:.3g} mm high, at {}", (s.right - s.left) * milli,
                                                      (s.top - s.bottom) * milli, strain_text(s)));
   std::string entries = patch_entry(map_colours::grain, "grain");
-  std::string caption = fmt::format(
-      "The {} discs at the start of the shear, coloured by their size, and the grains in the middle of the specimen", s.x.size());
+  std::string caption =
+      fmt::format("The {} discs at the start of the shear, coloured by their size, and the grains in the middle of the specimen",
+                  grouped(static_cast<double>(s.x.size())));
   if (shown.run.has_bonds()) {
     entries += patch_entry(map_colours::hydrate, "hydrate") + patch_entry(colours::dark, "bond that holds") + mode_entries();
     caption +=
@@ -125,7 +126,7 @@ std::string bond_figure(Shown const& shown) {
                               fmt::format("Intact and broken bonds at {}, {}", strain_text(s), run_label(shown.run)),
                               [&](MapView const& view) { return bond_map(s, view); }},
                              shown.bytes),
-                       fmt::format("{}, {} broken", strain_text(s), broken));
+                       fmt::format("{}, {} broken", strain_text(s), grouped(static_cast<double>(broken))));
   }
   return figure("Bonds", strip(pictures) + legend(patch_entry(colours::grey, "intact bond") + mode_entries()),
                 "Each line is a bond between two grains: thin and grey while it holds, thick and coloured by what broke it "
@@ -136,7 +137,7 @@ std::string bond_figure(Shown const& shown) {
 std::string force_figure(Shown const& shown) {
   Snapshot const& s = shown.snapshots[shown.peak];
   std::string const image =
-      drawn({shown.view, mean_diameter(s), fmt::format("Normal forces at {}, {}", strain_text(s), run_label(shown.run)),
+      drawn({view_of({&s}), mean_diameter(s), fmt::format("Normal forces at {}, {}", strain_text(s), run_label(shown.run)),
              [&](MapView const& view) { return force_map(s, view); }},
             shown.bytes);
   std::string entries =
@@ -164,7 +165,7 @@ std::string strain_figure(Shown const& shown) {
   double const most = upper_end(values);
   if (!(most > 0)) return "";
   std::string const image =
-      drawn({shown.view, mean_diameter(s), fmt::format("Shear strain at {}, {}", strain_text(s), run_label(shown.run)),
+      drawn({view_of({&s}), mean_diameter(s), fmt::format("Shear strain at {}, {}", strain_text(s), run_label(shown.run)),
              [&](MapView const& view) { return value_map(s, values, most, view); }},
             shown.bytes);
   return figure(
@@ -191,8 +192,8 @@ std::string rose_figure(Shown const& shown) {
           "there, both relative to the mean over all directions (ring 1), at {}. Dashed: at the start. Red line: the fit "
           "1 + a cos 2(θ − θₐ), with a = {:.2f} at θₐ = {:.0f}° for the contacts and a = {:.2f} at {:.0f}° for the forces; "
           "90° is vertical, the direction of σ₁.",
-          now.pairs, strain_text(s), now.normal_anisotropy, now.normal_direction * to_degrees, now.force_anisotropy,
-          now.force_direction * to_degrees));
+          grouped(static_cast<double>(now.pairs)), strain_text(s), now.normal_anisotropy, now.normal_direction * to_degrees,
+          now.force_anisotropy, now.force_direction * to_degrees));
 }
 
 /// A snapshot's file is named by its step.

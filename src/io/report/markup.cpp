@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "io/report/png.hpp"
 
 namespace clathra {
@@ -49,7 +51,7 @@ figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-w
 .strip img,.strip .rose{display:block;width:100%;height:auto;max-height:88vh;object-fit:contain}
 .strip .stack img{max-height:42vh}.strip .rose{max-height:26rem}
 @media(max-width:520px){.strip{grid-template-columns:repeat(auto-fit,minmax(150px,1fr))}figure{padding:.6rem .55rem}
-th,td{padding:.3rem .45rem}}
+th,td{padding:.3rem .45rem}.plot{font-size:16.5px}.rose{font-size:22px}}
 @media print{body{max-width:none}.beside{grid-template-columns:1fr 1fr}}
 )css";
 
@@ -89,6 +91,18 @@ std::string escaped(std::string_view text) {
     text.remove_prefix(length == 0 ? 1 : length);
   }
   return safe;
+}
+
+std::string grouped(double whole_number) {
+  if (!std::isfinite(whole_number)) return "–";
+  std::string digits = fmt::format("{:.0f}", whole_number);
+  std::size_t const first = digits.front() == '-' ? 1 : 0;
+  for (std::size_t at = digits.size(); at > first + 3;) digits.insert(at -= 3, 1, ',');
+  return with_minus(digits);
+}
+
+std::string with_minus(std::string const& number) {
+  return number.starts_with('-') ? fmt::format("−{}", number.substr(1)) : number;
 }
 
 std::string dash_attribute(Stroke const& stroke) {

@@ -13,6 +13,12 @@ namespace clathra {
 /// Text with &, <, > and quotes made harmless; bytes that are no printable ASCII and no part of UTF-8 become "?".
 std::string escaped(std::string_view text);
 
+/// "1,234,567"; a number that is not finite is a dash.
+std::string grouped(double whole_number);
+
+/// A number formatted by fmt with a true minus sign.
+std::string with_minus(std::string const& number);
+
 /// ` stroke-dasharray="..."`, or nothing for a solid line.
 std::string dash_attribute(Stroke const& stroke);
 

@@ -59,6 +59,14 @@ std::string points(Scale const& scale, std::vector<double> const& x, std::vector
   return text;
 }
 
+std::string dots(Scale const& scale, Curve const& curve) {
+  std::string text;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (double const x = scale.x(curve.x[i]), y = scale.y(curve.y[i]); std::isfinite(x) && std::isfinite(y))
+      text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"/>", x, y, hex(curve.stroke.colour));
+  return text;
+}
+
 /// A curve in pieces, cut where a point is not finite.
 std::string polylines(Scale const& scale, Curve const& curve) {
   std::string text;
@@ -77,7 +85,7 @@ std::string polylines(Scale const& scale, Curve const& curve) {
       end_piece();
   }
   end_piece();
-  return text;
+  return text + (curve.marked ? dots(scale, curve) : "");
 }
 
 std::string polygon(Scale const& scale, Area const& area) {

@@ -11,6 +11,7 @@ struct Curve {
   std::string name;
   std::vector<double> x, y;  ///< points that are not finite interrupt the line
   Stroke stroke;
+  bool marked = false;  ///< with a dot on each point
 };
 
 /// The area between two curves over the same x.

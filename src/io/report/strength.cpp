@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
@@ -64,8 +65,8 @@ std::string mohr_figure(std::vector<Curve> circles, std::vector<FailureStress> c
     double const from = std::max(0.0, -cohesion / slope), to = end_of_line(tests);
     plot.curves.push_back({"envelope", {from, to}, {cohesion + slope * from, cohesion + slope * to}, {colours::black, "", 1.8}});
     tau.include(plot.curves.back().y);
-    caption += fmt::format("Line: Mohr-Coulomb envelope τ = c + σ tan φ with c = {:.3g} MPa and φ = {:.1f}°", cohesion,
-                           fit->friction_angle * 180 / half_turn);
+    caption += fmt::format("Line: Mohr-Coulomb envelope τ = c + σ tan φ with c = {} MPa and φ = {:.1f}°",
+                           with_minus(fmt::format("{:.3g}", cohesion)), fit->friction_angle * 180 / half_turn);
     caption += tests.size() > 2 ? fmt::format(", fitted to {} tests.", tests.size()) : ", which touches both circles.";
   } else {
     caption += "They have no common Mohr-Coulomb envelope.";
@@ -81,6 +82,60 @@ std::string mohr_figure(std::vector<Curve> circles, std::vector<FailureStress> c
 FailureStress peak_stress(TestNumbers const& n) { return {n.peak_sigma3 + n.peak_q, n.peak_sigma3}; }
 FailureStress residual_stress(TestNumbers const& n) { return {n.residual_sigma3 + n.residual_q, n.residual_sigma3}; }
 
+/// What the tests at one saturation say.
+struct GroupStrength {
+  double saturation = 0;  ///< [%]
+  std::optional<Envelope> at_peak, residual;
+  std::string figures;
+};
+
+GroupStrength strength_of(long saturation_millionths, std::vector<RunResults> const& runs,
+                          std::vector<std::size_t> const& members) {
+  std::vector<FailureStress> peaks, residuals;
+  std::vector<Curve> at_peak, at_residual;
+  for (std::size_t const i : members) {
+    TestNumbers const n = test_numbers(runs[i].history);
+    peaks.push_back(peak_stress(n));
+    residuals.push_back(residual_stress(n));
+    at_peak.push_back(circle(peaks.back(), run_label(runs[i]), run_stroke(i)));
+    at_residual.push_back(circle(residuals.back(), run_label(runs[i]), run_stroke(i)));
+  }
+  GroupStrength group{static_cast<double>(saturation_millionths) * 1e-4, fitted_envelope(peaks), fitted_envelope(residuals), ""};
+  std::string const heading =
+      group.saturation > 0 ? fmt::format("Strength at {:g} % hydrate", group.saturation) : "Strength of clean sand";
+  group.figures =
+      mohr_figure(at_peak, peaks, heading, "at the peak") + mohr_figure(at_residual, residuals, heading, "in the residual state");
+  return group;
+}
+
+/// One number of the envelopes against the saturation, at the peak and in the residual state.
+std::string saturation_figure(std::vector<GroupStrength> const& groups, std::string const& heading, std::string const& axis,
+                              double (*number)(Envelope const&)) {
+  Plot plot;
+  plot.title = heading + " against hydrate saturation";
+  plot.curves = {{"at the peak", {}, {}, {colours::vermilion, ""}, true}, {"residual", {}, {}, {colours::blue, "8 3"}, true}};
+  Range saturations, values;
+  for (GroupStrength const& group : groups)
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::optional<Envelope> const& envelope = k == 0 ? group.at_peak : group.residual;
+      if (!envelope) continue;
+      plot.curves[k].x.push_back(group.saturation);
+      plot.curves[k].y.push_back(number(*envelope));
+      saturations.include(group.saturation);
+      values.include(number(*envelope));
+      plot.description += fmt::format("{} % hydrate, {}: {:.3g}. ", group.saturation, plot.curves[k].name, number(*envelope));
+    }
+  plot.x = saturations.axis("hydrate saturation [%]");
+  plot.y = values.axis(axis);
+  return figure(plot.title, svg(plot) + legend(plot.curves), "From the Mohr-Coulomb envelopes above, one for each saturation.");
+}
+
+std::string strength_against_saturation(std::vector<GroupStrength> const& groups) {
+  return saturation_figure(groups, "Cohesion", "cohesion c [MPa]", [](Envelope const& e) { return e.cohesion * mega; }) +
+         saturation_figure(groups, "Friction angle", "friction angle φ [°]",
+                           [](Envelope const& e) { return e.friction_angle * 180 / half_turn; });
+}
+
 }  // namespace
 
 std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests) {
@@ -91,7 +146,7 @@ std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests)
     s33 += (t.sigma3 - mean3) * (t.sigma3 - mean3);
     s13 += (t.sigma1 - mean1) * (t.sigma3 - mean3);
   }
-  constexpr double same = 1e-3;  // confining stresses closer than this are one
+  constexpr double same = 0.01;  // confining stresses that scatter by less are one
   if (!(s33 > same * same * mean3 * mean3 * count)) return std::nullopt;
   double const slope = s13 / s33;
   if (!(slope > 0)) return std::nullopt;
@@ -100,24 +155,16 @@ std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests)
 
 std::string strength_figures(std::vector<RunResults> const& runs) {
   std::string figures;
+  std::vector<GroupStrength> groups;
+  std::set<std::string> variants;
   for (auto const& [key, members] : groups_of(runs)) {
-    std::vector<FailureStress> peaks, residuals;
-    std::vector<Curve> at_peak, at_residual;
-    for (std::size_t const i : members) {
-      TestNumbers const n = test_numbers(runs[i].history);
-      peaks.push_back(peak_stress(n));
-      residuals.push_back(residual_stress(n));
-      at_peak.push_back(circle(peaks.back(), run_label(runs[i]), run_stroke(i)));
-      at_residual.push_back(circle(residuals.back(), run_label(runs[i]), run_stroke(i)));
-    }
-    auto const [low, high] =
-        std::minmax_element(peaks.begin(), peaks.end(), [](auto const& a, auto const& b) { return a.sigma3 < b.sigma3; });
-    if (!(high->sigma3 > low->sigma3 * 1.02)) continue;
-    std::string const heading = key.first > 0 ? fmt::format("Strength at {:g} % hydrate", static_cast<double>(key.first) * 1e-4)
-                                              : "Strength of clean sand";
-    figures += mohr_figure(at_peak, peaks, heading, "at the peak");
-    figures += mohr_figure(at_residual, residuals, heading, "in the residual state");
+    GroupStrength const group = strength_of(key.first, runs, members);
+    if (!group.at_peak && !group.residual) continue;
+    figures += group.figures;
+    groups.push_back(group);
+    if (key.first > 0) variants.insert(key.second);
   }
+  if (groups.size() > 1 && variants.size() < 2) figures += strength_against_saturation(groups);
   return figures;
 }
 

@@ -17,8 +17,10 @@ constexpr double percent = 100, mega = 1e-6;
 constexpr char unknown[] = "–";
 
 std::string shown(std::optional<double> value, char const* format, double factor = 1) {
-  return value && std::isfinite(*value) ? fmt::format(fmt::runtime(format), *value * factor) : unknown;
+  return value && std::isfinite(*value) ? with_minus(fmt::format(fmt::runtime(format), *value * factor)) : unknown;
 }
+
+std::string count(std::optional<double> value) { return value ? grouped(*value) : unknown; }
 
 struct Quantity {
   char const* name;
@@ -30,12 +32,12 @@ std::vector<Quantity> specimen_quantities() {
   using Run = RunResults const&;
   using Numbers = TestNumbers const&;
   return {
-      {"discs", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/discs"), "{:.0f}"); }},
+      {"discs", "", [](Run r, Numbers) { return count(r.number("/stages/plan/discs")); }},
       {"hydrate saturation", "%", [](Run r, Numbers) { return shown(r.number("/scene/hydrate/saturation"), "{:.3g}", percent); }},
       {"confining stress σ₃", "MPa",
        [](Run r, Numbers) { return shown(r.number("/scene/test/confining_stress"), "{:.4g}", mega); }},
       {"void ratio at the start", "", [](Run r, Numbers) { return shown(r.history["void_ratio"].front(), "{:.4f}"); }},
-      {"bonds at the start", "", [](Run r, Numbers) { return shown(r.history["bonds_intact"].front(), "{:.0f}"); }},
+      {"bonds at the start", "", [](Run r, Numbers) { return count(r.history["bonds_intact"].front()); }},
       {"bond law", "",
        [](Run r, Numbers) { return r.has_bonds() ? escaped(r.bond_variant()) : std::string("none (clean sand)"); }}};
 }
@@ -64,7 +66,7 @@ std::vector<Quantity> cost_quantities() {
   return {
       {"inertial number I", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/inertial_number"), "{:.2g}"); }},
       {"wave number W", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/wave_number"), "{:.2g}"); }},
-      {"steps", "", [](Run r, Numbers) { return shown(r.history["step"].back(), "{:.0f}"); }},
+      {"steps", "", [](Run r, Numbers) { return count(r.history["step"].back()); }},
       {"wall time of the shear", "s", [](Run r, Numbers) { return shown(r.number("/wall_seconds/shear"), "{:.4g}"); }},
       {"disc-steps a second", "million",
        [](Run r, Numbers) { return shown(r.number("/disc_steps_per_second"), "{:.3g}", mega); }},
@@ -89,7 +91,7 @@ std::string range_text(std::vector<double> const& values, char const* unit, int 
 std::string sentence_on_one(RunResults const& run) {
   TestNumbers const n = test_numbers(run.history);
   double const saturation = run.number("/scene/hydrate/saturation").value_or(0) * percent;
-  std::string text = shown(run.number("/stages/plan/discs"), "{:.0f}") + " discs of ";
+  std::string text = count(run.number("/stages/plan/discs")) + " discs of ";
   text += run.has_bonds() ? fmt::format("sand with {:.3g} % hydrate", saturation) : "clean sand";
   text += fmt::format(" were compressed to an axial strain of {:.3g} %", n.end_eps1 * percent);
   text += " under a lateral stress of " + shown(run.number("/scene/test/confining_stress"), "{:.3g}", mega) + " MPa: ";
