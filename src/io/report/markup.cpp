@@ -19,8 +19,8 @@ h2{font-size:1.25rem;margin:2.2rem 0 .7rem;border-bottom:1px solid var(--rule);p
 h3{font-size:1rem;margin:0 0 .5rem}
 .lead{font-size:1.08rem;max-width:62em;margin:.3rem 0 1rem}
 .soft,footer{color:var(--soft);font-size:.9rem}
-.scroll{overflow-x:auto;border:1px solid var(--rule);border-radius:6px}
-table{border-collapse:collapse;width:100%;font-size:.92rem}
+.scroll{overflow-x:auto;width:fit-content;max-width:100%;border:1px solid var(--rule);border-radius:6px}
+table{border-collapse:collapse;font-size:.92rem}
 th,td{padding:.32rem .7rem;text-align:right;border-top:1px solid var(--rule);vertical-align:top}
 thead th{border-top:0;background:var(--panel);white-space:nowrap}
 tbody th,thead th:first-child{text-align:left;font-weight:500;position:sticky;left:0;background:var(--panel);min-width:9.5em}
