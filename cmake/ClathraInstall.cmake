@@ -2,6 +2,7 @@
 # of the .deb) and `development` (libraries, headers and the CMake package Clathra).
 include(CMakePackageConfigHelpers)
 set(clathra_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Clathra)
+set(clathra_docs_folder ${CMAKE_INSTALL_DATADIR}/doc/clathra)
 
 # clathra_install_layer(LAYER EXPORT): the library clathra_LAYER as Clathra::LAYER, and its headers.
 function(clathra_install_layer layer export)
@@ -29,6 +30,16 @@ if(CLATHRA_IO)
   install(TARGETS clathra_io_libraries EXPORT ClathraIoTargets)
   install(EXPORT ClathraIoTargets NAMESPACE Clathra:: DESTINATION ${clathra_package_folder} COMPONENT development)
   install(TARGETS clathra RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  if(TARGET clathra_manual)
+    install(
+      FILES ${PROJECT_BINARY_DIR}/manual/clathra.1
+      DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+      COMPONENT program)
+    install(
+      FILES ${PROJECT_BINARY_DIR}/manual/clathra
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+      COMPONENT program)
+  endif()
 endif()
 
 configure_package_config_file(
@@ -46,14 +57,14 @@ install(
   COMPONENT program)
 install(
   FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  DESTINATION ${clathra_docs_folder}
   COMPONENT program)
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/docs/
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  DESTINATION ${clathra_docs_folder}
   COMPONENT program)
 install(
   FILES ${PROJECT_SOURCE_DIR}/LICENSE
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  DESTINATION ${clathra_docs_folder}
   RENAME copyright # the name that Debian looks for
   COMPONENT program)

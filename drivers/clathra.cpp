@@ -60,6 +60,9 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_generate(program, chosen);
   add_bond(program, chosen);
   add_info(program, chosen);
+  add_selftest(program, chosen);
+  add_completion(program, chosen);
+  add_manual(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

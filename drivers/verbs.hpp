@@ -15,5 +15,8 @@ void add_check(CLI::App& program, Verb& chosen);
 void add_generate(CLI::App& program, Verb& chosen);
 void add_bond(CLI::App& program, Verb& chosen);
 void add_info(CLI::App& program, Verb& chosen);
+void add_selftest(CLI::App& program, Verb& chosen);
+void add_completion(CLI::App& program, Verb& chosen);
+void add_manual(CLI::App& program, Verb& chosen);
 
 }  // namespace clathra
