@@ -7,7 +7,7 @@
 namespace clathra {
 namespace {
 
-TEST(SelftestCommand, FindsABuildOfOursRight) {
+TEST(SelftestCommand, FindsThisBuildRight) {
   CommandResult const result = run_clathra("selftest");
   EXPECT_EQ(result.code, 0);
   for (char const* const line : {"ok      bond law", "ok      collision", "ok      threads", "ok      specimen file"})
