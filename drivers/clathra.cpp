@@ -55,11 +55,15 @@ ExitCode choose_and_run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer("Example: clathra run examples/quick.toml --output out/quick");
   Verb chosen;
-  add_run(program, chosen);
+  add_init(program, chosen);
+  add_schema(program, chosen);
   add_check(program, chosen);
+  add_run(program, chosen);
   add_generate(program, chosen);
   add_bond(program, chosen);
   add_info(program, chosen);
+  add_export(program, chosen);
+  add_verify(program, chosen);
   add_selftest(program, chosen);
   add_completion(program, chosen);
   add_manual(program, chosen);

@@ -12,6 +12,8 @@
 #include "io/events.hpp"
 #include "io/history.hpp"
 #include "io/output_folder.hpp"
+#include "io/run_check.hpp"
+#include "io/snapshot_file.hpp"
 #include "io/specimen_file.hpp"
 #include "io/text_file.hpp"
 #include "print.hpp"
@@ -54,6 +56,7 @@ class Run {
       KokkosSession const kokkos;
       make_specimen();
       shear();
+      record_.result_digests = result_digests(folder_.path());
     } catch (Stopped const&) {
       return stopped();
     } catch (Diverged const& problem) {
@@ -98,16 +101,22 @@ class Run {
     }
     record_.stages["shear"] = summary_->numbers();
     record_.state_hash = test.state_hash();
-    write_specimen(folder_ / "final.h5", test.snapshot());
+    write_specimen(folder_ / "final.h5", test.specimen());
   }
 
   void write_curves(BiaxialTest& test) {
     HistoryFile history(folder_ / "history.csv", scene_.output.energy);
     std::optional<EventsFile> events;
     if (scene_.output.events && has_bonds(scene_)) events.emplace(folder_ / "events.csv");
+    std::optional<SnapshotSeries> snapshots;
+    if (scene_.output.snapshots > 0) snapshots.emplace(folder_.path());
     Speedometer const clock;
     std::int64_t const steps_before = test.disc_steps();
-    for (write_row(test, history, events); !test.finished(); write_row(test, history, events)) {
+    auto const write_all = [&] {
+      write_row(test, history, events);
+      if (snapshots) write_snapshot_if_due(test, *snapshots);
+    };
+    for (write_all(); !test.finished(); write_all()) {
       if (interrupted()) throw Stopped("stopped by Ctrl-C");
       test.advance_to_next_record();
       record_.disc_steps = test.disc_steps() - steps_before;
@@ -129,7 +138,18 @@ class Run {
     } else {
       history.write(last_);
     }
-    if (events) events->write(test.take_events());
+    std::vector<BreakEvent> const broken = test.take_events();
+    if (events) events->write(broken);
+    if (scene_.output.snapshots > 0) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
+  }
+
+  void write_snapshot_if_due(BiaxialTest& test, SnapshotSeries& snapshots) {
+    double const next = static_cast<double>(snapshots_written_) / scene_.output.snapshots;
+    if (test.strain_fraction() < next - 1e-9) return;
+    Snapshot snapshot = test.snapshot();
+    snapshot.events = std::exchange(since_snapshot_, {});
+    snapshots.write(snapshot);
+    ++snapshots_written_;
   }
 
   void show(BiaxialTest const& test, std::string const& speed) {
@@ -172,6 +192,8 @@ class Run {
   ProgressLine line_;
   std::optional<Summary> summary_;
   HistoryRow last_;
+  std::vector<BreakEvent> since_snapshot_;
+  int snapshots_written_ = 0;
 };
 
 ExitCode run(RunOptions const& options) {

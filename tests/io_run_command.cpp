@@ -187,5 +187,27 @@ TEST_F(RunningCommand, ASecondRunInItsFolderIsRefused) {
   EXPECT_EQ(finish(), 130);
 }
 
+TEST_F(RunCommand, SnapshotsFollowTheStrainAndVerifyNoticesAChangedFile) {
+  ASSERT_EQ(run("out", "--set output.snapshots=4").code, 0);
+  std::size_t snapshots = 0;
+  for (auto const& entry : fs::directory_iterator(folder / "out" / "snap"))
+    snapshots += entry.path().extension() == ".h5" ? 1 : 0;
+  EXPECT_EQ(snapshots, 5u);
+  std::string const out = (folder / "out").string();
+  EXPECT_EQ(run_clathra("verify " + out).code, 0);
+  CommandResult const exported = run_clathra("export " + out + " --to csv");
+  EXPECT_EQ(exported.code, 0) << exported.output;
+  EXPECT_TRUE(fs::exists(folder / "out" / "export" / "discs_000000000000.csv"));
+  std::ofstream(folder / "out" / "history.csv", std::ios::app) << "1\n";
+  fs::remove(folder / "out" / "final.h5");
+  CommandResult const changed = run_clathra("verify " + out);
+  EXPECT_EQ(changed.code, 65);
+  EXPECT_NE(changed.output.find("2 of "), std::string::npos) << changed.output;
+  EXPECT_EQ(run_clathra("verify " + folder.string()).code, 66);
+  ASSERT_EQ(run("bare", "--set output.snapshots=0").code, 0);
+  EXPECT_FALSE(fs::exists(folder / "bare" / "snap"));
+  EXPECT_EQ(run_clathra("export " + (folder / "bare").string() + " --to vtu").code, 66);
+}
+
 }  // namespace
 }  // namespace clathra

@@ -51,6 +51,7 @@ struct BiaxialTest::State {
   std::int64_t disc_steps = 0;
   int events_taken = 0;
   EnergyRow start;
+  ReferencePositions reference;
 
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   void consolidate(double stress, ProgressCallback const& progress);
@@ -135,8 +136,9 @@ void BiaxialTest::State::begin_shear() {
   first_step = s.steps();
   double const steps = scene.test.axial_strain / (rate.strain_rate * s.time_step);
   steps_per_record = std::max<std::int64_t>(1, std::llround(steps / scene.output.records));
-  bonds0 = std::llround(s.measures().bonded);
   events_taken = s.broken_bonds();
+  bonds0 = std::llround(s.measures().bonded) + events_taken;
+  if (scene.output.snapshots > 0) reference = reference_positions(s);
   preparation["broken_in_consolidation"] = events_taken;
   preparation["bytes_per_disc"] = static_cast<double>(s.bytes()) / s.discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
@@ -166,10 +168,21 @@ std::int64_t BiaxialTest::disc_steps() const {
 }
 std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->hash(); }
 
-Specimen BiaxialTest::snapshot() const {
+Specimen BiaxialTest::specimen() const {
   Specimen specimen = state_->simulation->specimen();
   specimen.stress = state_->scene.test.confining_stress;
   return specimen;
+}
+
+Snapshot BiaxialTest::snapshot() const {
+  Simulation const& s = *state_->simulation;
+  Snapshot snapshot = take_snapshot(s, state_->reference);
+  snapshot.step = s.steps() - state_->first_step;
+  snapshot.time = static_cast<double>(snapshot.step) * s.time_step;
+  snapshot.eps1 = std::log(state_->height0 / height_of(s));
+  snapshot.eps_v = std::log(state_->area0 / s.area());
+  snapshot.d50 = state_->d50;
+  return snapshot;
 }
 
 void BiaxialTest::advance_to_next_record() {

@@ -79,7 +79,9 @@ StageRecord predict(Scene const& scene) {
   double const per_entry = 4 + 8 * (1 + (scene.grains.shape_factor > 0 || bonded ? 1 : 0) + (bonded ? 1 : 0) +
                                     (bonded && scene.bond.composite == Composite::parallel ? 2 : 0));
   p["memory_bytes"] = discs * (15 * 8 + 2 * 7 * per_entry + 120) + 60e6;
-  p["disk_bytes"] = discs * 2 * 150 + scene.output.records * 400 + (bonded ? discs * 40 : 0);
+  constexpr double snapshot_bytes = 35;  // a disc, compressed
+  p["disk_bytes"] = discs * 2 * 150 + scene.output.records * 400 + (bonded ? discs * 40 : 0) +
+                    (scene.output.snapshots > 0 ? discs * snapshot_bytes * (scene.output.snapshots + 1) : 0);
   return p;
 }
 

@@ -11,6 +11,7 @@
 #include "domain/progress.hpp"
 #include "domain/scene.hpp"
 #include "domain/simulation.hpp"
+#include "domain/snapshot.hpp"
 #include "domain/specimen.hpp"
 
 namespace clathra {
@@ -52,7 +53,8 @@ class BiaxialTest {
   double strain_fraction() const;         ///< eps_1 / target
   std::int64_t disc_steps() const;
   std::uint64_t state_hash() const;
-  Specimen snapshot() const;  ///< the present state
+  Specimen specimen() const;  ///< the present state, to go on from
+  Snapshot snapshot() const;  ///< the present state, to look at, without events; only with scene.output.snapshots
   StageRecord plan() const;   ///< steps, dt, strain rate, I, W, wall time guess inputs
 
  private:

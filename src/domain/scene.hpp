@@ -88,6 +88,7 @@ struct RunScene {
 struct OutputScene {
   std::string folder = "out";
   int records = 750;    ///< history rows over the whole strain
+  int snapshots = 15;   ///< over the whole strain, besides the one at its start; 0 = none at all
   bool energy = false;  ///< keep the energy ledger
   bool events = true;   ///< events.csv: each broken bond
 };

@@ -43,6 +43,42 @@ void close_homogeneously(Simulation& simulation, double rate, double present_rat
   simulation.add_uniform_strain_rate(rate - present_rate, rate - present_rate);
 }
 
+/// Closes the assembly to the target's void ratio, ever slower towards it, so that it arrives at rest: the force network of a
+/// flowing assembly would collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
+/// @return the lowest share of the friction that was needed
+double close_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction& friction, SettlingTarget const& target,
+                           ProgressCallback const& progress) {
+  constexpr int look = 10;                 // steps between looks at the stress
+  constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
+  constexpr double slowing_range = 0.004;  // in void ratio
+  double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.density(), target.d50);
+  double rate = 0, lowest = 1;
+  while (simulation.void_ratio() > target.void_ratio + 1e-5) {
+    double const above = simulation.void_ratio() - target.void_ratio;
+    double const hurry = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
+    double const slowed = full_rate * hurry * std::clamp(above / slowing_range, 0.05, 1.0);
+    close_homogeneously(simulation, slowed, rate);
+    rate = slowed;
+    for (int n = 0; n < look; ++n) simulation.step();
+    double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
+    friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
+    lowest = std::min(lowest, friction.share);
+    simulation.set_laws(generation_laws(scene, friction));
+    if (friction.share < 1e-3 && mean_stress(simulation) > 4 * target.stress) {
+      throw Refused("without friction these grains resist densification beyond a void ratio of " +
+                    std::to_string(simulation.void_ratio()) + " at " + std::to_string(target.stress / 1e3) + " kPa; " +
+                    std::to_string(target.void_ratio) + " is denser");
+    }
+    if (simulation.steps() % 1000 == 0) {
+      report(progress, {"generate", 0.7,
+                        "void ratio " + percent_text(simulation.void_ratio(), 4) + " -> " + percent_text(target.void_ratio, 4),
+                        simulation.steps() * simulation.discs()});
+    }
+  }
+  close_homogeneously(simulation, 0, rate);
+  return lowest;
+}
+
 }  // namespace
 
 double strain_rate_of(double inertial_number, double stress, double density, double d50) {
@@ -103,40 +139,9 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
 
 double settle(Simulation& simulation, Scene const& scene, GenerationFriction friction, SettlingTarget const& target,
               ProgressCallback const& progress) {
-  constexpr int look = 10;                 // steps between looks at the stress
-  constexpr double loose_margin = 0.1;     // in void ratio
-  constexpr double slowing_range = 0.004;  // in void ratio
   prepare_servo(simulation, target.stress, target.inertial_number, target.d50, scene.run.dt_safety);
   AxisDrive const servo_x = simulation.loading.x, servo_y = simulation.loading.y;
-  double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.density(), target.d50);
-  double rate = 0, lowest = 1;
-  while (simulation.void_ratio() > target.void_ratio + 1e-5) {
-    // Ever slower towards the target, so that it arrives at rest: the force network of a flowing assembly would collapse once it
-    // stops.
-    // A loose assembly, far from touching all over, may close much faster.
-    double const above = simulation.void_ratio() - target.void_ratio;
-    double const hurry = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
-    double const slowed = full_rate * hurry * std::clamp(above / slowing_range, 0.05, 1.0);
-    close_homogeneously(simulation, slowed, rate);
-    rate = slowed;
-    for (int n = 0; n < look; ++n) simulation.step();
-    // The friction is the servo of the stress here: too much stress, less friction.
-    double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
-    friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
-    lowest = std::min(lowest, friction.share);
-    simulation.set_laws(generation_laws(scene, friction));
-    if (friction.share < 1e-3 && mean_stress(simulation) > 4 * target.stress) {
-      throw Refused("without friction these grains resist densification beyond a void ratio of " +
-                    std::to_string(simulation.void_ratio()) + " at " + std::to_string(target.stress / 1e3) + " kPa; " +
-                    std::to_string(target.void_ratio) + " is denser");
-    }
-    if (simulation.steps() % 1000 == 0) {
-      report(progress, {"generate", 0.7,
-                        "void ratio " + percent_text(simulation.void_ratio(), 4) + " -> " + percent_text(target.void_ratio, 4),
-                        simulation.steps() * simulation.discs()});
-    }
-  }
-  close_homogeneously(simulation, 0, rate);
+  double const lowest = close_to_void_ratio(simulation, scene, friction, target, progress);
   // With the full friction back the assembly creeps no further.
   friction.share = 1;
   simulation.set_laws(generation_laws(scene, friction));

@@ -13,6 +13,77 @@ namespace {
 constexpr double loose_solid_fraction = 0.5;
 constexpr std::int64_t relaxation_steps = 3000;  // about what a wave needs to cross some tens of grains and come to rest
 
+/// A box covered by copies of a periodic cell.
+class Tiling {
+ public:
+  Tiling(Specimen const& cell, double width, double height)
+      : cell_(cell),
+        width_(width),
+        height_(height),
+        columns_(static_cast<int>(std::ceil(width / cell.width())) + 1),
+        rows_(static_cast<int>(std::ceil(height / cell.height())) + 1),
+        new_id_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) * cell.size(), -1) {}
+
+  /// Adds the discs that lie wholly in the box, numbered as they come.
+  void copy_discs(Specimen& whole) {
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        for (std::size_t i = 0; i < cell_.size(); ++i) {
+          double const x = cell_.x[i] - cell_.left + column * cell_.width(), y = cell_.y[i] - cell_.bottom + row * cell_.height();
+          double const r = cell_.radius[i];
+          if (x < r || x > width_ - r || y < r || y > height_ - r) continue;
+          id_in_tile(column, row, cell_.id[i]) = static_cast<int>(whole.id.size());
+          whole.id.push_back(static_cast<int>(whole.id.size()));
+          whole.x.push_back(x);
+          whole.y.push_back(y);
+          whole.radius.push_back(r);
+          whole.angle.push_back(0);
+        }
+      }
+    }
+    for (auto* field : {&whole.vx, &whole.vy, &whole.omega}) field->assign(whole.size(), 0);
+  }
+
+  /// Adds the contacts between discs that are in the box, with their history.
+  void copy_contacts(Specimen& whole) {
+    std::vector<std::size_t> place(cell_.size());
+    for (std::size_t i = 0; i < cell_.size(); ++i) place[static_cast<std::size_t>(cell_.id[i])] = i;
+    for (SpecimenContact const& c : cell_.contacts) {
+      std::size_t const a = place[static_cast<std::size_t>(c.id_a)], b = place[static_cast<std::size_t>(c.id_b)];
+      // The image of b that touches a lies in the same tile or in the one next to it.
+      auto const right = static_cast<int>(-std::llround((cell_.x[b] - cell_.x[a]) / cell_.width())),
+                 up = static_cast<int>(-std::llround((cell_.y[b] - cell_.y[a]) / cell_.height()));
+      for (int row = std::max(0, -up); row < std::min(rows_, rows_ - up); ++row)
+        for (int column = std::max(0, -right); column < std::min(columns_, columns_ - right); ++column)
+          add_contact(whole, c, id_in_tile(column, row, c.id_a), id_in_tile(column + right, row + up, c.id_b));
+    }
+  }
+
+ private:
+  static void add_contact(Specimen& whole, SpecimenContact copy, int id_a, int id_b) {
+    if (id_a < 0 || id_b < 0) return;
+    copy.id_a = std::min(id_a, id_b);
+    copy.id_b = std::max(id_a, id_b);
+    if (id_a > id_b) {
+      copy.moment = -copy.moment;
+      copy.bond_moment = -copy.bond_moment;
+    }
+    whole.contacts.push_back(copy);
+  }
+
+  /// The new id of a disc of the cell in a tile, -1 where the box cuts it away.
+  int& id_in_tile(int column, int row, int id) {
+    std::size_t const tile =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+    return new_id_[tile * cell_.size() + static_cast<std::size_t>(id)];
+  }
+
+  Specimen const& cell_;
+  double width_, height_;
+  int columns_, rows_;
+  std::vector<int> new_id_;
+};
+
 }  // namespace
 
 PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design, std::int64_t particles,
@@ -55,54 +126,9 @@ Specimen replicate(Specimen const& cell, double width, double height) {
   whole.density = cell.density;
   whole.d50 = cell.d50;
   whole.stress = cell.stress;
-  double const w = cell.width(), h = cell.height();
-  auto const columns = static_cast<int>(std::ceil(width / w)) + 1, rows = static_cast<int>(std::ceil(height / h)) + 1;
-  std::size_t const n = cell.size();
-  std::vector<std::size_t> place(n);
-  for (std::size_t i = 0; i < n; ++i) place[static_cast<std::size_t>(cell.id[i])] = i;
-  // new_id[tile * n + id of the cell's disc], -1 where the box cuts it away
-  std::vector<int> new_id(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * n, -1);
-  auto const tile_at = [&](int column, int row) {
-    return (static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)) * n;
-  };
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      for (std::size_t i = 0; i < n; ++i) {
-        double const x = cell.x[i] - cell.left + column * w, y = cell.y[i] - cell.bottom + row * h, r = cell.radius[i];
-        if (x < r || x > width - r || y < r || y > height - r) continue;
-        new_id[tile_at(column, row) + static_cast<std::size_t>(cell.id[i])] = static_cast<int>(whole.id.size());
-        whole.id.push_back(static_cast<int>(whole.id.size()));
-        whole.x.push_back(x);
-        whole.y.push_back(y);
-        whole.radius.push_back(r);
-        whole.angle.push_back(0);
-      }
-    }
-  }
-  whole.vx.assign(whole.size(), 0);
-  whole.vy.assign(whole.size(), 0);
-  whole.omega.assign(whole.size(), 0);
-  for (SpecimenContact const& c : cell.contacts) {
-    std::size_t const a = place[static_cast<std::size_t>(c.id_a)], b = place[static_cast<std::size_t>(c.id_b)];
-    // The image of b that touches a lies in the same tile or in the one next to it.
-    auto const column_shift = static_cast<int>(-std::llround((cell.x[b] - cell.x[a]) / w)),
-               row_shift = static_cast<int>(-std::llround((cell.y[b] - cell.y[a]) / h));
-    for (int row = std::max(0, -row_shift); row < std::min(rows, rows - row_shift); ++row) {
-      for (int column = std::max(0, -column_shift); column < std::min(columns, columns - column_shift); ++column) {
-        int const id_a = new_id[tile_at(column, row) + static_cast<std::size_t>(c.id_a)];
-        int const id_b = new_id[tile_at(column + column_shift, row + row_shift) + static_cast<std::size_t>(c.id_b)];
-        if (id_a < 0 || id_b < 0) continue;
-        SpecimenContact copy = c;
-        copy.id_a = std::min(id_a, id_b);
-        copy.id_b = std::max(id_a, id_b);
-        if (id_a > id_b) {
-          copy.moment = -c.moment;
-          copy.bond_moment = -c.bond_moment;
-        }
-        whole.contacts.push_back(copy);
-      }
-    }
-  }
+  Tiling tiling(cell, width, height);
+  tiling.copy_discs(whole);
+  tiling.copy_contacts(whole);
   return whole;
 }
 

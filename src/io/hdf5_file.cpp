@@ -1,10 +1,14 @@
 #include "io/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 namespace clathra {
@@ -50,6 +54,16 @@ std::string hdf5_reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &text);
   return text.empty() ? "no reason given" : text;
+}
+
+template <class T>
+hid_t type_of() {
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
+  if constexpr (std::is_same_v<T, char>) return H5T_NATIVE_CHAR;
 }
 
 std::size_t slash(std::string const& name) { return name.find('/'); }
@@ -119,13 +133,15 @@ void Hdf5File::make_group(std::string const& name) {
   if (made < 0) fail(ExitCode::io_error, fmt::format("cannot make group {}: {}", group, hdf5_reason()));
 }
 
-void Hdf5File::write_column(std::string const& name, void const* values, std::size_t size, hid_t type, std::string const& unit) {
+void Hdf5File::write_column(std::string const& name, void const* values, std::size_t rows, std::size_t width, hid_t type,
+                            std::string const& unit) {
   make_group(name);
-  hsize_t const rows = size, chunk = std::min<hsize_t>(rows, chunk_rows);
-  Id const space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
+  hsize_t const shape[] = {rows, width}, chunk[] = {std::min<hsize_t>(rows, chunk_rows), width};
+  int const rank = width == 1 ? 1 : 2;
+  Id const space(H5Screate_simple(rank, shape, nullptr), H5Sclose);
   Id const filters(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   bool const ready = space >= 0 && filters >= 0 &&
-                     (rows == 0 || (H5Pset_chunk(filters, 1, &chunk) >= 0 && H5Pset_shuffle(filters) >= 0 &&
+                     (rows == 0 || (H5Pset_chunk(filters, rank, chunk) >= 0 && H5Pset_shuffle(filters) >= 0 &&
                                     H5Pset_deflate(filters, 1) >= 0 && H5Pset_fletcher32(filters) >= 0));
   Id const column(ready ? H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, filters, H5P_DEFAULT) : -1, H5Dclose);
   if (column < 0 || (rows > 0 && H5Dwrite(column, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
@@ -134,14 +150,12 @@ void Hdf5File::write_column(std::string const& name, void const* values, std::si
     fail(ExitCode::io_error, fmt::format("cannot write the unit of {}: {}", name, hdf5_reason()));
 }
 
-void Hdf5File::write(std::string const& name, std::vector<double> const& values, std::string const& unit) {
-  write_column(name, values.data(), values.size(), H5T_NATIVE_DOUBLE, unit);
-}
-void Hdf5File::write(std::string const& name, std::vector<std::int32_t> const& values, std::string const& unit) {
-  write_column(name, values.data(), values.size(), H5T_NATIVE_INT32, unit);
+template <class T>
+void Hdf5File::write(std::string const& name, std::vector<T> const& values, std::string const& unit, std::size_t width) {
+  write_column(name, values.data(), values.size() / width, width, type_of<T>(), unit);
 }
 void Hdf5File::write_text(std::string const& name, std::string const& text) {
-  write_column(name, text.data(), text.size(), H5T_NATIVE_CHAR, "");
+  write_column(name, text.data(), text.size(), 1, type_of<char>(), "");
 }
 
 void Hdf5File::set_attribute(std::string const& name, double value, std::string const& unit) {
@@ -158,8 +172,14 @@ void Hdf5File::set_attribute(std::string const& name, std::string const& text) {
     fail(ExitCode::io_error, fmt::format("cannot write {}: {}", name, hdf5_reason()));
 }
 
+void Hdf5File::set_column_attribute(std::string const& column, std::string const& name, double value) {
+  Id const opened(H5Dopen2(file_, column.c_str(), H5P_DEFAULT), H5Dclose);
+  if (opened < 0 || !write_attribute(opened, name.c_str(), H5T_NATIVE_DOUBLE, &value))
+    fail(ExitCode::io_error, fmt::format("cannot write {} of {}: {}", name, column, hdf5_reason()));
+}
+
 template <class T>
-std::vector<T> Hdf5File::read_column(std::string const& name, std::size_t size, hid_t type) const {
+std::vector<T> Hdf5File::read(std::string const& name, std::size_t size, std::size_t width) const {
   auto const damaged = [&](std::string const& what) { fail(ExitCode::bad_input, fmt::format("{} {}", name, what)); };
   if (auto const end = slash(name); end != std::string::npos)
     if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
@@ -167,24 +187,30 @@ std::vector<T> Hdf5File::read_column(std::string const& name, std::size_t size, 
   Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
   Id const space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
   if (space < 0) damaged("cannot be opened: " + hdf5_reason());
-  hsize_t rows = 0;
-  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &rows, nullptr) < 0) damaged("is not a column");
-  if (rows > most_rows) damaged(fmt::format("claims {} rows", rows));
-  if (size != any_size && rows != size) damaged(fmt::format("has {} rows instead of {}", rows, size));
-  std::vector<T> values(rows);
-  if (rows > 0 && H5Dread(column, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+  hsize_t shape[2] = {0, 1};
+  int const rank = width == 1 ? 1 : 2;
+  if (H5Sget_simple_extent_ndims(space) != rank || H5Sget_simple_extent_dims(space, shape, nullptr) < 0 || shape[1] != width)
+    damaged(fmt::format("is no table of {} columns", width));
+  if (shape[0] > most_rows) damaged(fmt::format("claims {} rows", shape[0]));
+  if (size != any_size && shape[0] != size) damaged(fmt::format("has {} rows instead of {}", shape[0], size));
+  std::vector<T> values(shape[0] * width);
+  if (!values.empty() && H5Dread(column, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     damaged("cannot be read: " + hdf5_reason());
   return values;
 }
 
-std::vector<double> Hdf5File::read_doubles(std::string const& name, std::size_t size) const {
-  return read_column<double>(name, size, H5T_NATIVE_DOUBLE);
-}
-std::vector<std::int32_t> Hdf5File::read_integers(std::string const& name, std::size_t size) const {
-  return read_column<std::int32_t>(name, size, H5T_NATIVE_INT32);
-}
+#define CLATHRA_COLUMN(T)                                                                                    \
+  template void Hdf5File::write(std::string const&, std::vector<T> const&, std::string const&, std::size_t); \
+  template std::vector<T> Hdf5File::read(std::string const&, std::size_t, std::size_t) const;
+CLATHRA_COLUMN(double)
+CLATHRA_COLUMN(float)
+CLATHRA_COLUMN(std::int32_t)
+CLATHRA_COLUMN(std::uint32_t)
+CLATHRA_COLUMN(std::uint8_t)
+#undef CLATHRA_COLUMN
+
 std::string Hdf5File::read_text(std::string const& name) const {
-  std::vector<char> const text = read_column<char>(name, any_size, H5T_NATIVE_CHAR);
+  std::vector<char> const text = read<char>(name, any_size);
   if (text.size() > longest_text) fail(ExitCode::bad_input, name + " is too long");
   return {text.begin(), text.end()};
 }
@@ -212,6 +238,35 @@ std::string Hdf5File::text_attribute(std::string const& name) const {
     fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
   text.resize(std::min(text.size(), text.find('\0')));
   return text;
+}
+
+namespace {
+
+/// Flushes a finished file to the disk and gives it its final name.
+void publish(std::filesystem::path const& temporary, std::filesystem::path const& path) {
+  int const descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  bool const flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!flushed || ::rename(temporary.c_str(), path.c_str()) != 0)
+    throw FileProblem(ExitCode::io_error, path, "cannot be written: " + std::generic_category().message(errno));
+}
+
+}  // namespace
+
+void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content) {
+  std::filesystem::path const temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
+  ::unlink(temporary.c_str());
+  try {
+    Hdf5File file = Hdf5File::create(temporary);
+    write_content(file);
+    file.close();
+    publish(temporary, path);
+  } catch (FileProblem const& problem) {
+    ::unlink(temporary.c_str());
+    std::string text = problem.what();  // named after the file that the user knows
+    if (auto const at = text.find(": "); text.compare(0, at, temporary.string()) == 0) text = text.substr(at + 2);
+    throw FileProblem(problem.code, path, text);
+  }
 }
 
 }  // namespace clathra

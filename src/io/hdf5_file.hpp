@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,19 +20,21 @@ class Hdf5File {
   Hdf5File(Hdf5File&& other) noexcept;
   ~Hdf5File();
 
-  /// A column, in chunks of 65,536 rows, shuffled, compressed (gzip 1) and with a checksum (fletcher32).
-  /// @param unit  goes into the attribute `unit` of the column
-  void write(std::string const& name, std::vector<double> const& values, std::string const& unit);
-  void write(std::string const& name, std::vector<std::int32_t> const& values, std::string const& unit);
+  /// A column of T = double, float, int32, uint32 or uint8, in chunks of 65,536 rows, shuffled, compressed (gzip 1) and with a
+  /// checksum (fletcher32). @param values  rows x width, row by row;  @param unit  goes into the attribute `unit` of the column
+  template <class T>
+  void write(std::string const& name, std::vector<T> const& values, std::string const& unit, std::size_t width = 1);
   void write_text(std::string const& name, std::string const& text);
   void set_attribute(std::string const& name, double value, std::string const& unit);
   void set_attribute(std::string const& name, std::int64_t value);
   void set_attribute(std::string const& name, std::string const& text);
+  void set_column_attribute(std::string const& column, std::string const& name, double value);
 
-  /// Reads a column that must have `size` rows; `any_size` takes it as it is, up to a limit.
+  /// Reads a column that must have `size` rows of `width` values; `any_size` takes it as it is, up to a limit.
+  /// @throws FileProblem bad_input
   static constexpr std::size_t any_size = static_cast<std::size_t>(-1);
-  std::vector<double> read_doubles(std::string const& name, std::size_t size) const;
-  std::vector<std::int32_t> read_integers(std::string const& name, std::size_t size) const;
+  template <class T>
+  std::vector<T> read(std::string const& name, std::size_t size, std::size_t width = 1) const;
   std::string read_text(std::string const& name) const;
   double double_attribute(std::string const& name) const;
   std::int64_t integer_attribute(std::string const& name) const;
@@ -46,13 +49,16 @@ class Hdf5File {
  private:
   Hdf5File(std::filesystem::path path, hid_t file, bool writing) : path_(std::move(path)), file_(file), writing_(writing) {}
   void make_group(std::string const& name);
-  void write_column(std::string const& name, void const* values, std::size_t size, hid_t type, std::string const& unit);
-  template <class T>
-  std::vector<T> read_column(std::string const& name, std::size_t size, hid_t type) const;
+  void write_column(std::string const& name, void const* values, std::size_t rows, std::size_t width, hid_t type,
+                    std::string const& unit);
 
   std::filesystem::path path_;
   hid_t file_;
   bool writing_;
 };
+
+/// Puts an HDF5 file in place of whatever has that name: written under a temporary name, flushed to the disk, renamed. A reader
+/// sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error
+void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content);
 
 }  // namespace clathra

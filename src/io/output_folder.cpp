@@ -13,8 +13,17 @@ namespace clathra {
 namespace {
 
 constexpr char lock_name[] = ".lock";
-constexpr char const* results[] = {"run.json",   "input.toml",  "resolved.toml", "history.csv",
-                                   "events.csv", "specimen.h5", "final.h5"};
+constexpr std::string_view results[] = {"run.json",    "input.toml",     "resolved.toml", "history.csv", "events.csv",
+                                        "specimen.h5", "particles.xdmf", "contacts.xdmf", "report.html", "final.h5"};
+
+/// Removes the snapshots of an earlier run, and only these.
+void clear_snapshots(std::filesystem::path const& folder) {
+  std::error_code error;
+  if (std::filesystem::is_symlink(folder, error)) return;
+  for (auto const& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".h5") std::filesystem::remove(entry.path(), error);
+  std::filesystem::remove(folder, error);  // only if it is empty now
+}
 
 void make_folder(std::filesystem::path const& folder) {
   std::error_code error;
@@ -46,13 +55,16 @@ int lock_folder(std::filesystem::path const& folder) {
 
 }  // namespace
 
+std::span<std::string_view const> result_files() { return results; }
+
 OutputFolder::OutputFolder(std::filesystem::path folder, std::filesystem::path const& keep) : folder_(std::move(folder)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/": a link would not be seen behind the slash
   make_folder(folder_);
   lock_ = lock_folder(folder_);
   std::error_code error;
-  for (char const* const name : results)
+  for (std::string_view const name : results)
     if (keep.empty() || !std::filesystem::equivalent(folder_ / name, keep, error)) std::filesystem::remove(folder_ / name, error);
+  clear_snapshots(folder_ / "snap");
 }
 
 OutputFolder::~OutputFolder() { ::close(lock_); }

@@ -1,9 +1,14 @@
 #pragma once
 /// The folder of one run's results.
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace clathra {
+
+/// Names of the files that a run leaves in its folder, besides its snapshots.
+std::span<std::string_view const> result_files();
 
 /// Makes the folder, locks it against a second run, and clears it of the results of an earlier one.
 class OutputFolder {

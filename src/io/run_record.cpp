@@ -82,6 +82,7 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   json["disc_steps_per_second"] = record.disc_steps_per_second;
   json["warnings"] = record.warnings;
   if (record.state_hash) json["state_hash"] = hash_text(*record.state_hash);
+  if (!record.result_digests.empty()) json["result_digests_xxh3_128"] = record.result_digests;
   json["exit"] = {{"code", record.exit_code}, {"reason", record.exit_reason}};
   // Bytes of a file name that are no UTF-8 are replaced instead of making the record impossible.
   replace_text_file(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -25,7 +25,8 @@ struct RunRecord {
   std::map<std::string, double> wall_seconds;  ///< by stage
   std::int64_t disc_steps = 0;                 ///< of the shear stage
   double disc_steps_per_second = 0;
-  std::optional<std::uint64_t> state_hash;  ///< of the final state
+  std::optional<std::uint64_t> state_hash;            ///< of the final state
+  std::map<std::string, std::string> result_digests;  ///< XXH3-128 by file, of a finished run
   int exit_code = 0;
   std::string exit_reason;  ///< "running", "finished", or why it ended
 };

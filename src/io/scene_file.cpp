@@ -84,7 +84,9 @@ class SceneReader {
       if (problems_.size() > most_problems) problems_.resize(most_problems);
       throw SceneProblems(std::move(problems_));
     }
-    return {scene_, {}, {}, std::move(found.warnings)};
+    std::vector<std::string_view> stated;
+    for (auto const& place : places_) stated.push_back(place.first);
+    return {scene_, {}, {}, std::move(found.warnings), std::move(stated)};
   }
 
  private:

@@ -2,6 +2,7 @@
 /// Scene files: TOML with units in, a validated Scene out, and back as the echo of all values.
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "domain/scene.hpp"
@@ -14,6 +15,7 @@ struct LoadedScene {
   std::string source;                  ///< the bytes of the file
   std::vector<std::string> overrides;  ///< "key=value" as given
   std::vector<std::string> warnings;
+  std::vector<std::string_view> stated;  ///< names of the keys that the file or an override states
 };
 
 /// Reads a scene file and applies overrides "test.strain_rate=5 %/min" on top of it. Paths in the file are relative to its

@@ -95,6 +95,7 @@ Key const table[] = {
 
   {"output.folder", text, CLATHRA_FIELD(output, folder), "folder of the results"},
   {"output.records", integer, CLATHRA_FIELD(output, records), "rows of history.csv over the whole strain", ratio, 1, 1e6},
+  {"output.snapshots", integer, CLATHRA_FIELD(output, snapshots), "snapshots for ParaView and the report over the whole strain, besides the one at its start", ratio, 1, 1e5, "none at all"},
   {"output.energy", boolean, CLATHRA_FIELD(output, energy), "keep the energy ledger in history.csv"},
   {"output.events", boolean, CLATHRA_FIELD(output, events), "write every broken bond to events.csv"},
 };

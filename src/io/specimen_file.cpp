@@ -1,14 +1,10 @@
 #include "io/specimen_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -134,31 +130,10 @@ void check_contacts(std::filesystem::path const& path, Specimen const& specimen)
   check_pairs_once(path, specimen);
 }
 
-/// Flushes a finished file to the disk and gives it its final name.
-void publish(std::filesystem::path const& temporary, std::filesystem::path const& path) {
-  int const descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-  bool const flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!flushed || ::rename(temporary.c_str(), path.c_str()) != 0)
-    throw FileProblem(ExitCode::io_error, path, "cannot be written: " + std::generic_category().message(errno));
-}
-
 }  // namespace
 
 void write_specimen(std::filesystem::path const& path, Specimen const& specimen) {
-  std::filesystem::path const temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
-  ::unlink(temporary.c_str());
-  try {
-    Hdf5File file = Hdf5File::create(temporary);
-    write_content(file, specimen);
-    file.close();
-    publish(temporary, path);
-  } catch (FileProblem const& problem) {
-    ::unlink(temporary.c_str());
-    std::string text = problem.what();  // named after the file that the user knows
-    if (auto const at = text.find(": "); text.compare(0, at, temporary.string()) == 0) text = text.substr(at + 2);
-    throw FileProblem(problem.code, path, text);
-  }
+  replace_hdf5_file(path, [&](Hdf5File& file) { write_content(file, specimen); });
 }
 
 Specimen read_specimen(std::filesystem::path const& path) {
@@ -175,16 +150,16 @@ Specimen read_specimen(std::filesystem::path const& path) {
   if (claimed < 1 || claimed > 1'000'000'000 || claimed_contacts < 0 || claimed_contacts > 10'000'000'000)
     file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", claimed, claimed_contacts));
   std::size_t const count = static_cast<std::size_t>(claimed), contacts = static_cast<std::size_t>(claimed_contacts);
-  specimen.id = file.read_integers("particles/id", count);
+  specimen.id = file.read<std::int32_t>("particles/id", count);
   for_each_particle_column(specimen, [&](std::string const& name, std::vector<double>& column, char const*) {
-    column = file.read_doubles("particles/" + name, count);
+    column = file.read<double>("particles/" + name, count);
   });
-  std::vector<std::int32_t> const id_a = file.read_integers("contacts/id_a", contacts);
-  std::vector<std::int32_t> const id_b = file.read_integers("contacts/id_b", contacts);
+  std::vector<std::int32_t> const id_a = file.read<std::int32_t>("contacts/id_a", contacts);
+  std::vector<std::int32_t> const id_b = file.read<std::int32_t>("contacts/id_b", contacts);
   specimen.contacts.resize(contacts);
   for (std::size_t i = 0; i < contacts; ++i) specimen.contacts[i].id_a = id_a[i], specimen.contacts[i].id_b = id_b[i];
   for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const*) {
-    std::vector<double> const column = file.read_doubles("contacts/" + name, contacts);
+    std::vector<double> const column = file.read<double>("contacts/" + name, contacts);
     for (std::size_t i = 0; i < contacts; ++i) specimen.contacts[i].*member = column[i];
   });
   check_box(path, specimen);

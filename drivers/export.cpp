@@ -1,0 +1,54 @@
+/// `clathra export`: snapshots for other programs.
+#include "io/export.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+
+#include "io/snapshot_file.hpp"
+#include "print.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct ExportOptions {
+  std::filesystem::path source, folder;
+  ExportFormat format = ExportFormat::vtu;
+};
+
+ExitCode export_snapshots(ExportOptions const& options) {
+  std::error_code error;
+  bool const is_run = std::filesystem::is_directory(options.source, error);
+  std::vector<std::filesystem::path> files{options.source};
+  if (is_run) files = snapshot_files(options.source);
+  if (files.empty())
+    throw FileProblem(ExitCode::file_missing, options.source,
+                      "has no snapshots (snap/*.h5); output.snapshots says how many a run writes");
+  std::filesystem::path folder = options.folder;
+  if (folder.empty()) folder = is_run ? options.source / "export" : options.source.parent_path();
+  std::size_t count = 0;
+  for (std::filesystem::path const& file : files) count += export_snapshot(read_snapshot(file), options.format, folder).size();
+  return print_result(fmt::format("{} files written to {}\n", count, folder.string()));
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<ExportOptions>();
+  CLI::App* const verb = program.add_subcommand("export", "Write snapshots in the formats of other programs");
+  verb->add_option("source", options->source, "folder of a run, or one of its snapshots")->required();
+  std::map<std::string, ExportFormat> const formats = {
+      {"lammpsdump", ExportFormat::lammpsdump}, {"vtu", ExportFormat::vtu}, {"csv", ExportFormat::csv}};
+  verb->add_option("--to", options->format, "lammpsdump (discs as a LAMMPS text dump), vtu (VTK), or csv")
+      ->required()
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
+      ->type_name("FORMAT");
+  verb->add_option("-o,--output", options->folder, "folder to write to (default: export/ in the folder of the run)")
+      ->type_name("DIR");
+  verb->footer("Example: clathra export out/quick --to vtu");
+  verb->callback([options, &chosen] { chosen = [options] { return export_snapshots(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,216 @@
+#include "io/snapshot_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "io/hdf5_file.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr char format_name[] = "clathra snapshot";
+constexpr std::int64_t format_version = 1;
+
+/// Visits every scalar of a snapshot: name, value, unit.
+template <class Any, class Visit>
+void for_each_scalar(Any& s, Visit&& visit) {
+  visit("time", s.time, "s");
+  visit("eps1", s.eps1, "");
+  visit("eps_v", s.eps_v, "");
+  visit("left", s.left, "m");
+  visit("right", s.right, "m");
+  visit("bottom", s.bottom, "m");
+  visit("top", s.top, "m");
+  visit("sigma1", s.sigma1, "Pa");
+  visit("sigma3", s.sigma3, "Pa");
+  visit("density", s.density, "kg/m^3");
+  visit("d50", s.d50, "m");
+  visit("critical_thickness", s.critical_thickness, "m");
+}
+
+/// The largest power of two that is not above `value`; 0 for 0.
+double power_of_two(double value) { return value > 0 ? std::exp2(std::floor(std::log2(value))) : 0; }
+
+template <class T>
+double mean_size(std::vector<T> const& values) {
+  double sum = 0;
+  for (T const v : values) sum += std::abs(static_cast<double>(v));
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+/// Writes vectors of equal length as a table of rounded numbers, a column each; columns without a vector hold 0.
+/// @param resolution  a power of two in the unit of the column, or 0 to round nothing
+template <class T>
+void write_rounded(Hdf5File& file, std::string const& name, std::vector<std::vector<T> const*> const& parts, double resolution,
+                   char const* unit, std::size_t width) {
+  std::size_t const rows = parts.front()->size();
+  std::vector<T> table(rows * width);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      double const value = (*parts[k])[i];
+      table[i * width + k] = static_cast<T>(resolution > 0 ? std::nearbyint(value / resolution) * resolution : value);
+    }
+  }
+  file.write(name, table, unit, width);
+  file.set_column_attribute(name, "resolution", resolution);
+}
+
+void write_discs(Hdf5File& file, Snapshot const& s) {
+  double const length = power_of_two(s.d50);
+  auto const speed = [&](std::vector<float> const& v) { return power_of_two(mean_size(v)) / 64; };
+  file.write("particles/id", s.id, "");
+  std::vector<std::int32_t> index(s.id.size());
+  std::iota(index.begin(), index.end(), 0);
+  file.write("particles/index", index, "");
+  write_rounded<double>(file, "particles/position", {&s.x, &s.y}, length / 65536, "m", 2);
+  write_rounded<float>(file, "particles/displacement", {&s.ux, &s.uy}, length / 4096, "m", 3);
+  write_rounded<float>(file, "particles/velocity", {&s.vx, &s.vy}, std::max(speed(s.vx), speed(s.vy)), "m/s", 3);
+  write_rounded<float>(file, "particles/angular_velocity", {&s.omega}, speed(s.omega), "rad/s", 1);
+  write_rounded<float>(file, "particles/angle", {&s.angle}, 1.0 / 8192, "rad", 1);
+  write_rounded<float>(file, "particles/radius", {&s.radius}, length / 65536, "m", 1);
+  double const stress = power_of_two(mean_size(s.stress_yy)) / 128;
+  write_rounded<float>(file, "particles/stress", {&s.stress_xx, &s.stress_yy, &s.stress_xy}, stress, "Pa (xx, yy, xy)", 3);
+  file.write("particles/coordination", s.coordination, "");
+  file.write("particles/bonds_intact", s.bonds_intact, "");
+  file.write("particles/bonds_initial", s.bonds_initial, "");
+}
+
+void write_pairs(Hdf5File& file, Snapshot const& s) {
+  double const length = power_of_two(s.d50), force = power_of_two(mean_size(s.normal_force)) / 128;
+  std::size_t const count = s.a.size();
+  std::vector<std::uint32_t> pairs(2 * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    pairs[2 * k] = static_cast<std::uint32_t>(s.a[k]);
+    pairs[2 * k + 1] = static_cast<std::uint32_t>(s.b[k]);
+  }
+  file.write("contacts/pair", pairs, "index into particles", 2);
+  file.write("contacts/state", s.state, "0 contact, 1 bonded, bond broken by: 2 tension, 3 compression, 4 shear, 5 rolling");
+  write_rounded<float>(file, "contacts/normal_force", {&s.normal_force}, force, "N/m", 1);
+  write_rounded<float>(file, "contacts/shear_force", {&s.shear_force}, force, "N/m", 1);
+  write_rounded<float>(file, "contacts/moment", {&s.moment}, power_of_two(mean_size(s.moment)) / 64, "N m/m", 1);
+  write_rounded<float>(file, "contacts/gap", {&s.gap}, length / 131072, "m", 1);
+  write_rounded<float>(file, "contacts/width", {&s.width}, length / 4096, "m", 1);
+}
+
+void write_events(Hdf5File& file, Snapshot const& s) {
+  std::vector<std::int32_t> id_a, id_b;
+  std::vector<std::uint8_t> mode;
+  std::vector<double> step, position;
+  for (BreakEvent const& e : s.events) {
+    step.push_back(static_cast<double>(e.step));
+    id_a.push_back(e.id_a);
+    id_b.push_back(e.id_b);
+    mode.push_back(static_cast<std::uint8_t>(e.mode));
+    position.insert(position.end(), {e.x, e.y});
+  }
+  file.write("events/step", step, "");
+  file.write("events/id_a", id_a, "");
+  file.write("events/id_b", id_b, "");
+  file.write("events/mode", mode, "1 tension, 2 compression, 3 shear, 4 rolling");
+  file.write("events/position", position, "m", 2);
+}
+
+/// Splits a table into its columns.
+template <class T>
+void read_table(Hdf5File const& file, std::string const& name, std::size_t rows, std::vector<std::vector<T>*> const& parts,
+                std::size_t width) {
+  std::vector<T> const table = file.read<T>(name, rows, width);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    parts[k]->resize(rows);
+    for (std::size_t i = 0; i < rows; ++i) (*parts[k])[i] = table[i * width + k];
+  }
+}
+
+void read_discs(Hdf5File const& file, Snapshot& s, std::size_t count) {
+  s.id = file.read<std::int32_t>("particles/id", count);
+  read_table<double>(file, "particles/position", count, {&s.x, &s.y}, 2);
+  read_table<float>(file, "particles/displacement", count, {&s.ux, &s.uy}, 3);
+  read_table<float>(file, "particles/velocity", count, {&s.vx, &s.vy}, 3);
+  read_table<float>(file, "particles/angular_velocity", count, {&s.omega}, 1);
+  read_table<float>(file, "particles/angle", count, {&s.angle}, 1);
+  read_table<float>(file, "particles/radius", count, {&s.radius}, 1);
+  read_table<float>(file, "particles/stress", count, {&s.stress_xx, &s.stress_yy, &s.stress_xy}, 3);
+  s.coordination = file.read<std::uint8_t>("particles/coordination", count);
+  s.bonds_intact = file.read<std::uint8_t>("particles/bonds_intact", count);
+  s.bonds_initial = file.read<std::uint8_t>("particles/bonds_initial", count);
+}
+
+void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
+  std::vector<std::uint32_t> const pairs = file.read<std::uint32_t>("contacts/pair", count, 2);
+  s.a.resize(count);
+  s.b.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::uint32_t const disc : {pairs[2 * k], pairs[2 * k + 1]})
+      if (disc >= s.id.size())
+        file.fail(ExitCode::bad_input, fmt::format("contact {} names disc {}, there are {}", k, disc, s.id.size()));
+    s.a[k] = static_cast<std::int32_t>(pairs[2 * k]);
+    s.b[k] = static_cast<std::int32_t>(pairs[2 * k + 1]);
+  }
+  s.state = file.read<std::uint8_t>("contacts/state", count);
+  for (std::uint8_t const state : s.state)
+    if (state >= contact_state_count) file.fail(ExitCode::bad_input, fmt::format("contacts/state holds {}", state));
+  read_table<float>(file, "contacts/normal_force", count, {&s.normal_force}, 1);
+  read_table<float>(file, "contacts/shear_force", count, {&s.shear_force}, 1);
+  read_table<float>(file, "contacts/moment", count, {&s.moment}, 1);
+  read_table<float>(file, "contacts/gap", count, {&s.gap}, 1);
+  read_table<float>(file, "contacts/width", count, {&s.width}, 1);
+}
+
+void read_events(Hdf5File const& file, Snapshot& s) {
+  std::vector<double> const step = file.read<double>("events/step", Hdf5File::any_size);
+  std::size_t const count = step.size();
+  auto const id_a = file.read<std::int32_t>("events/id_a", count), id_b = file.read<std::int32_t>("events/id_b", count);
+  auto const mode = file.read<std::uint8_t>("events/mode", count);
+  auto const position = file.read<double>("events/position", count, 2);
+  for (std::size_t k = 0; k < count; ++k)
+    s.events.push_back({std::llround(step[k]), id_a[k], id_b[k], mode[k], position[2 * k], position[2 * k + 1]});
+}
+
+}  // namespace
+
+void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot) {
+  replace_hdf5_file(path, [&](Hdf5File& file) {
+    file.set_attribute("format", std::string(format_name));
+    file.set_attribute("version", format_version);
+    file.set_attribute("step", snapshot.step);
+    file.set_attribute("particles", static_cast<std::int64_t>(snapshot.id.size()));
+    file.set_attribute("contacts", static_cast<std::int64_t>(snapshot.a.size()));
+    for_each_scalar(snapshot, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
+    write_discs(file, snapshot);
+    write_pairs(file, snapshot);
+    write_events(file, snapshot);
+    file.write("walls/position", std::vector<double>{snapshot.left, snapshot.right, snapshot.bottom, snapshot.top},
+               "m (left, right, bottom, top)");
+  });
+}
+
+Snapshot read_snapshot(std::filesystem::path const& path) {
+  Hdf5File const file = Hdf5File::open(path);
+  if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a snapshot of Clathra");
+  if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
+    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
+  std::int64_t const discs = file.integer_attribute("particles"), pairs = file.integer_attribute("contacts");
+  if (discs < 1 || discs > 1'000'000'000 || pairs < 0 || pairs > 10'000'000'000)
+    file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", discs, pairs));
+  Snapshot s;
+  s.step = file.integer_attribute("step");
+  for_each_scalar(s, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
+  read_discs(file, s, static_cast<std::size_t>(discs));
+  read_pairs(file, s, static_cast<std::size_t>(pairs));
+  read_events(file, s);
+  return s;
+}
+
+std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& run_folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code none;
+  for (auto const& entry : std::filesystem::directory_iterator(run_folder / "snap", none))
+    if (entry.path().extension() == ".h5") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace clathra

@@ -1,0 +1,40 @@
+#pragma once
+/// Snapshots of a run: one immutable HDF5 file each, and two XDMF index files that ParaView opens.
+#include <filesystem>
+#include <vector>
+
+#include "domain/snapshot.hpp"
+
+namespace clathra {
+
+/// Writes a snapshot. Discs and pairs keep their spatial order, in which they compress best; `particles/id` is their identity.
+/// Numbers are rounded to a resolution that stands beside each column as the attribute `resolution`: a snapshot shows a state, a
+/// specimen file (specimen.h5, final.h5) continues it. @throws FileProblem cannot_create or io_error
+void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot);
+
+/// @throws FileProblem file_missing, or bad_input where the file is damaged, no snapshot, or of another version
+Snapshot read_snapshot(std::filesystem::path const& path);
+
+/// The snapshots of a run's folder in the order of their steps; none where there are none.
+std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& run_folder);
+
+/// The snapshots of a run, written under RUN/snap/, with RUN/particles.xdmf and RUN/contacts.xdmf brought up to date after each.
+class SnapshotSeries {
+ public:
+  explicit SnapshotSeries(std::filesystem::path run_folder);  ///< @throws FileProblem cannot_create
+  void write(Snapshot const& snapshot);                       ///< @throws FileProblem
+
+ private:
+  struct Entry {
+    std::string file;  ///< relative to the run's folder
+    double eps1;
+    std::size_t discs, pairs;
+  };
+  std::string particles_index() const;
+  std::string contacts_index() const;
+
+  std::filesystem::path folder_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace clathra

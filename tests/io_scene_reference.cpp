@@ -1,0 +1,100 @@
+/// What the schema says of itself: reference, JSON Schema, commented scenes.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "command.hpp"
+#include "io/run_record.hpp"
+#include "io/scene_file.hpp"
+#include "io/scene_reference.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> example_files() {
+  std::vector<fs::path> files;
+  for (auto const& entry : fs::recursive_directory_iterator(CLATHRA_EXAMPLES))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  return files;
+}
+
+TEST(SceneReference, ACommentedSceneLoadsToTheSameScene) {
+  ASSERT_GE(example_files().size(), 12u);
+  for (fs::path const& file : example_files()) {
+    LoadedScene const original = load_scene(file);
+    std::string const text = commented_scene(original.scene, original.stated, "# opening\n");
+    LoadedScene const again = parse_scene(text, "again.toml", file.parent_path());
+    EXPECT_EQ(scene_json(again.scene), scene_json(original.scene)) << file;
+    EXPECT_EQ(again.stated, original.stated) << file;
+  }
+}
+
+/// Taking the comment signs away from one key after the other never makes a scene wrong: what is shown is allowed.
+TEST(SceneReference, EveryCommentedValueIsAllowed) {
+  std::istringstream lines(commented_scene(Scene{}, {}, ""));
+  std::string line, section;
+  int values = 0;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("[")) section = line;
+    if (!line.starts_with("# ") || line.find(" = ") == std::string::npos ||
+        find_key(section.substr(1, section.size() - 2) + "." + line.substr(2, line.find(" = ") - 2)) == nullptr)
+      continue;
+    ++values;
+    try {
+      parse_scene("[sample]\nparticles = 1000\n" + (section == "[sample]" ? "" : section + "\n") + line.substr(2) + "\n",
+                  "one.toml", ".");
+    } catch (SceneProblems const& problems) {
+      // Some defaults need another key beside them, which is said of the whole scene, not of the value.
+      EXPECT_EQ(std::string(problems.what()).find("must lie between"), std::string::npos) << problems.what();
+      EXPECT_EQ(std::string(problems.what()).find("must be one of"), std::string::npos) << problems.what();
+    }
+  }
+  EXPECT_GT(values, 30);
+}
+
+TEST(SceneReference, NamesEveryKeyInBothForms) {
+  std::string const page = schema_markdown();
+  nlohmann::json const json = nlohmann::json::parse(schema_json());
+  for (Key const& key : schema()) {
+    EXPECT_NE(page.find("| `" + std::string(key.leaf()) + "` | " + std::string(key.help)), std::string::npos) << key.name;
+    auto const& entry = json["properties"][std::string(key.section())]["properties"][std::string(key.leaf())];
+    EXPECT_TRUE(entry.contains("description")) << key.name;
+    if (key.kind == Kind::choice) EXPECT_EQ(entry["enum"].size(), key.choices.size()) << key.name;
+  }
+}
+
+TEST(SceneReference, ThePageInTheDocumentationIsTheProgramsOwn) {
+  std::ifstream file(fs::path(CLATHRA_EXAMPLES).parent_path() / "docs" / "scene.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), schema_markdown()) << "renew it: clathra schema > docs/scene.md";
+}
+
+TEST(InitCommand, WritesASceneThatIsRightAndNeverOverwrites) {
+  fs::path const file = fs::temp_directory_path() / ("clathra_init_" + std::to_string(::getpid()) + ".toml");
+  CommandResult const first = run_clathra("init quick -o " + file.string());
+  EXPECT_EQ(first.code, 0) << first.output;
+  EXPECT_EQ(run_clathra("check " + file.string()).code, 0);
+  std::ofstream(file, std::ios::app) << "# mine\n";
+  auto const size = fs::file_size(file);
+  EXPECT_EQ(run_clathra("init quick -o " + file.string()).code, 73);
+  EXPECT_EQ(fs::file_size(file), size);
+  fs::remove(file);
+  CommandResult const wrong = run_clathra("init quik");
+  EXPECT_EQ(wrong.code, 64);
+  EXPECT_NE(wrong.output.find("did you mean 'quick'"), std::string::npos) << wrong.output;
+  EXPECT_EQ(run_clathra("init").code, 64);
+  CommandResult const list = run_clathra("init --list");
+  for (fs::path const& example : example_files())
+    EXPECT_NE(list.output.find(fs::relative(example, CLATHRA_EXAMPLES).replace_extension().string()), std::string::npos)
+        << example;
+}
+
+}  // namespace
+}  // namespace clathra

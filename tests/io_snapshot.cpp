@@ -1,0 +1,184 @@
+/// Snapshots: what they hold of a simulation, the way through their file, their XDMF index, and other programs' formats.
+#include <unistd.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "io/export.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/snapshot_file.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A bonded patch between walls that was squeezed until some of its bonds broke.
+Simulation squeezed_patch() {
+  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Specimen s = disordered_patch(12, 12, 0.02);
+  enclose(s);
+  bond_all(s, scene);
+  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
+  sim.time_step = 2e-8;
+  sim.loading.y = AxisDrive::at_rate(1000);
+  return sim;
+}
+
+class SnapshotFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder);
+    Simulation sim = squeezed_patch();
+    ReferencePositions const start = reference_positions(sim);
+    for (int n = 0; n < 4000; ++n) sim.step();
+    broken = sim.break_events(0);
+    measures = sim.measures();
+    area = sim.area();
+    snapshot = take_snapshot(sim, start);
+    snapshot.d50 = grain_d50;
+    snapshot.events = broken;
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string content(fs::path const& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  ExitCode code_of(std::function<void()> const& act) {
+    try {
+      act();
+    } catch (FileProblem const& problem) {
+      return problem.code;
+    }
+    return ExitCode::done;
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_snapshot_" + std::to_string(::getpid()));
+  Snapshot snapshot;
+  std::vector<BreakEvent> broken;
+  Measures measures;
+  double area = 0;
+};
+
+TEST_F(SnapshotFile, ShowsEveryBondAsIntactOrBrokenOnce) {
+  ASSERT_GT(broken.size(), 5u);
+  int intact = 0, gone = 0;
+  for (std::uint8_t const state : snapshot.state) {
+    intact += state == 1 ? 1 : 0;
+    gone += state > 1 ? 1 : 0;
+  }
+  EXPECT_EQ(intact, std::lround(measures.bonded));
+  EXPECT_EQ(gone, static_cast<int>(broken.size()));
+  int initial = 0, left = 0;
+  for (std::size_t i = 0; i < snapshot.id.size(); ++i) initial += snapshot.bonds_initial[i], left += snapshot.bonds_intact[i];
+  EXPECT_EQ(initial - left, 2 * gone);
+  EXPECT_EQ(left, 2 * intact);
+}
+
+TEST_F(SnapshotFile, StressOfTheDiscsAddsUpToThatOfTheSpecimen) {
+  double xx = 0, yy = 0;
+  for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
+    double const disc_area = pi * snapshot.radius[i] * double(snapshot.radius[i]);
+    xx += snapshot.stress_xx[i] * disc_area;
+    yy += snapshot.stress_yy[i] * disc_area;
+  }
+  EXPECT_NEAR(yy / measures.stress_area_yy, 1, 1e-5);
+  EXPECT_NEAR(xx / measures.stress_area_xx, 1, 1e-5);
+}
+
+TEST_F(SnapshotFile, ReadsBackWithinItsStatedResolution) {
+  write_snapshot(folder / "s.h5", snapshot);
+  Snapshot const back = read_snapshot(folder / "s.h5");
+  EXPECT_EQ(back.step, snapshot.step);
+  EXPECT_EQ(back.id, snapshot.id);
+  EXPECT_EQ(back.a, snapshot.a);
+  EXPECT_EQ(back.b, snapshot.b);
+  EXPECT_EQ(back.state, snapshot.state);
+  EXPECT_EQ(back.coordination, snapshot.coordination);
+  EXPECT_EQ(back.events.size(), snapshot.events.size());
+  double force = 0;
+  for (float const f : snapshot.normal_force) force += std::abs(f) / static_cast<double>(snapshot.normal_force.size());
+  for (std::size_t i = 0; i < back.x.size(); ++i) {
+    ASSERT_NEAR(back.x[i], snapshot.x[i], grain_d50 / 65536);
+    ASSERT_NEAR(back.uy[i], snapshot.uy[i], grain_d50 / 4096);
+    ASSERT_NEAR(back.radius[i], snapshot.radius[i], grain_d50 / 65536);
+  }
+  for (std::size_t k = 0; k < back.a.size(); ++k) {
+    ASSERT_NEAR(back.normal_force[k], snapshot.normal_force[k], force / 128);
+    ASSERT_NEAR(back.gap[k], snapshot.gap[k], grain_d50 / 131072);
+  }
+}
+
+TEST_F(SnapshotFile, DamageAndStrangersAreNamed) {
+  EXPECT_EQ(code_of([&] { read_snapshot(folder / "none.h5"); }), ExitCode::file_missing);
+  std::ofstream(folder / "text.h5") << "no HDF5";
+  EXPECT_EQ(code_of([&] { read_snapshot(folder / "text.h5"); }), ExitCode::bad_input);
+  Snapshot wrong = snapshot;
+  wrong.b.back() = static_cast<std::int32_t>(wrong.id.size());
+  write_snapshot(folder / "wrong.h5", wrong);
+  EXPECT_EQ(code_of([&] { read_snapshot(folder / "wrong.h5"); }), ExitCode::bad_input);
+  wrong = snapshot;
+  wrong.state.front() = 17;
+  write_snapshot(folder / "wrong.h5", wrong);
+  EXPECT_EQ(code_of([&] { read_snapshot(folder / "wrong.h5"); }), ExitCode::bad_input);
+}
+
+/// Every data item of an index names a column that is there, with the rows and columns that it claims.
+TEST_F(SnapshotFile, XdmfNamesColumnsThatExist) {
+  SnapshotSeries series(folder);
+  series.write(snapshot);
+  snapshot.step += 100;
+  series.write(snapshot);
+  EXPECT_EQ(snapshot_files(folder).size(), 2u);
+  int items = 0;
+  for (char const* const index : {"particles.xdmf", "contacts.xdmf"}) {
+    std::string const text = content(folder / index);
+    std::regex const item("Dimensions=\"(\\d+)( (\\d+))?\" NumberType=\"(\\w+)\"[^>]*>([^:]+):/([^<]+)<");
+    for (auto at = std::sregex_iterator(text.begin(), text.end(), item); at != std::sregex_iterator(); ++at, ++items) {
+      std::size_t const rows = std::stoul((*at)[1]), width = (*at)[3].matched ? std::stoul((*at)[3]) : 1;
+      Hdf5File const file = Hdf5File::open(folder / (*at)[5].str());
+      EXPECT_EQ(file.read<double>((*at)[6], rows, width).size(), rows * width);
+    }
+  }
+  EXPECT_EQ(items, 2 * (2 + 10 + 2 + 6));
+}
+
+TEST_F(SnapshotFile, LammpsDumpListsEveryDisc) {
+  std::istringstream text(lammps_dump(snapshot));
+  std::string line;
+  for (int n = 0; n < 9; ++n) std::getline(text, line);
+  EXPECT_EQ(line.substr(0, 24), "ITEM: ATOMS id type x y ");
+  std::size_t rows = 0;
+  for (; std::getline(text, line); ++rows) {
+    std::istringstream cells(line);
+    int id = 0, type = 0;
+    double x = 0, y = 0, z = 0, radius = 0;
+    cells >> id >> type >> x >> y >> z >> radius;
+    ASSERT_EQ(id, snapshot.id[rows] + 1);
+    ASSERT_EQ(x, snapshot.x[rows]);
+    ASSERT_EQ(y, snapshot.y[rows]);
+    ASSERT_EQ(static_cast<float>(radius), snapshot.radius[rows]);
+  }
+  EXPECT_EQ(rows, snapshot.id.size());
+}
+
+TEST_F(SnapshotFile, ExportsUnderNamesOfTheStep) {
+  EXPECT_EQ(export_snapshot(snapshot, ExportFormat::csv, folder / "x").size(), 2u);
+  EXPECT_EQ(export_snapshot(snapshot, ExportFormat::vtu, folder / "x").size(), 2u);
+  EXPECT_TRUE(fs::exists(folder / "x" / "discs_000000004000.vtu"));
+  std::string const pairs = content(folder / "x" / "contacts_000000004000.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(pairs.begin(), pairs.end(), '\n')), snapshot.a.size() + 1);
+  EXPECT_NE(pairs.find(",broken_"), std::string::npos);
+  std::string const grid = content(folder / "x" / "contacts_000000004000.vtu");
+  // 3 doubles a disc, 2 + 1 integers and 1 + 1 bytes and 5 floats a pair, and ten lengths of 8 bytes lie behind the XML.
+  std::size_t const raw = grid.rfind("\n</AppendedData>") - grid.find("_", grid.find("<AppendedData")) - 1;
+  EXPECT_EQ(raw, snapshot.id.size() * 24 + snapshot.a.size() * (12 + 2 + 20) + 10 * 8);
+}
+
+}  // namespace
+}  // namespace clathra
