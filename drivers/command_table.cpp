@@ -3,11 +3,13 @@
 namespace clathra {
 namespace {
 
-/// "{printed,thm}" in "TEXT:{printed,thm}", as parts.
+/// The names in "TEXT:{printed,thm}" or "FORMAT:value in {vtu->0,csv->1} OR {0,1}".
 std::vector<std::string> choices_of(std::string const& type) {
-  auto const open = type.find('{'), close = type.rfind('}');
+  auto const open = type.find('{'), close = type.find('}');
   if (open == std::string::npos || close == std::string::npos) return {};
-  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+  std::vector<std::string> choices = CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+  for (std::string& choice : choices) choice = choice.substr(0, choice.find("->"));
+  return choices;
 }
 
 OptionEntry entry_of(CLI::Option const& option) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "command_table.hpp"
+#include "examples.hpp"
 #include "io/schema.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
@@ -65,6 +66,8 @@ _clathra() {
     esac
   elif [[ $cur == -* ]]; then
     _clathra_offer "${_clathra_options[$verb]-}"
+  elif [[ -n ${_clathra_arguments[$verb]-} ]]; then
+    _clathra_offer "${_clathra_arguments[$verb]}"
   else
     _clathra_offer_files -f
   fi
@@ -97,6 +100,13 @@ std::string verb_tables(std::vector<VerbEntry> const& table) {
   return fmt::format("declare -g _clathra_verbs=\"{}\"\n{})\n{})\n", verbs, options, values);
 }
 
+/// Verbs whose argument is no file.
+std::string argument_tables() {
+  std::vector<std::string_view> names;
+  for (Example const& example : examples()) names.push_back(example.name);
+  return fmt::format("declare -gA _clathra_arguments=(\n  [init]=\"{}\"\n)\n", fmt::join(names, " "));
+}
+
 std::string key_tables() {
   std::string keys, choices = "declare -gA _clathra_choices=(\n";
   for (Key const& key : schema()) {
@@ -115,8 +125,8 @@ void add_completion(CLI::App& program, Verb& chosen) {
   verb->footer("Example: clathra completion bash > ~/.local/share/bash-completion/completions/clathra");
   verb->callback([&program, &chosen] {
     chosen = [&program] {
-      return print_result("# Made by `clathra completion bash`.\n" + verb_tables(command_table(program)) + key_tables() +
-                          bash_function);
+      return print_result("# Made by `clathra completion bash`.\n" + verb_tables(command_table(program)) + argument_tables() +
+                          key_tables() + bash_function);
     };
   });
 }
