@@ -2,6 +2,7 @@
 # tests and the benches are still built.
 find_package(PkgConfig QUIET)
 find_package(HDF5 QUIET COMPONENTS C)
+find_package(PNG QUIET)
 find_package(fmt CONFIG QUIET)
 find_package(CLI11 CONFIG QUIET)
 find_package(nlohmann_json CONFIG QUIET)
@@ -11,7 +12,7 @@ if(PkgConfig_FOUND)
 endif()
 
 set(missing "")
-foreach(library HDF5 fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHASH)
+foreach(library HDF5 PNG fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHASH)
   if(NOT ${library}_FOUND)
     list(APPEND missing ${library})
   endif()
@@ -30,6 +31,6 @@ if(CLATHRA_IO)
   # TOML_HEADER_ONLY=0: the parser comes compiled, in the shared library, instead of once more in each of our sources.
   target_compile_definitions(clathra_io_libraries INTERFACE ${HDF5_DEFINITIONS} TOML_HEADER_ONLY=0)
   target_link_libraries(
-    clathra_io_libraries INTERFACE ${HDF5_C_LIBRARIES} PkgConfig::TOMLPLUSPLUS PkgConfig::XXHASH fmt::fmt
+    clathra_io_libraries INTERFACE ${HDF5_C_LIBRARIES} PNG::PNG PkgConfig::TOMLPLUSPLUS PkgConfig::XXHASH fmt::fmt
                                    nlohmann_json::nlohmann_json)
 endif()

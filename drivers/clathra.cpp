@@ -63,6 +63,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_bond(program, chosen);
   add_info(program, chosen);
   add_export(program, chosen);
+  add_report(program, chosen);
   add_verify(program, chosen);
   add_selftest(program, chosen);
   add_completion(program, chosen);

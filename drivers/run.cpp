@@ -12,6 +12,7 @@
 #include "io/events.hpp"
 #include "io/history.hpp"
 #include "io/output_folder.hpp"
+#include "io/report/report.hpp"
 #include "io/run_check.hpp"
 #include "io/snapshot_file.hpp"
 #include "io/specimen_file.hpp"
@@ -70,7 +71,7 @@ class Run {
     } catch (std::exception const& problem) {
       return fail(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
     }
-    write_record(ExitCode::done, "finished");
+    conclude(ExitCode::done, "finished");
     line_.repeat_warnings();
     print_result(summary_->text() +
                  fmt::format("results   {}\n", folder_.path().string()));  // a closed stdout is no failure of the run
@@ -166,8 +167,20 @@ class Run {
     write_run_record(folder_ / "run.json", record_);
   }
 
+  /// run.json, then the report that draws on it. That there can be no report is a warning and loses nothing else.
+  void conclude(ExitCode code, std::string const& reason) {
+    write_record(code, reason);
+    if (!summary_ || summary_->records() < 2) return;
+    try {
+      write_report({folder_.path()}, folder_ / "report.html");
+    } catch (std::exception const& problem) {
+      warn(fmt::format("there is no report: {}", problem.what()));
+      write_record(code, reason);
+    }
+  }
+
   ExitCode stopped() {
-    write_record(ExitCode::interrupted, fmt::format("stopped by Ctrl-C at an axial strain of {:.3g} %", last_.eps1 * 100));
+    conclude(ExitCode::interrupted, fmt::format("stopped by Ctrl-C at an axial strain of {:.3g} %", last_.eps1 * 100));
     line_.repeat_warnings();
     line_.note("clathra: " + record_.exit_reason + "; what was written so far is in " + folder_.path().string());
     return ExitCode::interrupted;
@@ -178,7 +191,7 @@ class Run {
     line_.repeat_warnings();
     line_.note("clathra: " + reason);
     try {
-      write_record(code, reason);
+      conclude(code, reason);
     } catch (FileProblem const& problem) {
       line_.note(fmt::format("clathra: {}", problem.what()));
     }

@@ -50,7 +50,7 @@ TEST_F(RunCommand, LeavesEverythingThatARunPromises) {
   CommandResult const result = run("out");
   ASSERT_EQ(result.code, 0) << result.output;
   for (char const* const name :
-       {"run.json", "input.toml", "resolved.toml", "history.csv", "events.csv", "specimen.h5", "final.h5"})
+       {"run.json", "input.toml", "resolved.toml", "history.csv", "events.csv", "specimen.h5", "final.h5", "report.html"})
     EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
   EXPECT_EQ(content(folder / "out" / "input.toml"), content(scene));
   auto const json = record("out");
@@ -61,6 +61,18 @@ TEST_F(RunCommand, LeavesEverythingThatARunPromises) {
   std::string const history = content(folder / "out" / "history.csv");
   EXPECT_GE(std::count(history.begin(), history.end(), '\n'), 21);
   EXPECT_NE(result.output.find("peak "), std::string::npos);
+}
+
+TEST_F(RunCommand, AReportThatCannotBeWrittenIsAWarningAndLosesNothing) {
+  fs::create_directories(folder / "out" / "report.html" / "in the way");
+  std::ofstream(folder / "out" / ".lock");
+  CommandResult const result = run("out");
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find("there is no report: "), std::string::npos) << result.output;
+  auto const json = record("out");
+  EXPECT_EQ(json["exit"]["reason"], "finished");
+  EXPECT_NE(json["warnings"].dump().find("there is no report: "), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "out" / "final.h5"));
 }
 
 TEST_F(RunCommand, TheResolvedSceneAndTheKeptSpecimenGiveTheSameBits) {
@@ -174,6 +186,7 @@ TEST_F(RunningCommand, CtrlCEndsItCleanly) {
   std::string const history = content(folder / "out" / "history.csv");
   EXPECT_EQ(history.back(), '\n');
   EXPECT_FALSE(fs::exists(folder / "out" / "final.h5"));
+  EXPECT_NE(content(folder / "out" / "report.html").find("the run is not complete: stopped by Ctrl-C"), std::string::npos);
 }
 
 TEST_F(RunningCommand, ASecondRunInItsFolderIsRefused) {

@@ -1,0 +1,39 @@
+/// `clathra report`: one page on one run or several.
+#include "io/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "print.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path html;
+};
+
+ExitCode report(ReportOptions const& options) {
+  std::filesystem::path html = options.html;
+  if (html.empty()) html = options.runs.size() == 1 ? options.runs.front() / "report.html" : "report.html";
+  write_report(options.runs, html);
+  return print_result(html.string() + "\n");
+}
+
+}  // namespace
+
+void add_report(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<ReportOptions>();
+  CLI::App* const verb = program.add_subcommand("report", "Draw the results of one run, or of several over each other");
+  verb->add_option("runs", options->runs, "folders of runs")->required()->type_name("DIR");
+  verb->add_option("-o,--output", options->html,
+                   "page to write (default: report.html in the folder of the run; for several runs in the current folder)")
+      ->type_name("FILE");
+  verb->footer("Example: clathra report out/s26 out/s41 out/s55 -o out/compared.html");
+  verb->callback([options, &chosen] { chosen = [options] { return report(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,194 @@
+#include "io/report/curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/report/markup.hpp"
+#include "io/report/test_numbers.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double percent = 100, mega = 1e-6;
+constexpr char strain_axis[] = "axial strain ε₁ [%]";
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+/// A column of every run against its axial strain.
+Plot plot_of(std::vector<RunResults> const& runs, std::string const& column, double factor, std::string axis) {
+  Plot plot;
+  Range strains, values;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    HistoryTable const& history = runs[i].history;
+    plot.curves.push_back({run_label(runs[i]), scaled(history["eps1"], percent), scaled(history[column], factor), run_stroke(i)});
+    strains.include(plot.curves.back().x);
+    values.include(plot.curves.back().y);
+  }
+  plot.x = strains.exact_axis(strain_axis);
+  plot.y = values.axis(std::move(axis));
+  return plot;
+}
+
+std::string stress_figure(std::vector<RunResults> const& runs) {
+  Plot plot = plot_of(runs, "q_Pa", mega, "deviator stress q [MPa]");
+  plot.title = "Deviator stress against axial strain";
+  for (RunResults const& run : runs) {
+    TestNumbers const n = test_numbers(run.history);
+    plot.description += fmt::format("{}: peak {:.3g} MPa at {:.3g} %, residual {:.3g} MPa. ", run_label(run), n.peak_q * mega,
+                                    n.peak_eps1 * percent, n.residual_q * mega);
+  }
+  return figure("Stress and strain", svg(plot) + legend(plot.curves),
+                "How hard the specimen resists: the deviator stress q = σ₁ − σ₃, the difference of the vertical and the lateral "
+                "stress on the walls, while the top and bottom close in on each other.");
+}
+
+std::string volume_figure(std::vector<RunResults> const& runs) {
+  Plot plot = plot_of(runs, "eps_v", percent, "volumetric strain εᵥ [%]");
+  plot.title = "Volumetric strain against axial strain";
+  for (RunResults const& run : runs)
+    plot.description += fmt::format("{}: {:+.3g} % at the end. ", run_label(run), run.history["eps_v"].back() * percent);
+  return figure("Change of volume", svg(plot) + legend(plot.curves),
+                "Compression is positive: a rising curve means that the specimen gets denser, a falling one that it dilates. "
+                "Below zero it takes more room than before the test. Strains are natural (logarithmic) ones.");
+}
+
+std::string intact_figure(std::vector<RunResults> const& runs) {
+  std::vector<RunResults> bonded;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(bonded), [](RunResults const& run) { return run.has_bonds(); });
+  if (bonded.empty()) return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
+  Plot plot = plot_of(runs, "intact_initial_pct", 1, "intact bonds [% of the first]");
+  for (std::size_t i = runs.size(); i-- > 0;)
+    if (!runs[i].has_bonds()) plot.curves.erase(plot.curves.begin() + static_cast<std::ptrdiff_t>(i));
+  plot.title = "Share of intact bonds against axial strain";
+  plot.y = {plot.y.title, 0, percent};
+  for (RunResults const& run : bonded)
+    plot.description += fmt::format("{}: {:.3g} % at the end. ", run_label(run), run.history["intact_initial_pct"].back());
+  return figure("Intact bonds", svg(plot) + legend(plot.curves),
+                "Bonds of hydrate between grains that still hold, as a share of those that were there when the hydrate formed. A "
+                "broken bond does not heal.");
+}
+
+/// What broke the bonds of a run: a curve for each mode.
+std::vector<Curve> mode_curves(HistoryTable const& history) {
+  std::vector<Curve> curves;
+  for (ModeStyle const& mode : mode_styles()) {
+    Curve curve{"", scaled(history["eps1"], percent), {}, mode.stroke};
+    for (std::size_t i = 0; i < history.rows(); ++i) {
+      double all = history["bonds_intact"][i];
+      for (ModeStyle const& other : mode_styles()) all += history[other.column][i];
+      curve.y.push_back(all > 0 ? history[mode.column][i] / all * percent : 0);
+    }
+    curve.name = fmt::format("{}: {:.3g} % at the end", mode.name, curve.y.back());
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+/// A figure for each run with bonds, on the same axes.
+std::string mode_figures(std::vector<RunResults> const& runs) {
+  Range strains, shares;
+  for (RunResults const& run : runs)
+    for (Curve const& curve : mode_curves(run.history)) strains.include(curve.x), shares.include(curve.y);
+  std::string figures;
+  for (RunResults const& run : runs) {
+    if (!run.has_bonds()) continue;
+    Plot plot;
+    plot.title = "Broken bonds by mode against axial strain, " + run_label(run);
+    plot.curves = mode_curves(run.history);
+    for (Curve const& curve : plot.curves) plot.description += curve.name + ". ";
+    plot.x = strains.exact_axis(strain_axis);
+    plot.y = shares.axis("broken bonds [% of the first]");
+    figures += figure("What broke the bonds: " + run_label(run), svg(plot) + legend(plot.curves),
+                      "A bond breaks in tension, compression, shear, or rolling (bending by grains that roll over each other), "
+                      "whichever of its strengths it spends most of at the moment it fails.");
+  }
+  return figures;
+}
+
+struct Account {
+  char const* name;
+  std::vector<char const*> columns;
+  Rgb colour;
+};
+
+/// The accounts of the ledger from bottom to top. What is stored counts as its change since the shear began.
+std::vector<Account> const& accounts() {
+  static std::vector<Account> const all{{"stored in grains, bonds, walls and motion",
+                                         {"grain_elastic_J", "bond_elastic_J", "wall_elastic_J", "kinetic_J"},
+                                         colours::sky},
+                                        {"lost by sliding", {"sliding_J"}, colours::orange},
+                                        {"lost by rolling", {"rolling_J"}, colours::vermilion},
+                                        {"lost by breaking bonds", {"breakage_J"}, colours::purple},
+                                        {"lost by damping", {"dashpot_J", "damping_J"}, colours::grey}};
+  return all;
+}
+
+std::string energy_figure(RunResults const& run) {
+  HistoryTable const& history = run.history;
+  Plot plot;
+  Range values;
+  std::vector<double> const strain = scaled(history["eps1"], percent);
+  std::vector<double> top(history.rows(), 0.0);
+  std::string entries;
+  for (Account const& account : accounts()) {
+    Area area{account.name, strain, top, top, account.colour};
+    for (char const* const column : account.columns)
+      for (std::size_t i = 0; i < history.rows(); ++i) area.high[i] += history[column][i] - history[column][0];
+    top = area.high;
+    values.include(area.high);
+    plot.description += fmt::format("{}: {:.3g} J per metre at the end. ", account.name, area.high.back() - area.low.back());
+    entries = patch_entry(account.colour, account.name) + entries;
+    plot.areas.push_back(std::move(area));
+  }
+  plot.curves.push_back({"work of the walls", strain, history["boundary_work_J"], {colours::black, "6 4", 1.6}});
+  values.include(plot.curves[0].y);
+  Range strains;
+  strains.include(strain);
+  plot.x = strains.exact_axis(strain_axis);
+  plot.y = values.axis("energy [J per metre]");
+  plot.title = "Energy ledger, " + run_label(run);
+  double const work = history["boundary_work_J"].back(), residual = history["residual_J"].back();
+  return figure(
+      "Where the work went: " + run_label(run),
+      svg(plot) + legend(line_entry(plot.curves[0].stroke, plot.curves[0].name) + entries),
+      fmt::format("The work of the walls since the shear began (dashed) and what became of it, on top of each other. Each "
+                  "part is counted by itself; at the end they miss the work by {:.2g} %. Per metre of thickness out of "
+                  "the plane.",
+                  work != 0 ? std::abs(residual / work) * percent : 0.0));
+}
+
+bool has_ledger(RunResults const& run) {
+  if (!run.history.has("boundary_work_J") || !run.history.has("residual_J")) return false;
+  for (Account const& account : accounts())
+    for (char const* const column : account.columns)
+      if (!run.history.has(column)) return false;
+  return true;
+}
+
+}  // namespace
+
+std::string run_label(RunResults const& run) {
+  std::string label = run.name;
+  std::optional<double> const stress = run.number("/scene/test/confining_stress");
+  double const saturation = run.number("/scene/hydrate/saturation").value_or(0);
+  label += run.has_bonds() ? fmt::format(": {:.3g} % hydrate", saturation * percent) : ": clean sand";
+  if (stress) label += fmt::format(", {:.3g} MPa", *stress * mega);
+  return label;
+}
+
+std::string curve_figures(std::vector<RunResults> const& runs) {
+  return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs);
+}
+
+std::string energy_figures(std::vector<RunResults> const& runs) {
+  std::string figures;
+  for (RunResults const& run : runs)
+    if (has_ledger(run)) figures += energy_figure(run);
+  return figures;
+}
+
+}  // namespace clathra

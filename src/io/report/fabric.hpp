@@ -1,0 +1,29 @@
+#pragma once
+/// How the contacts and their forces are oriented.
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "domain/snapshot.hpp"
+
+namespace clathra {
+
+/// Over the directions of contact normals, 0 to 180 degrees from the horizontal, anticlockwise, in equal bins.
+struct Rose {
+  static constexpr std::size_t bins = 18;
+  std::array<double, bins> normals{};  ///< pairs in the bin over the mean of all bins
+  std::array<double, bins> forces{};   ///< mean normal force in the bin over the mean of all pairs, pulling ones negative
+  std::size_t pairs = 0;               ///< those that carry a normal force
+  /// 1 + a cos 2(theta - direction): a and direction [rad, 0 to pi] of the normals (from the sums over all pairs) and of the mean
+  /// forces (from the bins).
+  double normal_anisotropy = 0, normal_direction = 0, force_anisotropy = 0, force_direction = 0;
+};
+
+/// Of all pairs that carry a normal force, bonds among them.
+Rose rose_of(Snapshot const& snapshot);
+
+/// Two polar diagrams: of `now` as filled petals with the fitted cosine, of `before` as a dashed outline. SVGs.
+std::string normal_rose(Rose const& now, Rose const& before, std::string const& label);
+std::string force_rose(Rose const& now, Rose const& before, std::string const& label);
+
+}  // namespace clathra

@@ -1,0 +1,234 @@
+#include "io/report/map_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "io/report/curves.hpp"
+#include "io/report/fabric.hpp"
+#include "io/report/grading_figure.hpp"
+#include "io/report/maps.hpp"
+#include "io/report/markup.hpp"
+#include "io/report/png.hpp"
+#include "io/report/strain_field.hpp"
+#include "io/report/test_numbers.hpp"
+#include "io/snapshot_file.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double percent = 100, milli = 1e3;
+
+/// A run's snapshots as they are shown, with the view that they share.
+struct Shown {
+  RunResults const& run;
+  std::size_t bytes;
+  std::vector<Snapshot> snapshots;
+  std::size_t peak = 0;  ///< the one nearest to the peak
+  MapView view;
+
+  Snapshot const& first() const { return snapshots.front(); }
+  Snapshot const& last() const { return snapshots.back(); }
+};
+
+std::string strain_text(Snapshot const& s) { return fmt::format("ε₁ = {:.3g} %", s.eps1 * percent); }
+
+/// A picture to be made: what of, how many pixels a grain is worth, and who draws it.
+struct Picture {
+  MapView view;
+  double grain;  ///< mean diameter [m]
+  std::string alt;
+  std::function<Canvas(MapView const&)> draw;
+  double pixels_per_grain = 24;
+};
+
+/// As high as `bytes` allow, but no higher than is of use, and at most 1400 pixels.
+std::string drawn(Picture const& wanted, std::size_t bytes) {
+  constexpr double lowest = 120, highest = 1400, safety = 0.93;
+  MapView view = wanted.view;
+  double pixels = std::clamp(view.height / wanted.grain * wanted.pixels_per_grain, lowest, highest);
+  for (;;) {
+    view.pixels = static_cast<int>(pixels);
+    Canvas const canvas = wanted.draw(view);
+    std::string const png = png_bytes(canvas);
+    if (png.size() <= bytes || pixels <= lowest) return picture(png, canvas, wanted.alt);
+    double const shrink = std::sqrt(static_cast<double>(bytes) / static_cast<double>(png.size()));
+    pixels = std::max(lowest, pixels * std::min(safety, shrink));
+  }
+}
+
+double mean_diameter(Snapshot const& s) {
+  return 2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
+}
+
+std::string titled(std::string const& image, std::string const& text) {
+  return "<div>" + image + "<p>" + escaped(text) + "</p></div>\n";
+}
+
+std::string strip(std::string const& contents) { return "<div class=\"strip\">\n" + contents + "</div>\n"; }
+
+std::string mode_entries() {
+  std::string entries;
+  for (ModeStyle const& mode : mode_styles()) entries += patch_entry(mode.stroke.colour, std::string("broken in ") + mode.name);
+  return entries;
+}
+
+/// The grains in the middle, at the start and at the end.
+std::string detail_pictures(Shown const& shown) {
+  constexpr double detail_grains = 13, pixels_per_grain = 55;
+  std::vector<Snapshot const*> ends{&shown.first()};
+  if (shown.snapshots.size() > 1) ends.push_back(&shown.last());
+  std::string pictures;
+  for (Snapshot const* const at : ends) {
+    MapView const view = detail_of(*at, detail_grains);
+    Picture const detail{view, mean_diameter(*at),
+                         fmt::format("Grains and bonds in the middle at {}, {}", strain_text(*at), run_label(shown.run)),
+                         [at](MapView const& v) { return detail_map(*at, v); }, pixels_per_grain};
+    pictures +=
+        titled(drawn(detail, shown.bytes), fmt::format("middle, {:.2g} mm wide, at {}", view.width * milli, strain_text(*at)));
+  }
+  return pictures;
+}
+
+std::string specimen_figure(Shown const& shown) {
+  Snapshot const& s = shown.first();
+  auto const [least, most] = std::minmax_element(s.radius.begin(), s.radius.end());
+  Picture const grains{shown.view, mean_diameter(s), "Grains of the specimen by size, " + run_label(shown.run),
+                       [&](MapView const& view) { return grain_map(s, view); }};
+  std::string const whole =
+      titled(drawn(grains, shown.bytes), fmt::format("{:.3g} mm wide, {:.3g} mm high, at {}", (s.right - s.left) * milli,
+                                                     (s.top - s.bottom) * milli, strain_text(s)));
+  std::string entries = patch_entry(map_colours::grain, "grain");
+  std::string caption = fmt::format(
+      "The {} discs at the start of the shear, coloured by their size, and the grains in the middle of the specimen", s.x.size());
+  if (shown.run.has_bonds()) {
+    entries += patch_entry(map_colours::hydrate, "hydrate") + patch_entry(colours::dark, "bond that holds") + mode_entries();
+    caption +=
+        ". Hydrate is drawn in the width of its bond, with a line on each bond that holds and a coloured mark where one broke";
+  }
+  std::string const size_bar = colour_bar("diameter", fmt::format("{:.3g} mm", 2 * milli * double(*least)),
+                                          fmt::format("{:.3g} mm", 2 * milli * double(*most)));
+  return figure("The specimen",
+                strip(whole + "<div class=\"stack\">" + detail_pictures(shown) + "</div>") + size_bar + legend(entries),
+                caption + ".", true);
+}
+
+std::string bond_figure(Shown const& shown) {
+  if (!shown.run.has_bonds()) return "";
+  std::string pictures;
+  for (Snapshot const& s : shown.snapshots) {
+    auto const broken = std::count_if(s.state.begin(), s.state.end(), [](std::uint8_t state) { return state > std::uint8_t{1}; });
+    pictures += titled(drawn({shown.view, mean_diameter(s),
+                              fmt::format("Intact and broken bonds at {}, {}", strain_text(s), run_label(shown.run)),
+                              [&](MapView const& view) { return bond_map(s, view); }},
+                             shown.bytes),
+                       fmt::format("{}, {} broken", strain_text(s), broken));
+  }
+  return figure("Bonds", strip(pictures) + legend(patch_entry(colours::grey, "intact bond") + mode_entries()),
+                "Each line is a bond between two grains: thin and grey while it holds, thick and coloured by what broke it "
+                "afterwards, at the place where its two grains are now. Broken bonds line up where the specimen shears.",
+                true);
+}
+
+std::string force_figure(Shown const& shown) {
+  Snapshot const& s = shown.snapshots[shown.peak];
+  std::string const image =
+      drawn({shown.view, mean_diameter(s), fmt::format("Normal forces at {}, {}", strain_text(s), run_label(shown.run)),
+             [&](MapView const& view) { return force_map(s, view); }},
+            shown.bytes);
+  std::string entries =
+      patch_entry(map_colours::pressing, "pressing, above the mean") + patch_entry(map_colours::weak, "pressing, below the mean");
+  if (shown.run.has_bonds()) entries += patch_entry(map_colours::pulling, "pulling");
+  return figure(
+      "Force chains", strip(titled(image, strain_text(s))) + legend(entries),
+      "How the load finds its way through the grains near the peak: a line from centre to centre of two grains, as wide as "
+      "the normal force between them is large.");
+}
+
+/// A round number that at most two of a hundred values exceed.
+double upper_end(std::vector<float> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }), values.end());
+  if (values.empty()) return 0;
+  auto const at = values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  double const end = double(*at);
+  return end > 0 ? std::ceil(end / tick_step(0, end, 10)) * tick_step(0, end, 10) : 0;
+}
+
+std::string strain_figure(Shown const& shown) {
+  Snapshot const& s = shown.last();
+  std::vector<float> const values = shear_strain(s);
+  double const most = upper_end(values);
+  if (!(most > 0)) return "";
+  std::string const image =
+      drawn({shown.view, mean_diameter(s), fmt::format("Shear strain at {}, {}", strain_text(s), run_label(shown.run)),
+             [&](MapView const& view) { return value_map(s, values, most, view); }},
+            shown.bytes);
+  return figure(
+      "Where it sheared",
+      strip(titled(image, strain_text(s))) + colour_bar("shear strain", "0 %", fmt::format("{:g} % and more", most * percent)),
+      fmt::format("The shear strain that each place has gone through by then: the difference of the principal natural "
+                  "strains, averaged over {:g} grain diameters. Were it the same everywhere, it would be {:.3g} %; bands "
+                  "stand out.",
+                  strain_window, (2 * s.eps1 - s.eps_v) * percent));
+}
+
+std::string rose_figure(Shown const& shown) {
+  Snapshot const& s = shown.snapshots[shown.peak];
+  Rose const now = rose_of(s), before = rose_of(shown.first());
+  if (now.pairs == 0) return "";
+  std::string const label = run_label(shown.run) + ", " + strain_text(s);
+  constexpr double to_degrees = 180 / 3.14159265358979323846;
+  return figure(
+      "Directions of contacts and forces",
+      strip(titled(normal_rose(now, before, label), "number of contacts") +
+            titled(force_rose(now, before, label), "mean normal force")),
+      fmt::format(
+          "How many of the {} pairs that carry force point in each direction, and how large their mean normal force is "
+          "there, both relative to the mean over all directions (ring 1), at {}. Dashed: at the start. Red line: the fit "
+          "1 + a cos 2(θ − θₐ), with a = {:.2f} at θₐ = {:.0f}° for the contacts and a = {:.2f} at {:.0f}° for the forces; "
+          "90° is vertical, the direction of σ₁.",
+          now.pairs, strain_text(s), now.normal_anisotropy, now.normal_direction * to_degrees, now.force_anisotropy,
+          now.force_direction * to_degrees));
+}
+
+/// A snapshot's file is named by its step.
+std::int64_t step_of(std::filesystem::path const& file) { return std::atoll(file.stem().c_str()); }
+
+Shown read_shown(RunResults const& run, std::size_t bytes) {
+  std::vector<std::int64_t> steps;
+  for (std::filesystem::path const& file : run.snapshots) steps.push_back(step_of(file));
+  auto const peak_step = static_cast<std::int64_t>(run.history["step"][test_numbers(run.history).peak]);
+  std::vector<std::size_t> const which = shown_snapshots(steps, peak_step);
+  Shown shown{run, bytes, {}, which.size() > 1 ? std::size_t{1} : std::size_t{0}, {}};
+  if (which.size() == 2 && std::abs(steps[which[0]] - peak_step) < std::abs(steps[which[1]] - peak_step)) shown.peak = 0;
+  std::vector<Snapshot const*> all;
+  for (std::size_t const i : which) shown.snapshots.push_back(read_snapshot(run.snapshots[i]));
+  for (Snapshot const& s : shown.snapshots) all.push_back(&s);
+  shown.view = view_of(all);
+  return shown;
+}
+
+}  // namespace
+
+std::vector<std::size_t> shown_snapshots(std::vector<std::int64_t> const& steps, std::int64_t peak_step) {
+  auto const nearest = std::min_element(steps.begin(), steps.end(), [&](std::int64_t a, std::int64_t b) {
+    return std::abs(a - peak_step) < std::abs(b - peak_step);
+  });
+  std::vector<std::size_t> which{0, static_cast<std::size_t>(nearest - steps.begin()), steps.size() - 1};
+  which.erase(std::unique(which.begin(), which.end()), which.end());
+  return which;
+}
+
+MapFigures map_figures(RunResults const& run, Stroke const& stroke, std::size_t bytes) {
+  Shown const shown = read_shown(run, bytes);
+  MapFigures result;
+  result.html = specimen_figure(shown) + bond_figure(shown) + force_figure(shown) + strain_figure(shown) + rose_figure(shown);
+  result.grading = grading_curve(shown.first().radius, run_label(run), stroke);
+  return result;
+}
+
+}  // namespace clathra

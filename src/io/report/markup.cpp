@@ -1,0 +1,146 @@
+#include "io/report/markup.hpp"
+
+#include <fmt/format.h>
+
+#include "io/report/png.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr char style[] = R"css(
+:root{--ink:#1d2429;--soft:#5a666e;--rule:#d5dbdf;--panel:#f6f8f9}
+*{box-sizing:border-box}
+body{margin:0 auto;padding:1.2rem clamp(.7rem,3vw,2.2rem) 3rem;max-width:1240px;color:var(--ink);background:#fff;
+font:16px/1.5 system-ui,"Segoe UI","Noto Sans","DejaVu Sans",Helvetica,Arial,sans-serif;overflow-wrap:break-word}
+h1{font-size:clamp(1.35rem,4.5vw,1.9rem);line-height:1.2;margin:.2rem 0 .6rem}
+h2{font-size:1.25rem;margin:2.2rem 0 .7rem;border-bottom:1px solid var(--rule);padding-bottom:.25rem}
+h3{font-size:1rem;margin:0 0 .5rem}
+.lead{font-size:1.08rem;max-width:62em;margin:.3rem 0 1rem}
+.soft,footer{color:var(--soft);font-size:.9rem}
+.scroll{overflow-x:auto;border:1px solid var(--rule);border-radius:6px}
+table{border-collapse:collapse;width:100%;font-size:.92rem}
+th,td{padding:.32rem .7rem;text-align:right;border-top:1px solid var(--rule);vertical-align:top}
+thead th{border-top:0;background:var(--panel);white-space:nowrap}
+tbody th,thead th:first-child{text-align:left;font-weight:500;position:sticky;left:0;background:var(--panel);min-width:9.5em}
+thead th{font-weight:650}
+td{font-variant-numeric:tabular-nums}
+.unit{color:var(--soft);font-weight:400;white-space:nowrap}
+.warn{background:#fff6e0;border-left:4px solid #e69f00;padding:.5rem .9rem;border-radius:4px}
+.warn ul{margin:.2rem 0;padding-left:1.2rem}
+.beside{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr));gap:1.1rem;align-items:start}
+figure{margin:0;padding:.85rem .9rem;border:1px solid var(--rule);border-radius:6px;min-width:0;break-inside:avoid}
+figure.wide{grid-column:1/-1}
+figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-width:75em}
+.plot{display:block;width:100%;height:auto;max-width:680px;margin:0 auto;font:13px system-ui,"Noto Sans","DejaVu Sans",sans-serif}
+.plot text{fill:#1d2429}
+.plot .grid path{stroke:#e4e8ea;fill:none}
+.plot .frame{fill:none;stroke:#7c878e}
+.plot .curves{fill:none;stroke-linejoin:round;stroke-linecap:butt}
+.legend{display:flex;flex-wrap:wrap;gap:.15rem 1.1rem;list-style:none;margin:.5rem 0 0;padding:0;font-size:.9rem}
+.legend li{display:flex;align-items:center;gap:.45rem}
+.legend svg{flex:none}
+.bar{max-width:26em;margin:.6rem 0 0;font-size:.9rem}
+.bar i{display:block;height:.8rem;border-radius:2px}
+.bar span{display:flex;justify-content:space-between}
+.strip{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,210px),1fr));gap:.9rem}
+.strip>div{min-width:0}
+.stack{display:grid;gap:.9rem;align-content:start}
+.strip p{margin:.3rem 0 0;font-size:.9rem;text-align:center}
+.strip img,.strip .rose{display:block;width:100%;height:auto;max-height:88vh;object-fit:contain}
+.strip .stack img{max-height:42vh}.strip .rose{max-height:26rem}
+@media(max-width:520px){.strip{grid-template-columns:repeat(auto-fit,minmax(150px,1fr))}figure{padding:.6rem .55rem}
+th,td{padding:.3rem .45rem}}
+@media print{body{max-width:none}.beside{grid-template-columns:1fr 1fr}}
+)css";
+
+/// Length of the UTF-8 sequence at the beginning of the text, 0 where there is none.
+std::size_t sequence_length(std::string_view text) {
+  auto const lead = static_cast<unsigned char>(text.front());
+  std::size_t const length = lead < 0x80                   ? 1
+                             : lead >= 0xc2 && lead < 0xe0 ? 2
+                             : lead >= 0xe0 && lead < 0xf0 ? 3
+                             : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                           : 0;
+  if (length == 0 || length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return 0;
+  return length;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  while (!text.empty()) {
+    std::size_t const length = sequence_length(text);
+    char const c = text.front();
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else if (length == 0 || (length == 1 && static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'))
+      safe += '?';
+    else
+      safe += text.substr(0, length);
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return safe;
+}
+
+std::string dash_attribute(Stroke const& stroke) {
+  return stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
+}
+
+std::string line_entry(Stroke const& stroke, std::string const& name) {
+  return fmt::format(
+      "<li><svg width=\"40\" height=\"10\" aria-hidden=\"true\"><path d=\"M0 5h40\" stroke=\"{}\" "
+      "stroke-width=\"{:g}\"{}/></svg>{}"
+      "</li>",
+      hex(stroke.colour), stroke.width + 0.5, dash_attribute(stroke), escaped(name));
+}
+
+std::string patch_entry(Rgb colour, std::string const& name) {
+  return fmt::format(
+      "<li><svg width=\"14\" height=\"14\" aria-hidden=\"true\"><rect width=\"14\" height=\"14\" rx=\"2\" "
+      "fill=\"{}\"/></svg>{}</li>",
+      hex(colour), escaped(name));
+}
+
+std::string legend(std::string const& entries) { return entries.empty() ? "" : "<ul class=\"legend\">" + entries + "</ul>\n"; }
+
+std::string legend(std::vector<Curve> const& curves) {
+  std::string entries;
+  for (Curve const& curve : curves) entries += line_entry(curve.stroke, curve.name);
+  return legend(entries);
+}
+
+std::string colour_bar(std::string const& title, std::string const& low, std::string const& high) {
+  return fmt::format("<div class=\"bar\">{}<i style=\"background:{}\"></i><span><b>{}</b><b>{}</b></span></div>\n",
+                     escaped(title), ramp_css(), escaped(low), escaped(high));
+}
+
+std::string picture(std::string const& png, Canvas const& canvas, std::string const& alt) {
+  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", canvas.width(),
+                     canvas.height(), escaped(alt), base64(png));
+}
+
+std::string figure(std::string const& heading, std::string const& drawing, std::string const& caption, bool wide) {
+  return fmt::format("<figure{}><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n", wide ? " class=\"wide\"" : "",
+                     escaped(heading), drawing, escaped(caption));
+}
+
+std::string side_by_side(std::string const& contents) { return "<div class=\"beside\">\n" + contents + "</div>\n"; }
+
+std::string page(std::string const& title, std::string const& body) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width,initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light\"><title>{}</title>\n"
+      "<style>{}</style></head>\n<body>\n{}</body></html>\n",
+      escaped(title), style, body);
+}
+
+}  // namespace clathra

@@ -1,0 +1,83 @@
+#include "io/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/report/curves.hpp"
+#include "io/report/grading_figure.hpp"
+#include "io/report/map_figures.hpp"
+#include "io/report/markup.hpp"
+#include "io/report/strength.hpp"
+#include "io/report/summary_table.hpp"
+#include "io/text_file.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr std::size_t largest_page = 4'800'000;  // bytes
+constexpr std::size_t most_runs_with_pictures = 8;
+
+std::string title_of(std::vector<RunResults> const& runs) {
+  return runs.size() == 1 ? "Biaxial compression: " + runs.front().name
+                          : fmt::format("Biaxial compression: {} runs", runs.size());
+}
+
+/// A part of the page with its heading, or nothing where it is empty.
+std::string part(std::string const& heading, std::string const& contents) {
+  return contents.empty() ? "" : "<h2>" + escaped(heading) + "</h2>\n" + contents;
+}
+
+std::string everything_but_pictures(std::vector<RunResults> const& runs) {
+  std::string text = part("Summary", summary_table(runs)) + part("Curves", side_by_side(curve_figures(runs)));
+  if (std::string const strength = strength_figures(runs); !strength.empty()) text += part("Strength", side_by_side(strength));
+  if (std::string const energy = energy_figures(runs); !energy.empty()) text += part("Energy", side_by_side(energy));
+  return text;
+}
+
+/// Which runs have pictures, in words, where not all have.
+std::string note_on_missing_pictures(std::vector<RunResults> const& runs, std::vector<std::size_t> const& shown) {
+  std::string without;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].snapshots.empty()) without += (without.empty() ? "" : ", ") + escaped(runs[i].name);
+  std::string note;
+  if (!without.empty())
+    note +=
+        "There are no pictures of " + without + ": without snapshots (output.snapshots in the scene) only the curves are known. ";
+  if (shown.size() == most_runs_with_pictures)
+    note += fmt::format("Pictures are shown of the first {} runs that have snapshots.", most_runs_with_pictures);
+  return note.empty() ? "" : "<p class=\"soft\">" + note + "</p>\n";
+}
+
+/// @param room  bytes that the pictures may take in the page
+std::string pictures(std::vector<RunResults> const& runs, std::size_t room) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < runs.size() && shown.size() < most_runs_with_pictures; ++i)
+    if (!runs[i].snapshots.empty()) shown.push_back(i);
+  std::string const note = note_on_missing_pictures(runs, shown);
+  if (shown.empty()) return part("Pictures", note);
+  std::size_t const each = room / (shown.size() * pictures_per_run) * 3 / 4;  // four characters for three bytes
+  std::vector<Curve> gradings;
+  std::string text;
+  for (std::size_t const i : shown) {
+    MapFigures figures = map_figures(runs[i], run_stroke(i), each);
+    text += part(runs.size() > 1 ? "Pictures of " + run_label(runs[i]) : "Pictures", side_by_side(figures.html));
+    gradings.push_back(std::move(figures.grading));
+  }
+  if (std::optional<Curve> target = target_curve(runs[shown.front()])) gradings.push_back(std::move(*target));
+  return text + part("Grading", side_by_side(grading_figure(gradings))) + note;
+}
+
+}  // namespace
+
+void write_report(std::vector<std::filesystem::path> const& run_folders, std::filesystem::path const& html) {
+  std::vector<RunResults> const runs = read_runs(run_folders);
+  std::string body = "<h1>" + escaped(title_of(runs)) + "</h1>\n<p class=\"lead\">" + escaped(summary_sentence(runs)) + "</p>\n";
+  body += warning_list(runs) + everything_but_pictures(runs);
+  constexpr std::size_t least_room = 1'000'000, text_of_pictures = 100'000;
+  std::size_t const taken = body.size() + text_of_pictures * runs.size();
+  body += pictures(runs, taken + least_room < largest_page ? largest_page - taken : least_room);
+  replace_text_file(html, page(title_of(runs), body));
+}
+
+}  // namespace clathra

@@ -1,0 +1,138 @@
+#include "io/report/run_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "domain/history_row.hpp"
+#include "io/snapshot_file.hpp"
+#include "io/text_file.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{1} << 30;
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  for (std::size_t comma = line.find(','); comma != line.npos; comma = line.find(',')) {
+    cells.push_back(line.substr(0, comma));
+    line.remove_prefix(comma + 1);
+  }
+  cells.push_back(line);
+  return cells;
+}
+
+double number_in(std::string_view cell, std::string const& column, std::size_t line, std::filesystem::path const& path) {
+  double value = 0;
+  auto const [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size())
+    throw FileProblem(ExitCode::bad_input, path, fmt::format("line {}: '{}' in column {} is no number", line, cell, column));
+  return value;
+}
+
+/// Names of the columns that every history has.
+struct RequiredColumns {
+  std::vector<std::string> names;
+  template <class Value>
+  void operator()(char const* name, Value const&) {
+    names.push_back(name);
+  }
+};
+
+void throw_if_incomplete(std::vector<std::string> const& names, std::filesystem::path const& path) {
+  RequiredColumns required;
+  HistoryRow row;
+  for_each_column(row, required);
+  for (std::string const& name : required.names)
+    if (std::count(names.begin(), names.end(), name) != 1)
+      throw FileProblem(ExitCode::bad_input, path, fmt::format("line 1: there must be one column {}", name));
+  for (std::string const& name : names)
+    if (std::count(names.begin(), names.end(), name) != 1)
+      throw FileProblem(ExitCode::bad_input, path, fmt::format("line 1: two columns have the name '{}'", name));
+}
+
+std::filesystem::path without_slash(std::filesystem::path const& folder) {
+  std::filesystem::path const plain = folder.lexically_normal();
+  return plain.has_filename() ? plain : plain.parent_path();
+}
+
+std::string folder_name(std::filesystem::path const& folder) {
+  std::error_code error;
+  std::filesystem::path const name = without_slash(folder).filename();
+  if (name != "." && name != "..") return name.string();
+  return std::filesystem::canonical(folder, error).filename().string();
+}
+
+nlohmann::json read_record(std::filesystem::path const& path) {
+  nlohmann::json record = nlohmann::json::parse(read_text_file(path, largest_file), nullptr, false);
+  if (!record.is_object()) throw FileProblem(ExitCode::bad_input, path, "is not a record of a run");
+  return record;
+}
+
+nlohmann::json const* find(nlohmann::json const& record, std::string const& at) {
+  nlohmann::json::json_pointer const pointer(at);
+  return record.contains(pointer) ? &record.at(pointer) : nullptr;
+}
+
+}  // namespace
+
+HistoryTable::HistoryTable(std::filesystem::path const& path) {
+  std::string const text = read_text_file(path, largest_file);
+  std::vector<std::string> names;
+  std::size_t line = 0;
+  for (std::size_t from = 0, end; (end = text.find('\n', from)) != text.npos; from = end + 1) {
+    std::vector<std::string_view> const cells = split(std::string_view(text).substr(from, end - from));
+    if (++line == 1) {
+      names.assign(cells.begin(), cells.end());
+      throw_if_incomplete(names, path);
+      continue;
+    }
+    if (cells.size() != names.size())
+      throw FileProblem(ExitCode::bad_input, path,
+                        fmt::format("line {}: {} cells, the header has {}", line, cells.size(), names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i) columns_[names[i]].push_back(number_in(cells[i], names[i], line, path));
+    ++rows_;
+  }
+  if (rows_ < 2) throw FileProblem(ExitCode::bad_input, path, "has fewer than two rows, there is nothing to draw");
+}
+
+std::optional<double> RunResults::number(std::string const& at) const {
+  nlohmann::json const* const value = find(record, at);
+  return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
+}
+
+std::optional<std::string> RunResults::text(std::string const& at) const {
+  nlohmann::json const* const value = find(record, at);
+  return value && value->is_string() ? std::optional(value->get<std::string>()) : std::nullopt;
+}
+
+bool RunResults::has_bonds() const { return history["bonds_intact"].front() > 0; }
+
+std::string RunResults::bond_variant() const {
+  std::string variant;
+  for (char const* const key : {"law", "composite", "moment_scale", "coefficients"})
+    variant += (variant.empty() ? "" : ", ") + text(std::string("/scene/bond/") + key).value_or("?");
+  return variant;
+}
+
+RunResults read_run(std::filesystem::path const& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) throw FileProblem(ExitCode::file_missing, folder, "is no folder of a run");
+  return {folder_name(folder), HistoryTable(folder / "history.csv"), read_record(folder / "run.json"), snapshot_files(folder)};
+}
+
+std::vector<RunResults> read_runs(std::vector<std::filesystem::path> const& folders) {
+  std::vector<RunResults> runs;
+  for (std::filesystem::path const& folder : folders) runs.push_back(read_run(folder));
+  std::map<std::string, int> uses;
+  for (RunResults const& run : runs) ++uses[run.name];
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (uses[runs[i].name] > 1) runs[i].name = without_slash(folders[i]).string();
+  return runs;
+}
+
+}  // namespace clathra

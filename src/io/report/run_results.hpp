@@ -1,0 +1,52 @@
+#pragma once
+/// What a run left in its folder, as the report needs it.
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/problems.hpp"
+
+namespace clathra {
+
+/// The columns of a history.csv. Numbers may be inf or nan where the run diverged.
+class HistoryTable {
+ public:
+  /// A last line without its end is a row that is being written, and is left out.
+  /// @throws FileProblem file_missing, or bad_input with the line: a row with too few or too many cells, a cell that is no
+  /// number, a column that the report needs missing
+  explicit HistoryTable(std::filesystem::path const& path);
+
+  std::size_t rows() const { return rows_; }
+  bool has(std::string const& column) const { return columns_.count(column) > 0; }
+  std::vector<double> const& operator[](std::string const& column) const { return columns_.at(column); }
+
+ private:
+  std::map<std::string, std::vector<double>> columns_;
+  std::size_t rows_ = 0;
+};
+
+/// A folder that `clathra run` wrote.
+struct RunResults {
+  std::string name;  ///< of the folder
+  HistoryTable history;
+  nlohmann::json record;                         ///< run.json
+  std::vector<std::filesystem::path> snapshots;  ///< in the order of their steps
+
+  /// @param at  a JSON pointer into run.json: "/scene/hydrate/saturation". Nothing where there is no such number or text.
+  std::optional<double> number(std::string const& at) const;
+  std::optional<std::string> text(std::string const& at) const;
+  bool has_bonds() const;            ///< were any intact at the start?
+  std::string bond_variant() const;  ///< law, composite, moment scale and coefficients as the scene names them
+};
+
+/// @throws FileProblem file_missing without the folder, its run.json or history.csv; bad_input where one of these is damaged or
+/// the history has fewer than two rows
+RunResults read_run(std::filesystem::path const& folder);
+
+/// Reads several; those in folders of the same name are named by their whole path.
+std::vector<RunResults> read_runs(std::vector<std::filesystem::path> const& folders);
+
+}  // namespace clathra

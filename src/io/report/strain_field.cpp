@@ -1,0 +1,125 @@
+#include "io/report/strain_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace clathra {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// Sums over discs for the fit of u = u0 + G X.
+struct Moments {
+  double count = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  double ux = 0, uy = 0, ux_x = 0, ux_y = 0, uy_x = 0, uy_y = 0;
+
+  void add(double px, double py, double dx, double dy) {
+    count += 1, x += px, y += py, xx += px * px, xy += px * py, yy += py * py;
+    ux += dx, uy += dy, ux_x += dx * px, ux_y += dx * py, uy_x += dy * px, uy_y += dy * py;
+  }
+  void add(Moments const& m) {
+    count += m.count, x += m.x, y += m.y, xx += m.xx, xy += m.xy, yy += m.yy;
+    ux += m.ux, uy += m.uy, ux_x += m.ux_x, ux_y += m.ux_y, uy_x += m.uy_x, uy_y += m.uy_y;
+  }
+};
+
+/// ln(l1 / l2) of the deformation F = I + G.
+double shear_of(double fxx, double fxy, double fyx, double fyy) {
+  double const cxx = fxx * fxx + fyx * fyx, cyy = fxy * fxy + fyy * fyy, cxy = fxx * fxy + fyx * fyy;
+  double const mean = (cxx + cyy) / 2, radius = std::hypot((cxx - cyy) / 2, cxy);
+  return mean > radius ? std::log((mean + radius) / (mean - radius)) / 2 : not_known;
+}
+
+double shear_of(Moments const& m) {
+  constexpr double fewest = 6, flattest = 1e-3;
+  if (m.count < fewest) return not_known;
+  auto const centred = [&](double product, double a, double b) { return product - a * b / m.count; };
+  double const xx = centred(m.xx, m.x, m.x), xy = centred(m.xy, m.x, m.y), yy = centred(m.yy, m.y, m.y);
+  double const determinant = xx * yy - xy * xy;
+  if (!(determinant > flattest * (xx + yy) * (xx + yy))) return not_known;
+  auto const along_x = [&](double ux, double uy) { return (ux * yy - uy * xy) / determinant; };
+  auto const along_y = [&](double ux, double uy) { return (uy * xx - ux * xy) / determinant; };
+  double const a = centred(m.ux_x, m.ux, m.x), b = centred(m.ux_y, m.ux, m.y);
+  double const c = centred(m.uy_x, m.uy, m.x), d = centred(m.uy_y, m.uy, m.y);
+  return shear_of(1 + along_x(a, b), along_y(a, b), along_x(c, d), 1 + along_y(c, d));
+}
+
+/// Square cells over the places where the discs were at first.
+struct Cells {
+  explicit Cells(Snapshot const& s) {
+    double const mean_diameter =
+        2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
+    size = mean_diameter * strain_window / 3;
+    left = bottom = std::numeric_limits<double>::max();
+    double right = -left, top = -left;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      left = std::min(left, first_x(s, i)), right = std::max(right, first_x(s, i));
+      bottom = std::min(bottom, first_y(s, i)), top = std::max(top, first_y(s, i));
+    }
+    // A disc that flew away must not ask for more cells than there are discs to fill them.
+    double const most = 4 * std::sqrt(static_cast<double>(s.x.size())) + 4;
+    columns = static_cast<int>(std::min(most, (right - left) / size)) + 1;
+    rows = static_cast<int>(std::min(most, (top - bottom) / size)) + 1;
+  }
+  static double first_x(Snapshot const& s, std::size_t i) { return s.x[i] - double(s.ux[i]); }
+  static double first_y(Snapshot const& s, std::size_t i) { return s.y[i] - double(s.uy[i]); }
+
+  int column(double x) const { return std::clamp(static_cast<int>((x - left) / size), 0, columns - 1); }
+  int row(double y) const { return std::clamp(static_cast<int>((y - bottom) / size), 0, rows - 1); }
+  std::size_t place(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  }
+  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+
+  double left, bottom, size;
+  int columns, rows;
+};
+
+std::vector<double> cell_strains(Snapshot const& s, Cells const& cells) {
+  std::vector<Moments> moments(cells.count());
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    double const x = Cells::first_x(s, i), y = Cells::first_y(s, i);
+    moments[cells.place(cells.column(x), cells.row(y))].add(x - cells.left, y - cells.bottom, double(s.ux[i]), double(s.uy[i]));
+  }
+  std::vector<double> strains(cells.count());
+  for (int row = 0; row < cells.rows; ++row)
+    for (int column = 0; column < cells.columns; ++column) {
+      Moments near;
+      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, cells.rows - 1); ++r)
+        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, cells.columns - 1); ++c)
+          near.add(moments[cells.place(c, r)]);
+      strains[cells.place(column, row)] = shear_of(near);
+    }
+  return strains;
+}
+
+/// Between the centres of the four cells around a point; those that are not known do not count.
+double interpolated(std::vector<double> const& strains, Cells const& cells, double x, double y) {
+  double const across = (x - cells.left) / cells.size - 0.5, up = (y - cells.bottom) / cells.size - 0.5;
+  double const column = std::floor(across), row = std::floor(up);
+  double sum = 0, weights = 0;
+  for (int r = 0; r < 2; ++r)
+    for (int c = 0; c < 2; ++c) {
+      int const at_column = std::clamp(static_cast<int>(column) + c, 0, cells.columns - 1);
+      int const at_row = std::clamp(static_cast<int>(row) + r, 0, cells.rows - 1);
+      double const weight = std::abs(c - 1 + across - column) * std::abs(r - 1 + up - row);
+      double const strain = strains[cells.place(at_column, at_row)];
+      if (std::isfinite(strain)) sum += weight * strain, weights += weight;
+    }
+  return weights > 0 ? sum / weights : not_known;
+}
+
+}  // namespace
+
+std::vector<float> shear_strain(Snapshot const& snapshot) {
+  Cells const cells(snapshot);
+  std::vector<double> const strains = cell_strains(snapshot, cells);
+  std::vector<float> values(snapshot.x.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<float>(interpolated(strains, cells, Cells::first_x(snapshot, i), Cells::first_y(snapshot, i)));
+  return values;
+}
+
+}  // namespace clathra

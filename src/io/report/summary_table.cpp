@@ -1,0 +1,153 @@
+#include "io/report/summary_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "io/report/curves.hpp"
+#include "io/report/markup.hpp"
+#include "io/report/test_numbers.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double percent = 100, mega = 1e-6;
+constexpr char unknown[] = "–";
+
+std::string shown(std::optional<double> value, char const* format, double factor = 1) {
+  return value && std::isfinite(*value) ? fmt::format(fmt::runtime(format), *value * factor) : unknown;
+}
+
+struct Quantity {
+  char const* name;
+  char const* unit;
+  std::function<std::string(RunResults const&, TestNumbers const&)> text;
+};
+
+std::vector<Quantity> specimen_quantities() {
+  using Run = RunResults const&;
+  using Numbers = TestNumbers const&;
+  return {
+      {"discs", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/discs"), "{:.0f}"); }},
+      {"hydrate saturation", "%", [](Run r, Numbers) { return shown(r.number("/scene/hydrate/saturation"), "{:.3g}", percent); }},
+      {"confining stress σ₃", "MPa",
+       [](Run r, Numbers) { return shown(r.number("/scene/test/confining_stress"), "{:.4g}", mega); }},
+      {"void ratio at the start", "", [](Run r, Numbers) { return shown(r.history["void_ratio"].front(), "{:.4f}"); }},
+      {"bonds at the start", "", [](Run r, Numbers) { return shown(r.history["bonds_intact"].front(), "{:.0f}"); }},
+      {"bond law", "",
+       [](Run r, Numbers) { return r.has_bonds() ? escaped(r.bond_variant()) : std::string("none (clean sand)"); }}};
+}
+
+std::vector<Quantity> result_quantities() {
+  using Run = RunResults const&;
+  using Numbers = TestNumbers const&;
+  return {{"peak q", "MPa",
+           [](Run, Numbers n) { return shown(n.peak_q, "{:.3f}", mega) + (n.passed_peak ? "" : " (still rising)"); }},
+          {"axial strain at the peak", "%", [](Run, Numbers n) { return shown(n.peak_eps1, "{:.2f}", percent); }},
+          {"residual q", "MPa",
+           [](Run, Numbers n) {
+             return shown(n.residual_q, "{:.3f}", mega) +
+                    fmt::format(" ({:.3g}–{:.3g} %)", n.residual_from * percent, n.end_eps1 * percent);
+           }},
+          {"secant modulus E₅₀", "MPa", [](Run, Numbers n) { return shown(n.secant_modulus, "{:.4g}", mega); }},
+          {"volumetric strain at the peak", "%", [](Run, Numbers n) { return shown(n.eps_v_peak, "{:+.2f}", percent); }},
+          {"volumetric strain at the end", "%", [](Run, Numbers n) { return shown(n.eps_v_end, "{:+.2f}", percent); }},
+          {"intact bonds at the end", "%",
+           [](Run r, Numbers n) { return r.has_bonds() ? shown(n.intact_end, "{:.1f}") : std::string(unknown); }}};
+}
+
+std::vector<Quantity> cost_quantities() {
+  using Run = RunResults const&;
+  using Numbers = TestNumbers const&;
+  return {
+      {"inertial number I", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/inertial_number"), "{:.2g}"); }},
+      {"wave number W", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/wave_number"), "{:.2g}"); }},
+      {"steps", "", [](Run r, Numbers) { return shown(r.history["step"].back(), "{:.0f}"); }},
+      {"wall time of the shear", "s", [](Run r, Numbers) { return shown(r.number("/wall_seconds/shear"), "{:.4g}"); }},
+      {"disc-steps a second", "million",
+       [](Run r, Numbers) { return shown(r.number("/disc_steps_per_second"), "{:.3g}", mega); }},
+      {"seed", "", [](Run r, Numbers) { return shown(r.number("/seed"), "{:.0f}"); }},
+      {"program", "",
+       [](Run r, Numbers) {
+         return escaped(r.text("/program/version").value_or(unknown) + " (" + r.text("/program/git_hash").value_or("?") + ")");
+       }},
+      {"hash of the final state", "", [](Run r, Numbers) { return escaped(r.text("/state_hash").value_or(unknown)); }}};
+}
+
+std::string joined(double low, double high, char const* unit, int digits) {
+  std::string const a = fmt::format("{:.{}g}", low, digits), b = fmt::format("{:.{}g}", high, digits);
+  return a == b ? a + " " + unit : a + " to " + b + " " + unit;
+}
+
+std::string range_text(std::vector<double> const& values, char const* unit, int digits) {
+  auto const [low, high] = std::minmax_element(values.begin(), values.end());
+  return joined(*low, *high, unit, digits);
+}
+
+std::string sentence_on_one(RunResults const& run) {
+  TestNumbers const n = test_numbers(run.history);
+  double const saturation = run.number("/scene/hydrate/saturation").value_or(0) * percent;
+  std::string text = shown(run.number("/stages/plan/discs"), "{:.0f}") + " discs of ";
+  text += run.has_bonds() ? fmt::format("sand with {:.3g} % hydrate", saturation) : "clean sand";
+  text += fmt::format(" were compressed to an axial strain of {:.3g} %", n.end_eps1 * percent);
+  text += " under a lateral stress of " + shown(run.number("/scene/test/confining_stress"), "{:.3g}", mega) + " MPa: ";
+  text += n.passed_peak
+              ? fmt::format("the deviator stress peaked at {:.3g} MPa at {:.3g} % strain and averaged {:.3g} MPa at the end",
+                            n.peak_q * mega, n.peak_eps1 * percent, n.residual_q * mega)
+              : fmt::format("the deviator stress was still rising at {:.3g} MPa", n.peak_q * mega);
+  if (run.has_bonds()) text += fmt::format("; {:.3g} % of the bonds still held", n.intact_end);
+  return text + ".";
+}
+
+}  // namespace
+
+std::string summary_sentence(std::vector<RunResults> const& runs) {
+  if (runs.size() == 1) return sentence_on_one(runs.front());
+  std::vector<double> saturations, stresses, peaks, strains;
+  for (RunResults const& run : runs) {
+    TestNumbers const n = test_numbers(run.history);
+    saturations.push_back(run.number("/scene/hydrate/saturation").value_or(0) * percent);
+    stresses.push_back(run.number("/scene/test/confining_stress").value_or(0) * mega);
+    peaks.push_back(n.peak_q * mega);
+    strains.push_back(n.end_eps1 * percent);
+  }
+  return fmt::format(
+      "{} specimens with a hydrate saturation of {} were compressed to an axial strain of {} under a lateral stress of {}: their "
+      "deviator stress peaked at {}.",
+      runs.size(), range_text(saturations, "%", 3), range_text(strains, "%", 3), range_text(stresses, "MPa", 3),
+      range_text(peaks, "MPa", 3));
+}
+
+std::string summary_table(std::vector<RunResults> const& runs) {
+  std::vector<TestNumbers> numbers;
+  std::string head = "<th>quantity</th>", rows;
+  for (RunResults const& run : runs) {
+    numbers.push_back(test_numbers(run.history));
+    head += "<th>" + escaped(run.name) + "</th>";
+  }
+  for (auto const& group : {specimen_quantities(), result_quantities(), cost_quantities()})
+    for (Quantity const& quantity : group) {
+      rows += fmt::format("<tr><th>{}{}</th>", quantity.name,
+                          *quantity.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", quantity.unit) : "");
+      for (std::size_t i = 0; i < runs.size(); ++i) rows += "<td>" + quantity.text(runs[i], numbers[i]) + "</td>";
+      rows += "</tr>\n";
+    }
+  return "<div class=\"scroll\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+std::string warning_list(std::vector<RunResults> const& runs) {
+  std::string items;
+  for (RunResults const& run : runs) {
+    std::string const from = runs.size() > 1 ? escaped(run.name) + ": " : "";
+    std::string const reason = run.text("/exit/reason").value_or("unknown");
+    if (reason != "finished") items += fmt::format("<li>{}the run is not complete: {}</li>\n", from, escaped(reason));
+    if (auto const warnings = run.record.find("warnings"); warnings != run.record.end() && warnings->is_array())
+      for (auto const& warning : *warnings)
+        if (warning.is_string()) items += "<li>" + from + escaped(warning.get<std::string>()) + "</li>\n";
+  }
+  return items.empty() ? "" : "<div class=\"warn\"><b>Warnings of the run</b><ul>\n" + items + "</ul></div>\n";
+}
+
+}  // namespace clathra

@@ -1,0 +1,26 @@
+#pragma once
+/// The numbers by which a biaxial test is known, from its history.
+#include <optional>
+
+#include "io/report/run_results.hpp"
+
+namespace clathra {
+
+/// Stresses [Pa], compression positive; strains are natural ones. NaN where a history has no number for it.
+struct TestNumbers {
+  std::size_t peak = 0;  ///< row of the largest q
+  double peak_q = 0, peak_eps1 = 0;
+  double peak_sigma3 = 0;  ///< at the peak
+  double residual_q = 0;   ///< mean over `residual_from` to the end
+  double residual_sigma3 = 0;
+  double residual_from = 0;              ///< axial strain: 12 % of a test to about 15 %, else the last fifth
+  std::optional<double> secant_modulus;  ///< E50 = (q_peak / 2) / (eps_1 where q first gets there) [Pa]
+  double eps_v_peak = 0, eps_v_end = 0;
+  double end_eps1 = 0;
+  double intact_end = 0;     ///< of the bonds at installation [%]
+  bool passed_peak = false;  ///< the largest q is not the last one
+};
+
+TestNumbers test_numbers(HistoryTable const& history);
+
+}  // namespace clathra

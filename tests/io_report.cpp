@@ -1,0 +1,274 @@
+/// The report: what its curves and numbers show of a history, what it does with several runs, and with damaged ones.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <regex>
+
+#include "command.hpp"
+#include "io/report/report.hpp"
+#include "io/report/run_results.hpp"
+#include "io/report/strength.hpp"
+#include "io/report/test_numbers.hpp"
+#include "report_runs.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Report : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string page_on(std::vector<fs::path> const& runs) const {
+    write_report(runs, folder / "report.html");
+    return content_of(folder / "report.html");
+  }
+  fs::path made(std::string const& name, MadeUpTest const& test = {}) const {
+    write_made_up_run(folder / name, test);
+    return folder / name;
+  }
+  static ExitCode code_of(std::function<void()> const& act, std::string* message = nullptr) {
+    try {
+      act();
+    } catch (FileProblem const& problem) {
+      if (message) *message = problem.what();
+      return problem.code;
+    }
+    return ExitCode::done;
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_report_" + std::to_string(::getpid()));
+};
+
+/// The curves of the plot with this title, back in the units of its axes.
+std::vector<std::vector<std::pair<double, double>>> curves_of(std::string const& page, std::string const& title) {
+  auto const numbers = [](std::string const& text) {
+    std::vector<double> list;
+    std::istringstream stream(std::regex_replace(text, std::regex(","), " "));
+    for (double value; stream >> value;) list.push_back(value);
+    return list;
+  };
+  std::string const from = page.substr(page.find("<title>" + title));
+  std::string const plot = from.substr(0, from.find("</svg>"));
+  std::smatch found;
+  if (!std::regex_search(plot, found, std::regex("data-x=\"(.*?)\" data-y=\"(.*?)\" data-frame=\"(.*?)\""))) return {};
+  auto const x = numbers(found[1]), y = numbers(found[2]), frame = numbers(found[3]);
+  std::vector<std::vector<std::pair<double, double>>> curves;
+  std::regex const polyline("<polyline [^>]*points=\"(.*?)\"");
+  for (std::sregex_iterator match(plot.begin(), plot.end(), polyline), end; match != end; ++match) {
+    auto const places = numbers((*match)[1]);
+    curves.emplace_back();
+    for (std::size_t i = 0; i + 1 < places.size(); i += 2)
+      curves.back().emplace_back(x[0] + (places[i] - frame[0]) / frame[2] * (x[1] - x[0]),
+                                 y[1] - (places[i + 1] - frame[1]) / frame[3] * (y[1] - y[0]));
+  }
+  return curves;
+}
+
+TEST_F(Report, DrawsTheHistoryWhereItsAxesSay) {
+  MadeUpTest const test;
+  auto const curves = curves_of(page_on({made("a", test)}), "Deviator stress");
+  ASSERT_EQ(curves.size(), 1u);
+  ASSERT_EQ(curves[0].size(), made_up_records + 1u);
+  for (int i = 0; i <= made_up_records; ++i) {
+    double const eps1 = made_up_strain * i / made_up_records;
+    EXPECT_NEAR(curves[0][static_cast<std::size_t>(i)].first, 100 * eps1, 0.01);
+    EXPECT_NEAR(curves[0][static_cast<std::size_t>(i)].second, test.q(eps1) * 1e-6, 0.01);
+  }
+  auto const volume = curves_of(content_of(folder / "report.html"), "Volumetric strain");
+  EXPECT_NEAR(volume[0].back().second, -1.5, 0.01) << "compression is positive";
+}
+
+TEST_F(Report, ThinsALongCurveButKeepsItsPeak) {
+  fs::path const run = made("a");
+  HistoryFile history(run / "history.csv", false);
+  for (int i = 0; i <= 50000; ++i) {
+    HistoryRow row;
+    row.eps1 = made_up_strain * i / 50000;
+    row.q_Pa = i == 33333 ? 4e6 : 1e6;
+    history.write(row);
+  }
+  history.close();
+  auto const curve = curves_of(page_on({run}), "Deviator stress").at(0);
+  EXPECT_LE(curve.size(), 1000u);
+  auto const peak = std::max_element(curve.begin(), curve.end(), [](auto a, auto b) { return a.second < b.second; });
+  EXPECT_NEAR(peak->second, 4, 0.01);
+  EXPECT_NEAR(peak->first, 10, 0.01);
+  EXPECT_NEAR(curve.back().first, 15, 0.01);
+}
+
+TEST_F(Report, KnowsATestByItsNumbers) {
+  TestNumbers const n = test_numbers(HistoryTable(made("a") / "history.csv"));
+  EXPECT_DOUBLE_EQ(n.peak_q, 5e6);
+  EXPECT_DOUBLE_EQ(n.peak_eps1, 0.02);
+  EXPECT_NEAR(n.residual_q, 2e6, 1);
+  EXPECT_DOUBLE_EQ(n.residual_from, 0.12);
+  ASSERT_TRUE(n.secant_modulus);
+  EXPECT_NEAR(*n.secant_modulus, 5e6 / 0.02, 1) << "q rises along a straight line";
+  EXPECT_NEAR(n.eps_v_end, -0.015, 1e-12);
+  EXPECT_NEAR(n.intact_end, 40, 1e-12);
+  EXPECT_TRUE(n.passed_peak);
+}
+
+TEST_F(Report, ShowsTheSummaryAndTheWarningsWithHarmlessText) {
+  std::string const page = page_on({made("a <script>")});
+  EXPECT_NE(page.find("<td>5.000</td>"), std::string::npos) << "peak q";
+  EXPECT_NE(page.find("<td>2.000 (12–15 %)</td>"), std::string::npos) << "residual q";
+  EXPECT_NE(page.find("<td>250</td>"), std::string::npos) << "E50";
+  EXPECT_NE(page.find("<td>0x0000000000000abc</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>thickness_dependent, parallel, similitude, thm</td>"), std::string::npos);
+  EXPECT_NE(page.find("the &lt;wall&gt; is &quot;near&quot;"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+}
+
+TEST_F(Report, LaysSeveralRunsOverEachOther) {
+  MadeUpTest sand;
+  sand.saturation = 0;
+  std::string const page = page_on({made("x/a"), made("y/a"), made("sand", sand)});
+  EXPECT_EQ(curves_of(page, "Deviator stress").size(), 3u);
+  EXPECT_EQ(curves_of(page, "Share of intact bonds").size(), 2u) << "clean sand has none";
+  EXPECT_NE(page.find("<th>" + (folder / "x/a").string() + "</th>"), std::string::npos) << "equal names become paths";
+  EXPECT_NE(page.find("<th>sand</th>"), std::string::npos);
+  EXPECT_NE(page.find("sand: clean sand, 1 MPa"), std::string::npos);
+}
+
+TEST_F(Report, LeavesOutWhatThereIsNotAndSaysWhy) {
+  std::string const page = page_on({made("a")});
+  EXPECT_NE(page.find("There are no pictures of a: without snapshots"), std::string::npos);
+  EXPECT_EQ(page.find("<img"), std::string::npos);
+  EXPECT_EQ(page.find("Where the work went"), std::string::npos) << "no ledger";
+  EXPECT_EQ(page.find("Mohr"), std::string::npos) << "one confining stress";
+}
+
+TEST_F(Report, StacksTheLedgerUpToTheWork) {
+  MadeUpTest test;
+  test.energy = true;
+  std::string const page = page_on({made("a", test)});
+  EXPECT_NE(page.find("Where the work went"), std::string::npos);
+  auto const curves = curves_of(page, "Energy ledger");
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_NEAR(curves[0].back().second, 300, 1);
+  std::regex const areas("<polygon data-name");
+  EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), areas), std::sregex_iterator()), 5);
+}
+
+TEST_F(Report, NeedsNothingFromOutside) {
+  fs::path const run = made("a");
+  write_made_up_snapshots(run, made_up_lattice(20, 40), 0.2);
+  std::string const page = page_on({run});
+  for (char const* const forbidden : {"http:", "https:", "//cdn", "<script", "<link", "url(", "@import", "file:"})
+    EXPECT_EQ(page.find(forbidden), std::string::npos) << forbidden;
+  std::regex const source("src=\"(.{0,22})");
+  for (std::sregex_iterator match(page.begin(), page.end(), source), end; match != end; ++match)
+    EXPECT_EQ((*match)[1], "data:image/png;base64,");
+  EXPECT_NE(page.find("alt=\"Intact and broken bonds at"), std::string::npos);
+  EXPECT_NE(page.find("Where it sheared"), std::string::npos);
+  EXPECT_NE(page.find("Grading curve"), std::string::npos);
+  EXPECT_NE(page.find("Directions of contacts and forces"), std::string::npos);
+}
+
+TEST_F(Report, OfEightRunsWithPicturesFitsIntoFiveMegabytes) {
+  std::vector<fs::path> runs;
+  for (int i = 0; i < 9; ++i) {
+    runs.push_back(made("run" + std::to_string(i)));
+    write_made_up_snapshots(runs.back(), made_up_lattice(60, 120), 0.3);
+  }
+  std::string const page = page_on(runs);
+  EXPECT_LT(page.size(), 5'000'000u);
+  EXPECT_NE(page.find("Pictures are shown of the first 8 runs"), std::string::npos);
+}
+
+/// sigma_1 at failure by Mohr and Coulomb.
+double failure_stress(double cohesion, double friction_angle, double sigma3) {
+  double const n = (1 + std::sin(friction_angle)) / (1 - std::sin(friction_angle));
+  return 2 * cohesion * std::sqrt(n) + n * sigma3;
+}
+
+TEST_F(Report, FindsCohesionAndFrictionAngleOfTwoConfiningStresses) {
+  double const degree = std::acos(-1.0) / 180;
+  std::vector<fs::path> runs;
+  for (double const sigma3 : {1e6, 3e6}) {
+    MadeUpTest test;
+    test.sigma3 = sigma3;
+    test.peak_q = failure_stress(0.8e6, 32 * degree, sigma3) - sigma3;
+    test.residual_q = failure_stress(0.1e6, 28.5 * degree, sigma3) - sigma3;
+    runs.push_back(made("s" + std::to_string(sigma3), test));
+  }
+  std::string const page = page_on(runs);
+  EXPECT_NE(page.find("c = 0.8 MPa and φ = 32.0°"), std::string::npos);
+  EXPECT_NE(page.find("c = 0.1 MPa and φ = 28.5°"), std::string::npos);
+  EXPECT_EQ(curves_of(page, "Strength at 55 % hydrate, at the peak").size(), 3u) << "two circles and the line";
+  MadeUpTest other;
+  other.sigma3 = 3e6;
+  other.saturation = 0.26;
+  EXPECT_EQ(page_on({runs[0], made("other", other)}).find("Mohr"), std::string::npos) << "another saturation is another material";
+}
+
+TEST(ReportEnvelope, IsTheLeastSquaresLineAndKnowsWhenThereIsNone) {
+  std::vector<FailureStress> tests;
+  for (double const sigma3 : {0.5e6, 1e6, 2e6, 4e6}) tests.push_back({failure_stress(0.3e6, 0.5, sigma3), sigma3});
+  auto const fit = fitted_envelope(tests);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->cohesion, 0.3e6, 1);
+  EXPECT_NEAR(fit->friction_angle, 0.5, 1e-9);
+  EXPECT_FALSE(fitted_envelope({{3e6, 1e6}, {3.1e6, 1e6}}));
+  EXPECT_FALSE(fitted_envelope({{5e6, 1e6}, {3e6, 2e6}})) << "strength that falls with the stress";
+}
+
+TEST_F(Report, NamesWhatIsWrongWithARun) {
+  std::string message;
+  EXPECT_EQ(code_of([&] { page_on({folder / "none"}); }), ExitCode::file_missing);
+  fs::path const run = made("a");
+  std::string const history = content_of(run / "history.csv"), record = content_of(run / "run.json");
+  auto const with_history = [&](std::string const& text) {
+    std::ofstream(run / "history.csv") << text;
+    return code_of([&] { page_on({run}); }, &message);
+  };
+  EXPECT_EQ(with_history(history + "1,2,3\n"), ExitCode::bad_input);
+  EXPECT_NE(message.find("line 303: 3 cells, the header has 22"), std::string::npos) << message;
+  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("\n100,0,"), "\n100,zero,")), ExitCode::bad_input);
+  EXPECT_NE(message.find("line 3: 'zero' in column time_s is no number"), std::string::npos) << message;
+  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("q_Pa"), "r_Pa")), ExitCode::bad_input);
+  EXPECT_NE(message.find("one column q_Pa"), std::string::npos) << message;
+  EXPECT_EQ(with_history(history.substr(0, history.find('\n') + 1)), ExitCode::bad_input) << "no rows";
+  EXPECT_EQ(with_history(""), ExitCode::bad_input);
+  EXPECT_EQ(with_history(history + "1,2,3"), ExitCode::done) << "a row that is being written";
+  std::ofstream(run / "run.json") << "{\"scene\": [";
+  EXPECT_EQ(code_of([&] { page_on({run}); }), ExitCode::bad_input);
+  fs::remove(run / "run.json");
+  EXPECT_EQ(code_of([&] { page_on({run}); }), ExitCode::file_missing);
+  std::ofstream(run / "run.json") << record;
+  EXPECT_EQ(code_of([&] { write_report({run}, folder / "none" / "r.html"); }), ExitCode::cannot_create);
+}
+
+TEST_F(Report, BearsARecordAndAHistoryWithHolesInThem) {
+  fs::path const run = made("a");
+  std::ofstream(run / "run.json") << R"({"scene": {"hydrate": {"saturation": "much"}}, "warnings": [3], "exit": 7})";
+  std::string const history = content_of(run / "history.csv");
+  std::size_t const row = history.find("\n300,");
+  std::ofstream(run / "history.csv") << history.substr(0, row) << "\n300,0,nan,inf,nan,nan,nan,nan,0,0,0,1,1,1,1,1,1,1,1,1,1,nan"
+                                     << history.substr(history.find('\n', row + 1));
+  std::string const page = page_on({run});
+  EXPECT_EQ(curves_of(page, "Deviator stress").size(), 2u) << "the curve has a gap";
+  EXPECT_EQ(page.find("points=\"nan"), std::string::npos);
+  EXPECT_NE(page.find("the run is not complete: unknown"), std::string::npos);
+}
+
+TEST_F(Report, IsAVerbOfTheProgram) {
+  std::string const a = made("a").string(), b = made("b").string(), html = (folder / "both.html").string();
+  CommandResult const one = run_clathra("report " + a);
+  EXPECT_EQ(one.code, 0) << one.output;
+  EXPECT_EQ(one.output, a + "/report.html\n");
+  EXPECT_TRUE(fs::exists(folder / "a" / "report.html"));
+  CommandResult const both = run_clathra("report " + a + " " + b + " -o " + html);
+  EXPECT_EQ(both.code, 0) << both.output;
+  EXPECT_NE(content_of(html).find("Biaxial compression: 2 runs"), std::string::npos);
+  EXPECT_EQ(run_clathra("report").code, 64);
+  EXPECT_EQ(run_clathra("report " + a + "/none").code, 66);
+  EXPECT_EQ(run_clathra("report " + a + " -o " + a + "/none/r.html").code, 73);
+}
+
+}  // namespace
+}  // namespace clathra

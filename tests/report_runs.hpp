@@ -1,0 +1,134 @@
+#pragma once
+/// Folders of runs that nobody ran: histories of a known shape, and snapshots of a lattice, for the tests of the report.
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "io/history.hpp"
+#include "io/run_record.hpp"
+#include "io/snapshot_file.hpp"
+
+namespace clathra {
+
+/// q rises along a line to its peak, falls along another to the residual value at 8 % strain, and stays there; 301 records to 15
+/// %.
+struct MadeUpTest {
+  double sigma3 = 1e6, peak_q = 5e6, peak_eps1 = 0.02, residual_q = 2e6;
+  double saturation = 0.55;
+  bool energy = false;
+
+  double q(double eps1) const {
+    constexpr double residual_eps1 = 0.08;
+    if (eps1 <= peak_eps1) return peak_q * eps1 / peak_eps1;
+    double const part = std::min(1.0, (eps1 - peak_eps1) / (residual_eps1 - peak_eps1));
+    return peak_q + part * (residual_q - peak_q);
+  }
+};
+
+inline constexpr int made_up_records = 300;
+inline constexpr double made_up_strain = 0.15;
+
+inline HistoryRow made_up_row(MadeUpTest const& test, int i) {
+  HistoryRow row;
+  row.step = 100 * i;
+  row.eps1 = made_up_strain * i / made_up_records;
+  row.eps_v = -0.1 * row.eps1;
+  row.sigma3_Pa = test.sigma3;
+  row.q_Pa = test.q(row.eps1);
+  row.sigma1_Pa = test.sigma3 + row.q_Pa;
+  row.void_ratio = 0.24;
+  if (test.saturation > 0) {
+    row.bonds_intact = 1000 - 2 * i;
+    row.broken_rolling = i;
+    row.broken_shear = i;
+    row.intact_initial_pct = static_cast<double>(row.bonds_intact) / 10;
+  }
+  return row;
+}
+
+inline void write_made_up_record(std::filesystem::path const& folder, MadeUpTest const& test) {
+  RunRecord record;
+  record.version = "0.1.0";
+  record.git_hash = "abc";
+  record.input = parse_scene("[sample]\nparticles = 2000\n", "my.toml", "", {});
+  record.input.scene.hydrate.saturation = test.saturation;
+  record.input.scene.test.confining_stress = test.sigma3;
+  record.stages["plan"]["discs"] = 2000;
+  record.warnings = {"the <wall> is \"near\""};
+  record.state_hash = 0xabcull;
+  record.exit_reason = "finished";
+  write_run_record(folder / "run.json", record);
+}
+
+inline void write_made_up_run(std::filesystem::path const& folder, MadeUpTest const& test) {
+  std::filesystem::create_directories(folder);
+  HistoryFile history(folder / "history.csv", test.energy);
+  for (int i = 0; i <= made_up_records; ++i) {
+    if (test.energy) {
+      EnergyRow energy;
+      energy.boundary_work = i;
+      energy.sliding = 0.5 * i;
+      energy.grain_elastic = 0.5 * i;
+      history.write(made_up_row(test, i), energy);
+    } else {
+      history.write(made_up_row(test, i));
+    }
+  }
+  history.close();
+  write_made_up_record(folder, test);
+}
+
+/// A square lattice of equal discs in touch, each bonded to its right and upper neighbour, between walls around it.
+inline Snapshot made_up_lattice(int columns, int rows, double radius = 1e-4) {
+  Snapshot s;
+  s.right = 2 * radius * columns, s.top = 2 * radius * rows;
+  s.d50 = 2 * radius;
+  auto const n = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      int const i = row * columns + column;
+      s.id.push_back(i);
+      s.x.push_back((2 * column + 1) * radius);
+      s.y.push_back((2 * row + 1) * radius);
+      for (int const other : {column + 1 < columns ? i + 1 : -1, row + 1 < rows ? i + columns : -1})
+        if (other >= 0) s.a.push_back(i), s.b.push_back(other);
+    }
+  s.radius.assign(n, static_cast<float>(radius));
+  for (auto* zero : {&s.angle, &s.vx, &s.vy, &s.omega, &s.ux, &s.uy, &s.stress_xx, &s.stress_yy, &s.stress_xy})
+    zero->assign(n, 0.0f);
+  for (auto* zero : {&s.coordination, &s.bonds_intact, &s.bonds_initial}) zero->assign(n, std::uint8_t{0});
+  s.state.assign(s.a.size(), static_cast<std::uint8_t>(ContactState::bonded));
+  s.normal_force.assign(s.a.size(), 1.0f);
+  s.width.assign(s.a.size(), static_cast<float>(radius / 2));
+  for (auto* zero : {&s.shear_force, &s.moment, &s.gap}) zero->assign(s.a.size(), 0.0f);
+  return s;
+}
+
+/// Snapshots at the start, at the peak and at the end, the last one sheared by u_x = shear * y.
+inline void write_made_up_snapshots(std::filesystem::path const& folder, Snapshot snapshot, double shear) {
+  SnapshotSeries series(folder);
+  for (int const record : {0, 40, made_up_records}) {
+    snapshot.step = 100 * record;
+    snapshot.eps1 = made_up_strain * record / made_up_records;
+    if (record > 0) snapshot.state.front() = static_cast<std::uint8_t>(ContactState::broken_shear);
+    if (record == made_up_records)
+      for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+        snapshot.ux[i] = static_cast<float>(shear * snapshot.y[i]);
+        snapshot.x[i] += double(snapshot.ux[i]);
+      }
+    series.write(snapshot);
+  }
+}
+
+inline std::string content_of(std::filesystem::path const& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace clathra
