@@ -1,4 +1,4 @@
-# Makes the target Kokkos::kokkos. Sources of Kokkos, in this order:
+# Makes the target Kokkos::kokkos and sets Kokkos_VERSION and, but for the third, Kokkos_DIR. Sources of Kokkos, in this order:
 #   1. an installed one (>= 3.4.1) that has OpenMP: Debian's libtrilinos-kokkos-dev is Serial only and is refused
 #   2. the one built earlier, or now, into the cache folder from Debian's source package (scripts/kokkos)
 #   3. the upstream release, pinned by its hash
@@ -56,6 +56,7 @@ if(NOT kokkos_source)
     URL ${CLATHRA_KOKKOS_URL}
     URL_HASH SHA256=${CLATHRA_KOKKOS_SHA256})
   FetchContent_MakeAvailable(Kokkos)
+  get_directory_property(Kokkos_VERSION DIRECTORY ${kokkos_SOURCE_DIR} DEFINITION Kokkos_VERSION)
   foreach(part kokkoscore kokkoscontainers kokkosalgorithms kokkossimd) # our warnings are for our own code
     if(TARGET ${part})
       get_target_property(folders ${part} INTERFACE_INCLUDE_DIRECTORIES)

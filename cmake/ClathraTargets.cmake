@@ -1,15 +1,19 @@
-# clathra_layer(NAME LINK targets...): the library of the current folder, from all its *.cpp and those of its subfolders. A folder without sources
-# makes an INTERFACE library, so that what stands above it can be configured.
+include(GNUInstallDirs)
+
+# clathra_layer(NAME LINK targets...): the library of the current folder, from all its *.cpp and those of its subfolders. A
+# folder without sources makes an INTERFACE library, so that what stands above it can be configured.
 function(clathra_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINK")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(include_folder $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/clathra>)
   if(sources)
     add_library(${name} STATIC ${sources})
-    target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${name} PUBLIC ${include_folder})
+    target_compile_features(${name} PUBLIC cxx_std_20)
     target_link_libraries(${name} PUBLIC ${arg_LINK} PRIVATE clathra_flags)
   else()
     add_library(${name} INTERFACE)
-    target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${name} INTERFACE ${include_folder})
     target_link_libraries(${name} INTERFACE ${arg_LINK})
   endif()
 endfunction()

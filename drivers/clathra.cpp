@@ -65,6 +65,9 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_export(program, chosen);
   add_report(program, chosen);
   add_verify(program, chosen);
+  add_selftest(program, chosen);
+  add_completion(program, chosen);
+  add_manual(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

@@ -56,7 +56,7 @@ void add_generate(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<GenerateOptions>();
   CLI::App* const verb = program.add_subcommand("generate", "Make a specimen file that later runs can read");
   options->scene.add_to(*verb);
-  verb->add_option("-o,--output", options->output, "specimen file to write")->capture_default_str();
+  verb->add_option("-o,--output", options->output, "specimen file to write")->capture_default_str()->type_name("FILE");
   verb->footer(
       "Example: clathra generate examples/quick.toml -o specimen.h5\n"
       "         clathra run examples/quick.toml --set sample.generator=file --set sample.file=specimen.h5");

@@ -7,17 +7,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 namespace clathra {
 namespace {
 
 constexpr auto terminal_interval = std::chrono::milliseconds(200);
 constexpr auto line_interval = std::chrono::seconds(60);
-constexpr int marks = 20;  // a line every 5 %
+constexpr int percents_a_line = 5;
 
 std::size_t terminal_width() {
   winsize size = {};
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+}
+
+/// A terminal on which a line can be rewritten.
+bool is_terminal() {
+  char const* const kind = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && !(kind && std::string_view(kind) == "dumb");
 }
 
 /// stderr may be closed or full: nothing that happens to it may stop a run.
@@ -28,7 +35,7 @@ void put(std::string const& text) {
 
 }  // namespace
 
-ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) == 1), last_(Clock::now()) {
+ProgressLine::ProgressLine() : terminal_(is_terminal()), last_(Clock::now()) {
   char const* const no_colour = std::getenv("NO_COLOR");
   colour_ = terminal_ && !(no_colour && *no_colour);
 }
@@ -46,14 +53,14 @@ std::string ProgressLine::coloured(std::string const& text, char const* code) co
 
 void ProgressLine::show(std::string const& stage, double fraction, std::string const& text) {
   auto const now = Clock::now();
-  int const mark = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * marks);
+  int const percent = static_cast<int>(std::lround(100 * std::clamp(fraction, 0.0, 1.0))), mark = percent / percents_a_line;
   bool const new_stage = stage != stage_;
   if (new_stage) stage_ = stage, last_mark_ = -1;
   bool const due = terminal_ ? now - last_ >= terminal_interval : mark > last_mark_ || now - last_ >= line_interval;
   if (!new_stage && !due) return;
   last_ = now;
   last_mark_ = std::max(last_mark_, mark);
-  std::string line = fmt::format("{} {:.0f}% {}", stage, std::clamp(fraction, 0.0, 1.0) * 100, text);
+  std::string line = fmt::format("{} {}% {}", stage, percent, text);
   if (!terminal_) return put(line + "\n");
   line.resize(std::min(line.size(), terminal_width() - 1));
   put("\r\033[K" + line);

@@ -20,5 +20,8 @@ void add_report(CLI::App& program, Verb& chosen);
 void add_verify(CLI::App& program, Verb& chosen);
 void add_init(CLI::App& program, Verb& chosen);
 void add_schema(CLI::App& program, Verb& chosen);
+void add_selftest(CLI::App& program, Verb& chosen);
+void add_completion(CLI::App& program, Verb& chosen);
+void add_manual(CLI::App& program, Verb& chosen);
 
 }  // namespace clathra

@@ -71,13 +71,11 @@ KOKKOS_INLINE_FUNCTION Real envelope_shape(Real x) {
 /// @param part  F_n + R_t [N/m], 0 < part < scale;  @param scale  R_c + R_t [N/m]
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L envelope_lower_bound(L const& part, L const& scale) {
-  L bound = L(1.9931) * part;
-  bound = lane_min(bound, L(1.264849) * part + L(0.029130) * scale);
-  bound = lane_min(bound, L(0.706626) * part + L(0.112860) * scale);
-  bound = lane_min(bound, L(0.173959) * part + L(0.299290) * scale);
-  bound = lane_min(bound, L(0.624130) * scale - L(0.367461) * part);
-  bound = lane_min(bound, L(1.144500) * scale - L(1.017960) * part);
-  return lane_min(bound, L(2.826300) * (scale - part));
+  // Minima in pairs: a chain of them would be the longest dependency of the contact kernel.
+  L const low = lane_min(L(1.9931) * part, L(1.264849) * part + L(0.029130) * scale);
+  L const rising = lane_min(L(0.706626) * part + L(0.112860) * scale, L(0.173959) * part + L(0.299290) * scale);
+  L const falling = lane_min(L(0.624130) * scale - L(0.367461) * part, L(1.144500) * scale - L(1.017960) * part);
+  return lane_min(lane_min(low, rising), lane_min(falling, L(2.826300) * (scale - part)));
 }
 
 /// The exact strength envelope of one bond under its bond forces (Eq. 9, combined as an ellipse at fixed F_n:

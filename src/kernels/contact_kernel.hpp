@@ -90,7 +90,7 @@ struct ContactKernel {
     if constexpr (Dashpot) dashpot = dashpot_coefficient(grain, own.inverse_mass, gather(p.inverse_mass.data(), j));
     ContactForce<Lanes> force = grain_force(motion, dashpot, h, own);
     if constexpr (bonded_code) {
-      Site const site{first, j, &own, dx, dy};
+      Site const site{first, e, j, &own, dx, dy};
       force = with_bond(force, motion, dashpot, site, h, own);
     }
     write(e, h);
@@ -103,7 +103,7 @@ struct ContactKernel {
  private:
   /// Where a block of entries lies: needed only when something is reported.
   struct Site {
-    std::size_t first;
+    std::size_t first, entry;
     int const* other;
     Own const* own;
     Lanes dx, dy;
@@ -123,7 +123,6 @@ struct ContactKernel {
   KOKKOS_FORCEINLINE_FUNCTION void write(std::size_t e, History const& h) const {
     store(&rows.shear(e), h.shear);
     if constexpr (moments) store(&rows.moment(e), h.moment);
-    if constexpr (bonded_code) store(&rows.equilibrium(e), h.equilibrium);
     if constexpr (Bond == BondKind::parallel) {
       store(&rows.bond_shear(e), h.bond_shear);
       store(&rows.bond_moment(e), h.bond_moment);
@@ -165,7 +164,7 @@ struct ContactKernel {
     BondForce<Lanes> const trial =
         bond_contact(bond, motion, h.equilibrium, parallel ? h.bond_shear : h.shear, parallel ? h.bond_moment : h.moment);
     auto const doubt = bonded && !is_surely_intact(bond, trial);
-    if (any(doubt)) break_bonds(trial, doubt, site, h);
+    if (any(doubt) && break_bonds(trial, doubt, site, h)) store(&rows.equilibrium(site.entry), h.equilibrium);
     auto const intact = is_bonded(h.equilibrium);
     Lanes const zero(0);
     if constexpr (parallel) {
@@ -184,19 +183,22 @@ struct ContactKernel {
     }
   }
 
-  /// The exact strength test of the doubtful bonds, one by one: they are few.
-  KOKKOS_FUNCTION void break_bonds(BondForce<Lanes> const& trial, Mask const& doubt, Site const& site, History& h) const {
+  /// The exact strength test of the doubtful bonds, one by one: they are few. @return whether one broke
+  KOKKOS_FUNCTION bool break_bonds(BondForce<Lanes> const& trial, Mask const& doubt, Site const& site, History& h) const {
+    bool broken = false;
     for (int l = 0; l < lane_count; ++l) {
       if (!lane(doubt, l)) continue;
       BondStrength const strength = bond_strength(bond.strength, lane(trial.width, l), lane(trial.gap, l));
       BreakMode const mode = strength.test(lane(trial.force.normal, l), lane(trial.force.shear, l), lane(trial.force.moment, l));
       if (mode == BreakMode::none) continue;
       set_lane(h.equilibrium, l, no_bond);
+      broken = true;
       int const id = p.id(site.first + static_cast<std::size_t>(l)), other = p.id(site.other[l]);
       if (id >= other) continue;  // both discs of the pair see the same break; one of them reports it
       breaks.record(step, id, other, mode, lane(site.own->x, l) + 0.5 * lane(site.dx, l),
                     lane(site.own->y, l) + 0.5 * lane(site.dy, l));
     }
+    return broken;
   }
 
   KOKKOS_FUNCTION void report_deep(std::size_t first, Mask const& deep) const {

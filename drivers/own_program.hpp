@@ -1,0 +1,12 @@
+#pragma once
+/// This program once more, as a child.
+#include <string>
+#include <vector>
+
+namespace clathra {
+
+/// Runs this program with other arguments and returns what it prints to stdout; its stderr is ours.
+/// @throws std::runtime_error where it cannot be started or does not end with exit code 0
+std::string output_of_own_program(std::vector<std::string> const& arguments);
+
+}  // namespace clathra

@@ -1,0 +1,43 @@
+# Packs the build tree as a .deb and looks at its list of contents. Run by ctest as
+#   cmake -DBUILD=<build folder> -DCPACK=<cpack> -DDPKG_DEB=<dpkg-deb> -DFOLDER=<scratch> -P package_test.cmake
+cmake_minimum_required(VERSION 3.22)
+
+file(REMOVE_RECURSE ${FOLDER})
+execute_process(
+  COMMAND ${CPACK} --config ${BUILD}/CPackConfig.cmake -B ${FOLDER}
+  WORKING_DIRECTORY ${BUILD}
+  OUTPUT_VARIABLE output
+  ERROR_VARIABLE output
+  RESULT_VARIABLE code)
+file(GLOB package ${FOLDER}/clathra_*.deb)
+if(code OR NOT package)
+  message(FATAL_ERROR "cpack ended with ${code} and made '${package}':\n${output}")
+endif()
+
+execute_process(COMMAND ${DPKG_DEB} --contents ${package} OUTPUT_VARIABLE contents COMMAND_ERROR_IS_FATAL ANY)
+foreach(
+  path
+  bin/clathra
+  share/man/man1/clathra.1
+  share/bash-completion/completions/clathra
+  share/clathra/examples/quick.toml
+  share/clathra/examples/paper/s55-1mpa.toml
+  share/doc/clathra/copyright
+  share/doc/clathra/README.md)
+  if(NOT contents MATCHES " \\./usr/${path}\n")
+    message(SEND_ERROR "the package lacks /usr/${path}")
+  endif()
+endforeach()
+if(contents MATCHES "[^\n]*(/include/|/lib/|\\.a\n)[^\n]*")
+  message(SEND_ERROR "the package holds what belongs to development: ${CMAKE_MATCH_0}")
+endif()
+foreach(line "-rwxr-xr-x root/root [^\n]*/usr/bin/clathra\n" "-rw-r--r-- root/root [^\n]*/usr/share/man/man1/clathra.1\n")
+  if(NOT contents MATCHES "${line}")
+    message(SEND_ERROR "owner or rights are wrong, wanted ${line}")
+  endif()
+endforeach()
+
+execute_process(COMMAND ${DPKG_DEB} --field ${package} Package Depends OUTPUT_VARIABLE fields COMMAND_ERROR_IS_FATAL ANY)
+if(NOT fields MATCHES "Package: clathra\n" OR NOT fields MATCHES "Depends: [^\n]*libc6 [^\n]*libhdf5")
+  message(SEND_ERROR "name or dependencies of the package are wrong:\n${fields}")
+endif()
