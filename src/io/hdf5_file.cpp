@@ -15,6 +15,7 @@ namespace clathra {
 namespace {
 
 constexpr hsize_t chunk_rows = 65536;
+constexpr unsigned compression = 4;  // of gzip; 1 gives 5 % more bytes in 3/4 of the time, 6 gives 1 % less in twice the time
 constexpr hsize_t most_rows = 1'000'000'000;  // a column that claims more is taken for damage
 constexpr hsize_t longest_text = 16 << 20;    // [bytes]
 
@@ -136,13 +137,13 @@ void Hdf5File::make_group(std::string const& name) {
 void Hdf5File::write_column(std::string const& name, void const* values, std::size_t rows, std::size_t width, hid_t type,
                             std::string const& unit) {
   make_group(name);
-  hsize_t const shape[] = {rows, width}, chunk[] = {std::min<hsize_t>(rows, chunk_rows), width};
+  hsize_t const shape[] = {rows, width}, chunk[] = {std::min<hsize_t>(rows, chunk_rows), 1};
   int const rank = width == 1 ? 1 : 2;
   Id const space(H5Screate_simple(rank, shape, nullptr), H5Sclose);
   Id const filters(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   bool const ready = space >= 0 && filters >= 0 &&
                      (rows == 0 || (H5Pset_chunk(filters, rank, chunk) >= 0 && H5Pset_shuffle(filters) >= 0 &&
-                                    H5Pset_deflate(filters, 1) >= 0 && H5Pset_fletcher32(filters) >= 0));
+                                    H5Pset_deflate(filters, compression) >= 0 && H5Pset_fletcher32(filters) >= 0));
   Id const column(ready ? H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, filters, H5P_DEFAULT) : -1, H5Dclose);
   if (column < 0 || (rows > 0 && H5Dwrite(column, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
     fail(ExitCode::io_error, fmt::format("cannot write {}: {}", name, hdf5_reason()));

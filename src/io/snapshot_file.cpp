@@ -60,18 +60,18 @@ void write_rounded(Hdf5File& file, std::string const& name, std::vector<std::vec
 
 void write_discs(Hdf5File& file, Snapshot const& s) {
   double const length = power_of_two(s.d50);
-  auto const speed = [&](std::vector<float> const& v) { return power_of_two(mean_size(v)) / 64; };
+  auto const speed = [&](std::vector<float> const& v) { return power_of_two(mean_size(v)) / 8; };
   file.write("particles/id", s.id, "");
   std::vector<std::int32_t> index(s.id.size());
   std::iota(index.begin(), index.end(), 0);
   file.write("particles/index", index, "");
-  write_rounded<double>(file, "particles/position", {&s.x, &s.y}, length / 65536, "m", 2);
-  write_rounded<float>(file, "particles/displacement", {&s.ux, &s.uy}, length / 4096, "m", 3);
+  write_rounded<double>(file, "particles/position", {&s.x, &s.y}, length / 4096, "m", 2);
+  write_rounded<float>(file, "particles/displacement", {&s.ux, &s.uy}, length / 512, "m", 3);
   write_rounded<float>(file, "particles/velocity", {&s.vx, &s.vy}, std::max(speed(s.vx), speed(s.vy)), "m/s", 3);
   write_rounded<float>(file, "particles/angular_velocity", {&s.omega}, speed(s.omega), "rad/s", 1);
-  write_rounded<float>(file, "particles/angle", {&s.angle}, 1.0 / 8192, "rad", 1);
-  write_rounded<float>(file, "particles/radius", {&s.radius}, length / 65536, "m", 1);
-  double const stress = power_of_two(mean_size(s.stress_yy)) / 128;
+  write_rounded<float>(file, "particles/angle", {&s.angle}, 1.0 / 1024, "rad", 1);
+  write_rounded<float>(file, "particles/radius", {&s.radius}, length / 8192, "m", 1);
+  double const stress = power_of_two(mean_size(s.stress_yy)) / 16;
   write_rounded<float>(file, "particles/stress", {&s.stress_xx, &s.stress_yy, &s.stress_xy}, stress, "Pa (xx, yy, xy)", 3);
   file.write("particles/coordination", s.coordination, "");
   file.write("particles/bonds_intact", s.bonds_intact, "");
@@ -79,7 +79,7 @@ void write_discs(Hdf5File& file, Snapshot const& s) {
 }
 
 void write_pairs(Hdf5File& file, Snapshot const& s) {
-  double const length = power_of_two(s.d50), force = power_of_two(mean_size(s.normal_force)) / 128;
+  double const length = power_of_two(s.d50), force = power_of_two(mean_size(s.normal_force)) / 16;
   std::size_t const count = s.a.size();
   std::vector<std::uint32_t> pairs(2 * count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -90,9 +90,9 @@ void write_pairs(Hdf5File& file, Snapshot const& s) {
   file.write("contacts/state", s.state, "0 contact, 1 bonded, bond broken by: 2 tension, 3 compression, 4 shear, 5 rolling");
   write_rounded<float>(file, "contacts/normal_force", {&s.normal_force}, force, "N/m", 1);
   write_rounded<float>(file, "contacts/shear_force", {&s.shear_force}, force, "N/m", 1);
-  write_rounded<float>(file, "contacts/moment", {&s.moment}, power_of_two(mean_size(s.moment)) / 64, "N m/m", 1);
-  write_rounded<float>(file, "contacts/gap", {&s.gap}, length / 131072, "m", 1);
-  write_rounded<float>(file, "contacts/width", {&s.width}, length / 4096, "m", 1);
+  write_rounded<float>(file, "contacts/moment", {&s.moment}, power_of_two(mean_size(s.moment)) / 8, "N m/m", 1);
+  write_rounded<float>(file, "contacts/gap", {&s.gap}, length / 8192, "m", 1);
+  write_rounded<float>(file, "contacts/width", {&s.width}, length / 256, "m", 1);
 }
 
 void write_events(Hdf5File& file, Snapshot const& s) {
