@@ -52,7 +52,7 @@ install(
   COMPONENT development)
 
 install(
-  DIRECTORY ${PROJECT_SOURCE_DIR}/examples
+  DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/share/paraview ${PROJECT_SOURCE_DIR}/share/python
   DESTINATION ${CMAKE_INSTALL_DATADIR}/clathra
   COMPONENT program)
 install(

@@ -62,6 +62,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_generate(program, chosen);
   add_bond(program, chosen);
   add_info(program, chosen);
+  add_events(program, chosen);
   add_export(program, chosen);
   add_report(program, chosen);
   add_verify(program, chosen);

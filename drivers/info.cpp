@@ -1,6 +1,7 @@
-/// `clathra info`: what a specimen file or the folder of a run holds.
+/// `clathra info`: what a specimen file, a snapshot or the folder of a run holds.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -9,7 +10,9 @@
 
 #include "domain/experiment.hpp"
 #include "domain/grading.hpp"
+#include "io/export.hpp"
 #include "io/run_record.hpp"
+#include "io/snapshot_file.hpp"
 #include "io/specimen_file.hpp"
 #include "io/text_file.hpp"
 #include "kernels/bond_law.hpp"
@@ -32,11 +35,28 @@ double solid_area(Specimen const& specimen) {
                          [](double sum, double r) { return sum + pi * r * r; });
 }
 
+/// One line of a text: what it is, and its value.
+std::string row(char const* name, std::string const& value) { return fmt::format("{:<18} {}\n", name, value); }
+
+std::string snapshot_text(Snapshot const& s) {
+  std::array<std::size_t, contact_state_count> pairs{};
+  for (std::uint8_t const state : s.state) ++pairs[state];
+  std::string text;
+  text += row("step", fmt::format("{}, {:.6g} s after the shear began", s.step, s.time));
+  text += row("strain", fmt::format("eps1 {:.4g} %, eps_v {:.4g} %", s.eps1 * 100, s.eps_v * 100));
+  text += row("stress", fmt::format("sigma1 {:.5g} MPa, sigma3 {:.5g} MPa", s.sigma1 * 1e-6, s.sigma3 * 1e-6));
+  text += row("discs", fmt::format("{}", s.id.size()));
+  text += row("box", fmt::format("{:.6g} mm x {:.6g} mm", (s.right - s.left) * 1e3, (s.top - s.bottom) * 1e3));
+  for (std::size_t state = 0; state < pairs.size(); ++state)
+    text += row(std::string(contact_state_name(static_cast<std::uint8_t>(state))).c_str(), fmt::format("{} pairs", pairs[state]));
+  text += row("events", fmt::format("{} bonds broke since the snapshot before", s.events.size()));
+  return text;
+}
+
 std::string specimen_text(Specimen const& specimen) {
   auto const bonds = std::count_if(specimen.contacts.begin(), specimen.contacts.end(),
                                    [](SpecimenContact const& c) { return is_bonded(c.equilibrium); });
   double const area = specimen.width() * specimen.height();
-  auto const row = [](char const* name, std::string const& value) { return fmt::format("{:<18} {}\n", name, value); };
   auto const diameter = [&](double part) { return diameter_finer(specimen.radius, part) * 1e3; };
   std::string text;
   text += row("discs", fmt::format("{}", specimen.size()));
@@ -94,6 +114,11 @@ ExitCode info(InfoOptions const& options) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) return info_of_run(file / "run.json", options.state_hash);
   if (file.extension() == ".json") return info_of_run(file, options.state_hash);
+  if (is_snapshot(file)) {
+    if (options.state_hash)
+      throw FileProblem(ExitCode::bad_input, file, "is a snapshot, whose numbers are rounded: it has no state hash");
+    return print_result(snapshot_text(read_snapshot(file)));
+  }
   Specimen const specimen = read_specimen(file);
   if (options.state_hash) return print_result(hash_text(specimen_hash(specimen)) + "\n");
   return print_result(specimen_text(specimen));
@@ -103,8 +128,8 @@ ExitCode info(InfoOptions const& options) {
 
 void add_info(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<InfoOptions>();
-  CLI::App* const verb = program.add_subcommand("info", "Say what a specimen file or the folder of a run holds");
-  verb->add_option("file", options->file, "specimen file, run.json, or folder of a run")->required();
+  CLI::App* const verb = program.add_subcommand("info", "Say what a specimen file, a snapshot or the folder of a run holds");
+  verb->add_option("file", options->file, "specimen file, snapshot, run.json, or folder of a run")->required();
   verb->add_flag("--state-hash", options->state_hash, "print only the hash of the state");
   verb->footer("Example: clathra info out/quick/specimen.h5");
   verb->callback([options, &chosen] { chosen = [options] { return info(*options); }; });

@@ -15,6 +15,7 @@ void add_check(CLI::App& program, Verb& chosen);
 void add_generate(CLI::App& program, Verb& chosen);
 void add_bond(CLI::App& program, Verb& chosen);
 void add_info(CLI::App& program, Verb& chosen);
+void add_events(CLI::App& program, Verb& chosen);
 void add_export(CLI::App& program, Verb& chosen);
 void add_report(CLI::App& program, Verb& chosen);
 void add_verify(CLI::App& program, Verb& chosen);

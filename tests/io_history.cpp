@@ -154,6 +154,25 @@ TEST_F(History, DoesNotWriteThroughALink) {
   EXPECT_EQ(content(folder / "precious.txt"), "keep me");
 }
 
+TEST_F(Events, ReadBackAsWrittenAndDamageIsNamedByLine) {
+  std::vector<BreakEvent> const events = {{7, 1, 5, 1, 0.25, -1e-3}, {9, 2, 3, 4, 1e-5, 0}};
+  EventsFile file(folder / "events.csv");
+  file.write(events);
+  file.close();
+  auto const back = read_events(folder / "events.csv");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(back[1].step, 9);
+  EXPECT_EQ(back[1].id_b, 3);
+  EXPECT_EQ(back[1].mode, 4);
+  EXPECT_EQ(back[0].y, -1e-3);
+  for (char const* const row :
+       {"7,1,5,tension,0.25\n", "7,1,5,tension,0.25,0,0\n", "7,1,5,boredom,0.25,0\n", "x,1,5,shear,0.25,0\n"}) {
+    std::ofstream(folder / "wrong.csv") << "step,id_a,id_b,mode,x_m,y_m\n" << row;
+    EXPECT_EQ(code_of([&] { read_events(folder / "wrong.csv"); }), ExitCode::bad_input) << row;
+  }
+  EXPECT_EQ(code_of([&] { read_events(folder / "none.csv"); }), ExitCode::file_missing);
+}
+
 TEST_F(Events, AreOneRowEach) {
   EventsFile file(folder / "events.csv");
   file.write({});

@@ -208,6 +208,13 @@ TEST_F(RunCommand, SnapshotsFollowTheStrainAndVerifyNoticesAChangedFile) {
   EXPECT_EQ(snapshots, 5u);
   std::string const out = (folder / "out").string();
   EXPECT_EQ(run_clathra("verify " + out).code, 0);
+  CommandResult const listed = run_clathra("events " + out + " --csv");
+  EXPECT_EQ(listed.code, 0) << listed.output;
+  std::string const events = content(folder / "out" / "events.csv");
+  EXPECT_EQ(std::count(listed.output.begin(), listed.output.end(), '\n'), std::count(events.begin(), events.end(), '\n'));
+  EXPECT_EQ(run_clathra("events " + out + " --mode shear --parts 3").code, 0);
+  CommandResult const first = run_clathra("info " + out + "/snap/000000000000.h5");
+  EXPECT_NE(first.output.find("bonded "), std::string::npos) << first.output;
   CommandResult const exported = run_clathra("export " + out + " --to csv");
   EXPECT_EQ(exported.code, 0) << exported.output;
   EXPECT_TRUE(fs::exists(folder / "out" / "export" / "discs_000000000000.csv"));

@@ -20,6 +20,10 @@ class EventsFile {
   RowFile file_;
 };
 
+/// The events of an events.csv, in its order. A last line without its end is being written, and is left out.
+/// @throws FileProblem file_missing, or bad_input with the line that is no event
+std::vector<BreakEvent> read_events(std::filesystem::path const& path);
+
 /// "tension", "compression", "shear" or "rolling" (see BreakMode).
 char const* break_mode_name(int mode);
 

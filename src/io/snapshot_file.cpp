@@ -204,6 +204,8 @@ Snapshot read_snapshot(std::filesystem::path const& path) {
   return s;
 }
 
+bool is_snapshot(std::filesystem::path const& path) { return Hdf5File::open(path).text_attribute("format") == format_name; }
+
 std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& run_folder) {
   std::vector<std::filesystem::path> files;
   std::error_code none;

@@ -15,6 +15,9 @@ void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot)
 /// @throws FileProblem file_missing, or bad_input where the file is damaged, no snapshot, or of another version
 Snapshot read_snapshot(std::filesystem::path const& path);
 
+/// Whether an HDF5 file says that it is a snapshot. @throws FileProblem file_missing, or bad_input where it is no HDF5 file
+bool is_snapshot(std::filesystem::path const& path);
+
 /// The snapshots of a run's folder in the order of their steps; none where there are none.
 std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& run_folder);
 

@@ -1,0 +1,44 @@
+"""The bonds of one snapshot of a Clathra run as a map: intact ones grey, broken ones coloured by what broke them.
+
+    python3 share/python/bonds.py OUT/snap/000000012345.h5 -o bonds.pdf
+
+Needs h5py and matplotlib.
+"""
+import argparse
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from matplotlib.collections import LineCollection
+
+STATES = {1: ("intact", "0.7", 0.3), 2: ("tension", "#009e73", 1), 3: ("compression", "#e69f00", 1), 4: ("shear", "#0072b2", 1),
+          5: ("rolling", "#d55e00", 1)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("snapshot")
+    parser.add_argument("-o", "--output", default="bonds.pdf")
+    options = parser.parse_args()
+    with h5py.File(options.snapshot) as file:
+        position = 1e3 * file["particles/position"][:]
+        pair = file["contacts/pair"][:]
+        state = file["contacts/state"][:]
+        strain = file.attrs["eps1"]
+    figure, axis = plt.subplots(figsize=(3.5, 7), constrained_layout=True)
+    for value, (name, colour, width) in STATES.items():
+        lines = position[pair[state == value]]
+        if len(lines):
+            axis.add_collection(LineCollection(lines, colors=colour, linewidths=width, label=f"{name} ({len(lines)})"))
+    axis.autoscale()
+    axis.set_aspect("equal")
+    axis.set_xlabel("x [mm]")
+    axis.set_ylabel("y [mm]")
+    axis.set_title(f"$\\varepsilon_1$ = {100 * strain:.2f} %", fontsize=9)
+    axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, frameon=False)
+    figure.savefig(options.output)
+
+
+main()

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# A small run is opened by a viewer: viewers_test.sh <clathra> <project> paraview <pvpython> | python <python with h5py and matplotlib>
+set -euo pipefail
+clathra=$1 project=$2 viewer=$3 interpreter=$4
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$clathra" run "$project/examples/quick.toml" --set sample.particles=300 --set test.axial_strain="1 %" --set output.snapshots=3 \
+  --output "$folder/out" >"$folder/run.log" 2>&1 || { cat "$folder/run.log"; exit 1; }
+if [ "$viewer" = paraview ]; then
+  "$interpreter" "$project/tests/paraview_reads.py" "$folder/out"
+else
+  "$interpreter" "$project/share/python/curves.py" "$folder/out" -o "$folder/curves.pdf"
+  "$interpreter" "$project/share/python/bonds.py" "$(find "$folder/out/snap" -name '*.h5' | sort | tail -n 1)" -o "$folder/bonds.pdf"
+  for picture in curves bonds; do
+    [ "$(stat -c %s "$folder/$picture.pdf")" -gt 5000 ] || { echo "$picture.pdf is all but empty"; exit 1; }
+  done
+fi
