@@ -81,6 +81,7 @@ TEST(ReportPictures, DrawGrainsAndForcesWhereTheyAre) {
   Snapshot s = made_up_lattice(6, 6);
   s.radius[7] *= 0.5f;
   MapView const view = whole(s, 600);
+  EXPECT_LT(view.y(s.top), view.y(s.bottom)) << "up is up";
   Canvas const grains = grain_map(s, view);
   auto const at = [&](Canvas const& c, double x, double y) { return c.pixel(int(view.x(x)), int(view.y(y))); };
   EXPECT_EQ(at(grains, s.x[7], s.y[7]), ramp(0)) << "the smallest";

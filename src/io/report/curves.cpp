@@ -60,7 +60,7 @@ std::string intact_figure(std::vector<RunResults> const& runs) {
   std::vector<RunResults> bonded;
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(bonded), [](RunResults const& run) { return run.has_bonds(); });
   if (bonded.empty()) return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
-  Plot plot = plot_of(runs, "intact_initial_pct", 1, "intact bonds [% of the first]");
+  Plot plot = plot_of(runs, "intact_initial_pct", 1, "intact bonds [% of those at the start]");
   for (std::size_t i = runs.size(); i-- > 0;)
     if (!runs[i].has_bonds()) plot.curves.erase(plot.curves.begin() + static_cast<std::ptrdiff_t>(i));
   plot.title = "Share of intact bonds against axial strain";
@@ -68,8 +68,8 @@ std::string intact_figure(std::vector<RunResults> const& runs) {
   for (RunResults const& run : bonded)
     plot.description += fmt::format("{}: {:.3g} % at the end. ", run_label(run), run.history["intact_initial_pct"].back());
   return figure("Intact bonds", svg(plot) + legend(plot.curves),
-                "Bonds of hydrate between grains that still hold, as a share of those that were there when the hydrate formed. A "
-                "broken bond does not heal.");
+                "Bonds of hydrate between grains that still hold, as a share of those at the start of the shear. A broken bond "
+                "does not heal.");
 }
 
 /// What broke the bonds of a run: a curve for each mode.
@@ -101,10 +101,12 @@ std::string mode_figures(std::vector<RunResults> const& runs) {
     plot.curves = mode_curves(run.history);
     for (Curve const& curve : plot.curves) plot.description += curve.name + ". ";
     plot.x = strains.exact_axis(strain_axis);
-    plot.y = shares.axis("broken bonds [% of the first]");
-    figures += figure("What broke the bonds: " + run_label(run), svg(plot) + legend(plot.curves),
-                      "A bond breaks in tension, compression, shear, or rolling (bending by grains that roll over each other), "
-                      "whichever of its strengths it spends most of at the moment it fails.");
+    plot.y = shares.axis("broken bonds [% of all]");
+    figures += figure(
+        "What broke the bonds: " + run_label(run), svg(plot) + legend(plot.curves),
+        "A bond breaks in tension or compression when the normal force reaches its strength, else by shear force and bending "
+        "moment together; it then counts as broken in shear or in rolling, whichever had the larger part. Those that broke in "
+        "the consolidation count as well.");
   }
   return figures;
 }
