@@ -68,7 +68,7 @@ std::string intact_figure(std::vector<RunResults> const& runs) {
   for (RunResults const& run : bonded)
     plot.description += fmt::format("{}: {:.3g} % at the end. ", run_label(run), run.history["intact_initial_pct"].back());
   return figure("Intact bonds", svg(plot) + legend(plot.curves),
-                "Bonds of hydrate between grains that still hold, as a share of those at the start of the shear. A broken bond "
+                "Bonds of hydrate between grains that still hold, as a share of those that were installed. A broken bond "
                 "does not heal.");
 }
 
