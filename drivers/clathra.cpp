@@ -66,6 +66,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_export(program, chosen);
   add_report(program, chosen);
   add_verify(program, chosen);
+  add_bench(program, chosen);
   add_selftest(program, chosen);
   add_completion(program, chosen);
   add_manual(program, chosen);

@@ -18,6 +18,7 @@ void add_info(CLI::App& program, Verb& chosen);
 void add_events(CLI::App& program, Verb& chosen);
 void add_export(CLI::App& program, Verb& chosen);
 void add_report(CLI::App& program, Verb& chosen);
+void add_bench(CLI::App& program, Verb& chosen);
 void add_verify(CLI::App& program, Verb& chosen);
 void add_init(CLI::App& program, Verb& chosen);
 void add_schema(CLI::App& program, Verb& chosen);

@@ -202,5 +202,23 @@ TEST(CommandLine, PricesThePapersStrainRate) {
   EXPECT_NE(result.output.find("days"), std::string::npos) << result.output;
 }
 
+TEST(BenchCommand, PrintsACardOfThisMachine) {
+  for (char const* const what : {"rolling", "bonded"}) {
+    CommandResult const result =
+        run_clathra(std::string("bench --case ") + what + " --discs 2000 --threads 1 --seconds 0.05 --json 2>/dev/null");
+    ASSERT_EQ(result.code, 0) << result.output;
+    auto const card = nlohmann::json::parse(result.output);
+    double const discs = card["particle_steps_per_s"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
+    EXPECT_GT(discs, 1e5);
+    EXPECT_GT(contacts / discs, 1.2);  // pairs a disc: 1.5 to 2.2 here
+    EXPECT_LT(contacts / discs, 3);
+    EXPECT_GT(card["bytes_per_disc"], card["bytes_moved_per_disc_and_step"].get<double>() / 2);
+    EXPECT_GT(card["bandwidth_share"], 0);
+    EXPECT_LT(card["rebuild_share"], 1);
+    EXPECT_EQ(card["threads"], 1);
+  }
+  EXPECT_EQ(run_clathra("bench --case soup").code, 64);
+}
+
 }  // namespace
 }  // namespace clathra

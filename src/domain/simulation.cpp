@@ -36,6 +36,7 @@ void Simulation::step() {
 
 void Simulation::rebuild() {
   throw_if_unstable();  // discs that are nowhere have no cell
+  Kokkos::Timer const clock;
   Real const bonded_gap = widest_bonded_gap(particles_, rows_);
   Relocation const moved = sort_in_space(particles_, rows_, skin_);
   if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
@@ -48,6 +49,8 @@ void Simulation::rebuild() {
   reference_cell_ = cell_;
   rebuild_pending_ = false;
   ++rebuilds_;
+  Kokkos::fence();
+  rebuild_seconds_ += clock.seconds();
 }
 
 /// The homogeneous motion since the last neighbour search: that of the walls, or of the periodic cell.

@@ -75,6 +75,7 @@ class Simulation {
   // Reading.
   std::int64_t steps() const { return step_; }
   std::int64_t rebuilds() const { return rebuilds_; }
+  double rebuild_seconds() const { return rebuild_seconds_; }  ///< wall time of all neighbour searches
   Real time() const { return time_; }
   int discs() const { return particles_.owned; }
   Walls const& walls() const { return walls_; }
@@ -126,6 +127,7 @@ class Simulation {
   Real skin_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
   Real density_ = 0, d50_ = 0, critical_thickness_ = 0;
   std::int64_t step_ = 0, rebuilds_ = 0;
+  double rebuild_seconds_ = 0;
   bool rebuild_pending_ = true;
 };
 

@@ -21,7 +21,8 @@ class Hdf5File {
   ~Hdf5File();
 
   /// A column of T = double, float, int32, uint32 or uint8, in chunks of 65,536 rows of one column (columns apart
-  /// compress better), shuffled, compressed (gzip 4) and with a checksum (fletcher32). @param values  rows x width, row by row;  @param unit  goes into the attribute `unit` of the column
+  /// compress better), shuffled, compressed (gzip 4) and with a checksum (fletcher32). @param values  rows x width, row by row;
+  /// @param unit  goes into the attribute `unit` of the column
   template <class T>
   void write(std::string const& name, std::vector<T> const& values, std::string const& unit, std::size_t width = 1);
   void write_text(std::string const& name, std::string const& text);

@@ -1,0 +1,123 @@
+#include "domain/throughput.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/bonding.hpp"
+#include "domain/experiment.hpp"
+#include "domain/hydrate.hpp"
+#include "domain/quasi_static.hpp"
+#include "domain/sample_design.hpp"
+#include "domain/settling.hpp"
+#include "domain/tiled.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr std::int64_t cell_discs = 2000;
+
+/// The specimen under 1 MPa, with its scene's grains.
+Specimen make_specimen(Scene const& scene, std::int64_t discs) {
+  PackedSpecimen const cell = pack_periodic_cell(scene, design_sample(scene), cell_discs, {});
+  double const area = static_cast<double>(discs) / cell_discs * cell.specimen.width() * cell.specimen.height();
+  double const width = std::sqrt(area / 2);
+  return replicate(cell.specimen, width, 2 * width);
+}
+
+/// Bytes that one step touches at the least, a disc: the contact pass reads discs and rows and writes forces and history, the
+/// drift reads and writes the discs.
+double moved_bytes(Simulation const& simulation) {
+  double const entries = static_cast<double>(simulation.contact_entries()) / simulation.discs();
+  ContactFeatures const features = simulation.rows().features;
+  double const histories = 1 + (features.rolling || features.bonds ? 1 : 0) + (features.separate_bond ? 2 : 0);
+  double const row = sizeof(int) + sizeof(Real) * (2 * histories + (features.bonds ? 1 : 0));
+  constexpr double contact_pass = 6 + 3, drift = 13 + 6;  // fields of a disc
+  return entries * row + sizeof(Real) * (contact_pass + drift);
+}
+
+constexpr int block = 64 * lane_count;  // numbers that one call reads
+
+/// Reads a block with several sums at once, so that the memory and not the adder sets the pace.
+struct ReadBlock {
+  Field<Real> values;
+  KOKKOS_FUNCTION void operator()(int i, Real& largest_sum) const {
+    Lanes a(0), b(0), c(0), d(0);
+    for (int k = 0; k < block; k += 4 * lane_count) {
+      Real const* const from = &values(static_cast<std::size_t>(i) * block + static_cast<std::size_t>(k));
+      a += load(from);
+      b += load(from + lane_count);
+      c += load(from + 2 * lane_count);
+      d += load(from + 3 * lane_count);
+    }
+    largest_sum = lane_max(largest_sum, largest((a + b) + (c + d)));
+  }
+};
+
+}  // namespace
+
+Simulation throughput_simulation(ThroughputSetup const& setup) {
+  bool const bonded = setup.what == ThroughputCase::bonded;
+  Scene scene;
+  scene.sample.particles = cell_discs;
+  scene.sample.void_ratio = 0.23;
+  scene.bond.stress = 1e6;
+  scene.hydrate.saturation = bonded ? 0.55 : 0;
+  Specimen specimen = make_specimen(scene, setup.discs);
+  SimulationLaws laws;
+  laws.contact.grain = {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor, 0};
+  laws.motion.damping = scene.run.damping;
+  if (bonded) {
+    StageRecord record;
+    specimen = bond_specimen(scene, specimen, record);
+    laws.contact.bond_kind = BondKind::parallel;
+    laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
+  }
+  Simulation simulation(specimen, laws, setup.skin * specimen.d50);
+  // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a
+  // test.
+  prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.dt_safety);
+  for (int n = 0; n < 3000; ++n) simulation.step();
+  prepare_servo(simulation, scene.bond.stress, 1e-4, specimen.d50, scene.run.dt_safety);
+  RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
+  simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
+  simulation.add_uniform_strain_rate(-0.25 * rate.strain_rate, rate.strain_rate);
+  return simulation;
+}
+
+Throughput measure_throughput(Simulation& simulation, double seconds) {
+  Throughput result;
+  std::int64_t const first = simulation.steps(), first_rebuilds = simulation.rebuilds();
+  double const rebuilding = simulation.rebuild_seconds();
+  Kokkos::Timer const clock;
+  while (clock.seconds() < seconds) {
+    for (int n = 0; n < 20; ++n) simulation.step();
+  }
+  Kokkos::fence();
+  result.seconds = clock.seconds();
+  result.steps = simulation.steps() - first;
+  result.rebuilds = simulation.rebuilds() - first_rebuilds;
+  double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
+  result.particle_steps_per_s = steps_per_s * simulation.discs();
+  result.contact_steps_per_s = steps_per_s * simulation.measures().mechanical;
+  result.bytes_per_disc = static_cast<double>(simulation.bytes()) / simulation.discs();
+  result.moved_per_step = moved_bytes(simulation);
+  result.rebuild_share = (simulation.rebuild_seconds() - rebuilding) / result.seconds;
+  return result;
+}
+
+double read_bandwidth() {
+  constexpr int blocks = (1 << 27) / block;  // 1 GiB
+  Field<Real> const values("bandwidth", static_cast<std::size_t>(blocks) * block);
+  double best = 0;
+  for (int n = 0; n < 3; ++n) {
+    Kokkos::Timer const clock;
+    Real sum = 0;
+    Kokkos::parallel_reduce("read_bandwidth", Kokkos::RangePolicy<ExecutionSpace>(0, blocks), ReadBlock{values},
+                            Kokkos::Max<Real>(sum));
+    best = std::max(best, static_cast<double>(blocks) * block * sizeof(Real) / clock.seconds());
+  }
+  return best;
+}
+
+}  // namespace clathra
