@@ -29,7 +29,8 @@ BondLaw law_with(double h_max) {
 
 /// A bond made at an overlap, unloaded.
 BondForce<Real> resting_bond(BondLaw const& law, double radius, double overlap) {
-  return bond_contact(law, ContactMotion<Real>{overlap, 0, 0, 0, radius}, overlap, 0.0, 0.0);
+  return bond_contact(law, ContactMotion<Real>{overlap, 0, 0, 0, radius}, overlap, law.width_formed_at(radius, overlap), 0.0,
+                      0.0);
 }
 
 TEST(Trap01, LogarithmBeyondCompressionIsNeverTaken) {
@@ -269,7 +270,7 @@ TEST(Trap24, CommonRadiusIsGuardedAtZeroAndTwiceTheRadiusAtAWall) {
 TEST(Trap25, AStrengthThatFallsBelowThePresentTensionIsANormalTensileBreak) {
   BondLaw law = law_with(h_max_of(55));
   ContactMotion<Real> const stretched{-4.5e-6, 0, 0, 0, r};
-  BondForce<Real> const bond = bond_contact(law, stretched, 0.0, 0.0, 0.0);
+  BondForce<Real> const bond = bond_contact(law, stretched, 0.0, law.width_formed_at(r, 0.0), 0.0, 0.0);
   auto const mode = [&] {
     return bond_strength(law.strength, bond.width, bond.gap).test(bond.force.normal, bond.force.shear, bond.force.moment);
   };

@@ -23,7 +23,8 @@ struct Bond {
 };
 
 BondForce<Real> force_of(BondLaw const& law, Bond const& bond) {
-  return bond_contact(law, bond.motion, bond.equilibrium, bond.shear, bond.moment);
+  double const width = law.width_formed_at(bond.motion.common_radius, bond.equilibrium);
+  return bond_contact(law, bond.motion, bond.equilibrium, width, bond.shear, bond.moment);
 }
 
 BreakMode test_of(BondLaw const& law, BondForce<Real> const& bond) {
@@ -241,7 +242,8 @@ TEST(BondLaw, LanesGiveTheBitsOfTheScalarAlsoBesideUnbondedLanes) {
         row([](Bond const& b) { return b.motion.overlap; }), Lanes(0), row([](Bond const& b) { return b.motion.slip; }),
         row([](Bond const& b) { return b.motion.turn; }), row([](Bond const& b) { return b.motion.common_radius; })};
     Lanes const equilibrium = row([](Bond const& b) { return b.equilibrium; });
-    BondForce<Lanes> const trial = bond_contact(law, motion, equilibrium, row([](Bond const& b) { return b.shear; }),
+    Lanes const width = law.width_formed_at(motion.common_radius, equilibrium);
+    BondForce<Lanes> const trial = bond_contact(law, motion, equilibrium, width, row([](Bond const& b) { return b.shear; }),
                                                 row([](Bond const& b) { return b.moment; }));
     auto const intact = is_surely_intact(law, trial);
     for (int l = 0; l < lane_count; ++l) {

@@ -41,6 +41,7 @@ void Simulation::rebuild() {
   Relocation const moved = sort_in_space(particles_, rows_, skin_);
   if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
   find_neighbours(particles_, skin_, moved, rows_, spare_, faults_, bonded_gap);
+  set_bond_widths(particles_, rows_, laws_.contact.bond);
   if (!periodic())
     wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_contacts_, moved.new_index);
   if (laws_.contact.ledger) permute_losses(moved.old_index);
@@ -102,9 +103,11 @@ void Simulation::set_laws(SimulationLaws const& laws) {
   bool const ledger = laws_.contact.ledger, same_history = laws_.features() == laws.features();
   laws_ = laws;
   laws_.contact.ledger = ledger;
-  if (same_history) return;
-  change_features(rows_, laws_.features());
-  spare_ = ContactRows();
+  if (!same_history) {
+    change_features(rows_, laws_.features());
+    spare_ = ContactRows();
+  }
+  set_bond_widths(particles_, rows_, laws_.contact.bond);
 }
 
 void Simulation::set_ledger(bool on) {

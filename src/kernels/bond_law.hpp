@@ -40,6 +40,11 @@ struct BondLaw {
   KOKKOS_FORCEINLINE_FUNCTION L width(L const& common_radius, L const& gap) const {
     return bond_width(common_radius, critical_thickness - gap);
   }
+  /// B [m] of a bond that formed at overlap u_0 [m]: it never changes, so the rows keep it.
+  template <class L>
+  KOKKOS_FORCEINLINE_FUNCTION L width_formed_at(L const& common_radius, L const& equilibrium) const {
+    return width(common_radius, gap(equilibrium));
+  }
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION BondStiffness<L> stiffness(L const& width, L const& gap) const {
     return bond_stiffness(particle_stiffness, modulus, width, effective_thickness(gap, L(thickness_partner)));
@@ -56,13 +61,13 @@ struct BondForce {
 
 /// F_n = k_bn (u_n - u_0), F_s += k_bs Delta u_s, M += k_bm Delta theta (Eq. 7). With `memory` F_n keeps k_n u_0 of a loaded
 /// contact.
-/// @param equilibrium  u_0 [m];  @param shear,moment  bond F_s [N/m] and M [N m/m] of the last step
+/// @param equilibrium  u_0 [m];  @param width  B [m];  @param shear,moment  bond F_s [N/m] and M [N m/m] of the last step
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLaw const& law, ContactMotion<L> const& motion, L const& equilibrium,
-                                                      L const& shear, L const& moment) {
+                                                      L const& width, L const& shear, L const& moment) {
   BondForce<L> bond;
   bond.gap = law.gap(equilibrium);
-  bond.width = law.width(motion.common_radius, bond.gap);
+  bond.width = width;
   bond.stiffness = law.stiffness(bond.width, bond.gap);
   bond.force.normal =
       bond.stiffness.normal * (motion.overlap - equilibrium) + law.preload_stiffness * lane_max(equilibrium, L(0));

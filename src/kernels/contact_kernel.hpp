@@ -29,7 +29,7 @@ struct ContactKernel {
 
   /// History of one block of entries.
   struct History {
-    Lanes shear, moment, equilibrium, bond_shear, bond_moment;
+    Lanes shear, moment, equilibrium, width, bond_shear, bond_moment;
   };
 
   KOKKOS_FUNCTION void operator()(int slice) const {
@@ -110,9 +110,12 @@ struct ContactKernel {
   };
 
   KOKKOS_FORCEINLINE_FUNCTION History read(std::size_t e) const {
-    History h{load(&rows.shear(e)), 0, no_bond, 0, 0};
+    History h{load(&rows.shear(e)), 0, no_bond, 0, 0, 0};
     if constexpr (moments) h.moment = load(&rows.moment(e));
-    if constexpr (bonded_code) h.equilibrium = load(&rows.equilibrium(e));
+    if constexpr (bonded_code) {
+      h.equilibrium = load(&rows.equilibrium(e));
+      h.width = load(&rows.width(e));
+    }
     if constexpr (Bond == BondKind::parallel) {
       h.bond_shear = load(&rows.bond_shear(e));
       h.bond_moment = load(&rows.bond_moment(e));
@@ -161,8 +164,8 @@ struct ContactKernel {
                                                             Site const& site, History& h, Own& own) const {
     constexpr bool parallel = Bond == BondKind::parallel;
     auto const bonded = is_bonded(h.equilibrium);
-    BondForce<Lanes> const trial =
-        bond_contact(bond, motion, h.equilibrium, parallel ? h.bond_shear : h.shear, parallel ? h.bond_moment : h.moment);
+    BondForce<Lanes> const trial = bond_contact(bond, motion, h.equilibrium, h.width, parallel ? h.bond_shear : h.shear,
+                                                parallel ? h.bond_moment : h.moment);
     auto const doubt = bonded && !is_surely_intact(bond, trial);
     if (any(doubt) && break_bonds(trial, doubt, site, h)) store(&rows.equilibrium(site.entry), h.equilibrium);
     auto const intact = is_bonded(h.equilibrium);

@@ -23,6 +23,7 @@ struct ContactRows {
   Field<Real> shear;        ///< [entries] F_s [N/m]
   Field<Real> moment;       ///< [entries] M on the row's own disc [N m/m]
   Field<Real> equilibrium;  ///< [entries] u_0 of the bond [m], no_bond without one
+  Field<Real> width;        ///< [entries] B of the bond [m], 0 without one: derived by set_bond_widths(), not part of the state
   Field<Real> bond_shear;   ///< [entries] F_s of a separate bond [N/m]
   Field<Real> bond_moment;  ///< [entries] M of a separate bond [N m/m]
 

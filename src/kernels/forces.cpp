@@ -31,7 +31,35 @@ AnySwitch on(bool yes) {
   return std::false_type{};
 }
 
+struct SetBondWidths {
+  ParticleSoA p;
+  ContactRows rows;
+  BondLaw law;
+  KOKKOS_FUNCTION void operator()(int slot) const {
+    int const slice = slot / lane_count, used = slot < p.owned ? rows.length(slot) : 0;
+    for (int k = 0; k < rows.slice_start(slice + 1) - rows.slice_start(slice); ++k) {
+      std::size_t const e = rows.entry(slot, k);
+      bool const bonded = k < used && is_bonded(rows.equilibrium(e));
+      rows.width(e) =
+          bonded ? law.width_formed_at(common_radius(p.radius(slot), p.radius(rows.neighbour(e))), rows.equilibrium(e)) : 0;
+    }
+  }
+};
+
 }  // namespace
+
+void set_bond_widths(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law) {
+  if (!rows.features.bonds) {
+    rows.width = Field<Real>();
+    return;
+  }
+  if (rows.width.extent(0) != rows.equilibrium.extent(0)) {
+    rows.width = Field<Real>();
+    rows.width = uninitialised<Real>("width", rows.equilibrium.extent(0));
+  }
+  int const slots = slice_count(particles.owned) * lane_count;
+  Kokkos::parallel_for("set_bond_widths", Kokkos::RangePolicy<ExecutionSpace>(0, slots), SetBondWidths{particles, rows, law});
+}
 
 void compute_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
                     BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults) {

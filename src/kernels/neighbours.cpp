@@ -237,6 +237,7 @@ void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& 
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
                        FillRows{search, spare});
   std::swap(rows, spare);
+  std::swap(rows.width, spare.width);  // set anew by set_bond_widths(): one is enough
 }
 
 }  // namespace clathra

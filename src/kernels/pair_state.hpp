@@ -55,8 +55,8 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   if (s.bonded) {
     ContactMotion<Real> const still{s.overlap, 0, 0, 0, common};
     BondForce<Real> const bond =
-        bond_contact(laws.bond, still, Real(rows.equilibrium(e)), Real(separate ? rows.bond_shear(e) : rows.shear(e)),
-                     separate ? Real(rows.bond_moment(e)) : moment);
+        bond_contact(laws.bond, still, Real(rows.equilibrium(e)), Real(rows.width(e)),
+                     Real(separate ? rows.bond_shear(e) : rows.shear(e)), separate ? Real(rows.bond_moment(e)) : moment);
     s.width = bond.width;
     s.gap = bond.gap;
     s.bond_normal = bond.force.normal;
