@@ -4,10 +4,12 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <new>
 
 #include "clathra_version.hpp"
 #include "domain/experiment.hpp"
+#include "io/schema.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
@@ -49,6 +51,17 @@ ExitCode run_guarded(Verb const& verb) {
   }
 }
 
+/// For a first argument that is no verb: "there is no verb 'cehck'; did you mean 'check'?", else nothing.
+std::string unknown_verb(CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> names;
+  for (CLI::App const* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
+  std::vector<std::string_view> const views(names.begin(), names.end());
+  std::string const name = std::string(argv[1]).substr(0, 60);
+  return fmt::format("there is no verb '{}'{}; `clathra --help` lists them", name, name_suggestion(name, views));
+}
+
 ExitCode choose_and_run(int argc, char** argv) {
   CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
   program.set_version_flag("--version", fmt::format("clathra {} ({})", CLATHRA_VERSION, CLATHRA_GIT_HASH));
@@ -73,6 +86,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
+    if (std::string const text = unknown_verb(program, argc, argv); !text.empty()) return say(ExitCode::usage, text);
     return program.exit(error) == 0 ? ExitCode::done : ExitCode::usage;  // --help and --version end here too
   }
   return run_guarded(chosen);

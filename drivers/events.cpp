@@ -41,8 +41,11 @@ double strain_at(HistoryTable const& history, double step) {
   return strains[after - 1] + share * (strains[after] - strains[after - 1]);
 }
 
-std::vector<BreakRow> chosen_events(EventsOptions const& options) {
-  HistoryTable const history(options.folder / "history.csv");
+std::vector<BreakRow> chosen_events(EventsOptions const& options, HistoryTable const& history) {
+  std::error_code error;
+  if (!std::filesystem::exists(options.folder / "events.csv", error))
+    throw FileProblem(ExitCode::file_missing, options.folder,
+                      "has no events.csv: the sand is clean, or output.events is false in its scene");
   std::vector<BreakRow> rows;
   for (BreakEvent const& event : read_events(options.folder / "events.csv"))
     rows.push_back({event, strain_at(history, static_cast<double>(event.step))});
@@ -61,13 +64,13 @@ std::string csv_text(std::vector<BreakRow> const& rows) {
   return text;
 }
 
-/// How many bonds broke in each of equal parts of the strain that the events span.
-std::string count_text(std::vector<BreakRow> const& rows, int parts) {
+/// How many bonds broke in each of equal parts of a range of axial strain.
+std::string count_text(std::vector<BreakRow> const& rows, double first, double last, int parts) {
   if (rows.empty()) return "no bond broke there\n";
   std::string text = fmt::format("{:>16}", "eps1 [%]");
   for (BreakMode const mode : modes) text += fmt::format(" {:>12}", break_mode_name(static_cast<int>(mode)));
   text += fmt::format(" {:>12}\n", "all");
-  double const first = rows.front().eps1, width = std::max(rows.back().eps1 - first, 1e-12) / parts;
+  double const width = std::max(last - first, 1e-12) / parts;
   for (int part = 0; part < parts; ++part) {
     double const begin = first + part * width, end = part == parts - 1 ? HUGE_VAL : begin + width;
     std::array<int, break_mode_count> counts{};
@@ -85,8 +88,10 @@ std::string count_text(std::vector<BreakRow> const& rows, int parts) {
 }
 
 ExitCode show_events(EventsOptions const& options) {
-  std::vector<BreakRow> const rows = chosen_events(options);
-  return print_result(options.csv ? csv_text(rows) : count_text(rows, options.parts));
+  HistoryTable const history(options.folder / "history.csv");
+  std::vector<BreakRow> const rows = chosen_events(options, history);
+  double const last = std::min(options.to / 100, history["eps1"].back());
+  return print_result(options.csv ? csv_text(rows) : count_text(rows, std::max(options.from / 100, 0.0), last, options.parts));
 }
 
 }  // namespace

@@ -18,6 +18,12 @@ struct ExportOptions {
   ExportFormat format = ExportFormat::vtu;
 };
 
+/// Of a snapshot: where its snap/ lies, or its own folder if it was moved out of there.
+std::filesystem::path folder_of_run(std::filesystem::path const& snapshot) {
+  std::filesystem::path const folder = std::filesystem::absolute(snapshot).parent_path();
+  return std::filesystem::proximate(folder.filename() == "snap" ? folder.parent_path() : folder);
+}
+
 ExitCode export_snapshots(ExportOptions const& options) {
   std::error_code error;
   bool const is_run = std::filesystem::is_directory(options.source, error);
@@ -27,10 +33,10 @@ ExitCode export_snapshots(ExportOptions const& options) {
     throw FileProblem(ExitCode::file_missing, options.source,
                       "has no snapshots (snap/*.h5); output.snapshots says how many a run writes");
   std::filesystem::path folder = options.folder;
-  if (folder.empty()) folder = is_run ? options.source / "export" : options.source.parent_path();
+  if (folder.empty()) folder = (is_run ? options.source : folder_of_run(options.source)) / "export";
   std::size_t count = 0;
   for (std::filesystem::path const& file : files) count += export_snapshot(read_snapshot(file), options.format, folder).size();
-  return print_result(fmt::format("{} files written to {}\n", count, folder.string()));
+  return print_result(fmt::format("{} file{} written to {}\n", count, count == 1 ? "" : "s", folder.string()));
 }
 
 }  // namespace

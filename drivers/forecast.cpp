@@ -33,6 +33,11 @@ std::string bytes_text(double bytes) {
 
 std::string row(std::string const& name, std::string const& value) { return fmt::format("  {:<18} {}\n", name, value); }
 
+std::string bonds_text(HydrateScene const& hydrate) {
+  return fmt::format("saturation {:.4g} %, {:.4g} degC, pore pressure {:.4g} MPa", hydrate.saturation * 100, hydrate.temperature,
+                     hydrate.pore_pressure * 1e-6);
+}
+
 }  // namespace
 
 Forecast forecast(Scene const& scene, double disc_steps_per_second) {
@@ -65,17 +70,18 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast) {
   text += row("box", fmt::format("{:.4g} mm x {:.4g} mm, void ratio {:.4g}", n.at("width_m") * 1e3, n.at("height_m") * 1e3,
                                  n.at("void_ratio")));
   text += row("d50", fmt::format("{:.4g} mm", n.at("d50_m") * 1e3));
-  text += row("bonds", has_bonds(scene) ? fmt::format("saturation {:.4g} %", scene.hydrate.saturation * 100) : "none");
+  text += row("bonds", has_bonds(scene) ? bonds_text(scene.hydrate) : "none");
   text += row("confining stress", fmt::format("{:.4g} MPa", scene.test.confining_stress * 1e-6));
   text += row("time step", fmt::format("{:.3g} s ({:g} of the stable limit)", n.at("time_step_s"), scene.run.dt_safety));
-  text += row("strain rate", fmt::format("{:.4g} 1/s to {:.4g} %", n.at("strain_rate_per_s"), scene.test.axial_strain * 100));
+  text += row("strain rate",
+              fmt::format("{:.4g} 1/s, up to {:.4g} % axial strain", n.at("strain_rate_per_s"), scene.test.axial_strain * 100));
   text += row("inertial number I", fmt::format("{:.3g} (quasi-static below {:g})", n.at("inertial_number"), inertial_warning));
   text += row("wave number W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("wave_number"), wave_limit));
   text += row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
   text += row("time", fmt::format("{} at {} disc-steps/s, generation and consolidation not counted", hours(n.at("disc_steps")),
                                   short_count(forecast.disc_steps_per_second)));
   double const literal = scene.test.axial_strain / (paper_rate * n.at("time_step_s"));
-  text += row("at 5 %/min", fmt::format("{} steps, {}", short_count(literal), hours(literal * n.at("particles"))));
+  text += row("at a lab's 5 %/min", fmt::format("{} steps, {}", short_count(literal), hours(literal * n.at("particles"))));
   text += row("memory", bytes_text(n.at("memory_bytes")));
   text += row("disk", bytes_text(n.at("disk_bytes")));
   return text;

@@ -53,6 +53,29 @@ std::string snapshot_text(Snapshot const& s) {
   return text;
 }
 
+std::string number_text(nlohmann::json const& value) {
+  return value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
+}
+
+/// The numbers of a stage, one a line under its name.
+std::string stage_text(std::string const& stage, nlohmann::json const& numbers) {
+  std::string text = stage + "\n";
+  for (auto const& [name, value] : numbers.items()) text += fmt::format("  {:<30} {}\n", name, number_text(value));
+  return text;
+}
+
+/// What a specimen file says of its origin.
+std::string provenance_text(std::string const& provenance) {
+  auto const json = nlohmann::json::parse(provenance, nullptr, false);
+  if (!json.is_object()) return row("made by", provenance);
+  std::string text;
+  for (auto const& [name, value] : json.items())
+    if (!value.is_object()) text += row(name.c_str(), value.is_string() ? value.get<std::string>() : value.dump());
+  for (auto const& [name, value] : json.items())
+    if (value.is_object()) text += stage_text(name, value);
+  return text;
+}
+
 std::string specimen_text(Specimen const& specimen) {
   auto const bonds = std::count_if(specimen.contacts.begin(), specimen.contacts.end(),
                                    [](SpecimenContact const& c) { return is_bonded(c.equilibrium); });
@@ -69,25 +92,20 @@ std::string specimen_text(Specimen const& specimen) {
   text += row("contacts", fmt::format("{}", specimen.contacts.size()));
   text += row("bonds", fmt::format("{}", bonds));
   if (specimen.critical_thickness > 0) text += row("h_max", fmt::format("{:.4g} um", specimen.critical_thickness * 1e6));
-  if (!specimen.provenance.empty()) text += row("made by", specimen.provenance);
+  if (!specimen.provenance.empty()) text += provenance_text(specimen.provenance);
   return text;
-}
-
-std::string number_text(nlohmann::json const& value) {
-  return value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
 }
 
 std::string run_text(nlohmann::json const& record) {
   std::string text = fmt::format("exit               {} (code {})\n", record.at("exit").at("reason").get<std::string>(),
                                  record.at("exit").at("code").dump());
   auto const& program = record.at("program");
-  text += fmt::format("program            clathra {} ({}), {} threads, {}\n", program.at("version").get<std::string>(),
-                      program.at("git_hash").get<std::string>(), program.at("threads").dump(),
-                      program.at("backend").get<std::string>());
-  for (auto const& [stage, numbers] : record.at("stages").items()) {
-    text += stage + "\n";
-    for (auto const& [name, value] : numbers.items()) text += fmt::format("  {:<26} {}\n", name, number_text(value));
-  }
+  text += fmt::format("program            clathra {} ({}), {}, threads: {}\n", program.at("version").get<std::string>(),
+                      program.at("git_hash").get<std::string>(), program.at("backend").get<std::string>(),
+                      program.at("threads").dump());
+  auto const& stages = record.at("stages");
+  for (char const* const stage : {"generate", "prepare", "plan", "shear"})
+    if (stages.contains(stage)) text += stage_text(stage, stages.at(stage));
   for (auto const& [stage, seconds] : record.at("wall_seconds").items())
     text += fmt::format("{:<18} {} s\n", "time of " + stage, number_text(seconds));
   text += fmt::format("{:<18} {:.4g} M\n", "disc-steps/s", record.at("disc_steps_per_second").get<double>() * 1e-6);

@@ -54,7 +54,7 @@ ExitCode write_template(InitOptions const& options) {
   if (std::filesystem::exists(path, error))
     throw FileProblem(ExitCode::cannot_create, path, "exists already and is left as it is; -o names another file");
   LoadedScene const loaded = parse_scene(std::string(found->text), options.example, path.parent_path());
-  replace_text_file(path, commented_scene(loaded.scene, loaded.stated, opening_comment(found->text)));
+  replace_text_file(path, commented_scene(loaded.scene, loaded.stated, opening_comment(found->text), found->text));
   return print_result(fmt::format("{} is written; check it with: clathra check {}\n", path.string(), path.string()));
 }
 
@@ -63,15 +63,15 @@ ExitCode write_template(InitOptions const& options) {
 void add_init(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<InitOptions>();
   CLI::App* const verb = program.add_subcommand("init", "Write a commented scene file to start from");
-  CLI::Option* const list = verb->add_flag("--list", options->list, "list the examples");
-  verb->add_option("example", options->example, "the example to start from, as in `clathra init --list`");
+  CLI::Option* const list = verb->add_flag("--list", options->list, "list the examples, as without an argument");
+  verb->add_option("example", options->example, "the example to start from; without one, they are listed");
   verb->add_option("-o,--output", options->output, "file to write (default: the example's name in the current folder)")
       ->type_name("FILE")
       ->excludes(list);
   verb->footer("Example: clathra init quick -o my.toml");
   verb->callback([options, &chosen] {
-    if (!options->list && options->example.empty()) throw CLI::RequiredError("example");
-    chosen = [options] { return options->list ? print_result(listing()) : write_template(*options); };
+    if (options->example.empty() && !options->output.empty()) throw CLI::RequiredError("example");
+    chosen = [options] { return options->example.empty() ? print_result(listing()) : write_template(*options); };
   });
 }
 

@@ -13,7 +13,8 @@ double Speedometer::seconds() const { return std::chrono::duration<double>(std::
 
 std::string Speedometer::text(double fraction, std::int64_t disc_steps) const {
   double const passed = seconds();
-  double const left = fraction > 0 ? passed * std::max(0.0, 1 - fraction) / fraction : -1;
+  if (disc_steps <= 0 || fraction <= from_) return "...";
+  double const left = passed * std::max(0.0, 1 - fraction) / (fraction - from_);
   return fmt::format("{} disc-steps/s | ETA {}", short_count(static_cast<double>(disc_steps) / passed), duration_text(left));
 }
 
@@ -25,7 +26,7 @@ ProgressCallback show_stage(ProgressLine& line) {
   };
   auto const stage = std::make_shared<Stage>();
   return [&line, stage](Progress const& progress) {
-    if (progress.stage != stage->name) *stage = {progress.stage, Speedometer{}, progress.disc_steps};
+    if (progress.stage != stage->name) *stage = {progress.stage, Speedometer{progress.fraction}, progress.disc_steps};
     std::string const speed = stage->speed.text(progress.fraction, progress.disc_steps - stage->disc_steps);
     line.show(progress.stage, progress.fraction, progress.detail.empty() ? speed : progress.detail + " | " + speed);
     return !interrupted();

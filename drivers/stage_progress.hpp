@@ -11,11 +11,14 @@ ProgressCallback show_stage(ProgressLine& line);
 /// Disc-steps per second and the time left, counted from its construction.
 class Speedometer {
  public:
-  /// "31 M disc-steps/s | ETA 00:41"
+  /// @param from  the fraction at which it begins
+  explicit Speedometer(double from = 0) : from_(from) {}
+  /// "31 M disc-steps/s | ETA 00:41", or "..." while there is too little to tell from.
   std::string text(double fraction, std::int64_t disc_steps) const;
   double seconds() const;
 
  private:
+  double from_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -57,6 +57,8 @@ TEST_F(ProgressOutput, IsALineEveryFivePercentWhereItIsNoTerminal) {
     last = percent;
   }
   EXPECT_EQ(last, 100) << text;
+  EXPECT_EQ(text.find(" 0 disc-steps/s"), std::string::npos) << "nothing is claimed before there is something to tell from\n"
+                                                             << text;
   EXPECT_LE(lines, 21);
   EXPECT_NE(text.find("1 warning:\n  - kn / sigma_3"), std::string::npos) << text;
 }

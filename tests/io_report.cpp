@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "command.hpp"
+#include "io/report/plot.hpp"
 #include "io/report/report.hpp"
 #include "io/report/run_results.hpp"
 #include "io/report/strength.hpp"
@@ -79,6 +80,14 @@ TEST_F(Report, DrawsTheHistoryWhereItsAxesSay) {
   }
   auto const volume = curves_of(content_of(folder / "report.html"), "Volumetric strain");
   EXPECT_NEAR(volume[0].back().second, -1.5, 0.01) << "compression is positive";
+}
+
+TEST(ReportPlot, AnAxisHasNoEmptyStripBelowACurveThatStartsAHairBelowZero) {
+  Range q;
+  q.include({-0.001, 6.4});
+  EXPECT_EQ(q.axis("q").from, 0);
+  q.include(-0.5);
+  EXPECT_LT(q.axis("q").from, -0.4);
 }
 
 TEST_F(Report, ThinsALongCurveButKeepsItsPeak) {

@@ -213,11 +213,18 @@ TEST_F(RunCommand, SnapshotsFollowTheStrainAndVerifyNoticesAChangedFile) {
   std::string const events = content(folder / "out" / "events.csv");
   EXPECT_EQ(std::count(listed.output.begin(), listed.output.end(), '\n'), std::count(events.begin(), events.end(), '\n'));
   EXPECT_EQ(run_clathra("events " + out + " --mode shear --parts 3").code, 0);
+  fs::create_directories(folder / "one");
+  fs::copy_file(folder / "out" / "history.csv", folder / "one" / "history.csv");
+  std::ofstream(folder / "one" / "events.csv") << events << "7,1,2,rolling,0,0\n";
+  CommandResult const counted = run_clathra("events " + (folder / "one").string() + " --parts 2");
+  EXPECT_NE(counted.output.find("\n        0 - 0.25 "), std::string::npos) << counted.output;
   CommandResult const first = run_clathra("info " + out + "/snap/000000000000.h5");
   EXPECT_NE(first.output.find("bonded "), std::string::npos) << first.output;
   CommandResult const exported = run_clathra("export " + out + " --to csv");
   EXPECT_EQ(exported.code, 0) << exported.output;
   EXPECT_TRUE(fs::exists(folder / "out" / "export" / "discs_000000000000.csv"));
+  EXPECT_EQ(run_clathra("export " + out + "/snap/000000000000.h5 --to lammpsdump").code, 0);
+  EXPECT_TRUE(fs::exists(folder / "out" / "export" / "discs_000000000000.lammpstrj"));
   std::ofstream(folder / "out" / "history.csv", std::ios::app) << "1\n";
   fs::remove(folder / "out" / "final.h5");
   CommandResult const changed = run_clathra("verify " + out);
@@ -227,6 +234,10 @@ TEST_F(RunCommand, SnapshotsFollowTheStrainAndVerifyNoticesAChangedFile) {
   ASSERT_EQ(run("bare", "--set output.snapshots=0").code, 0);
   EXPECT_FALSE(fs::exists(folder / "bare" / "snap"));
   EXPECT_EQ(run_clathra("export " + (folder / "bare").string() + " --to vtu").code, 66);
+  ASSERT_EQ(run("sand", "--set hydrate.saturation=0").code, 0);
+  CommandResult const none = run_clathra("events " + (folder / "sand").string());
+  EXPECT_EQ(none.code, 66);
+  EXPECT_NE(none.output.find("the sand is clean"), std::string::npos) << none.output;
 }
 
 }  // namespace

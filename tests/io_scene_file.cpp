@@ -103,6 +103,27 @@ TEST(SceneFile, AForgottenUnitIsFoundByTheRange) {
   expect_problem(sized + "[test]\naxial_strain = 15\n", "write 0.15 or \"15 %\"");
 }
 
+TEST(SceneFile, MissingQuotesAreNamedAndNothingIsSaidOfWhatCouldNotBeRead) {
+  EXPECT_EQ(problems_of("[sample]\nvoid_ratio = 24 %  # loose\n"),
+            "my.toml:2:17: error: a number with its unit goes in quotes: \"24 %\"");
+  EXPECT_EQ(problems_of(sized + "[test]\nconfining_stress = \"2 MPa\n"),
+            "my.toml:4:26: error: a quotation mark (\") is missing in this line");
+  expect_problem(sized + "layers = 5 6\n", "my.toml:3:12: error: cannot be understood: ");
+  EXPECT_EQ(problems_of("[sample]\nparticels = 2000\n"),
+            "my.toml:2:1: error: unknown key 'particels' in [sample]; did you mean 'particles'?");
+}
+
+TEST(SceneFile, ASpecimenFileTakesThePlaceOfTheSizesInTheScene) {
+  auto const file = std::filesystem::temp_directory_path() / ("clathra_place_" + std::to_string(::getpid()));
+  std::ofstream(file) << "any";
+  Texts const from_file = {"sample.generator=file", "sample.file=" + file.string()};
+  LoadedScene const loaded = load(sized + "void_ratio = 0.24\n[grading]\nd50 = \"0.17 mm\"\n", from_file);
+  EXPECT_TRUE(loaded.warnings.empty());
+  EXPECT_EQ(loaded.scene.sample.particles, 0);
+  EXPECT_EQ(load(sized, {from_file[0], from_file[1], "sample.particles=300"}).warnings.size(), 1u) << "said beside it";
+  std::filesystem::remove(file);
+}
+
 TEST(SceneFile, HostileValuesAreRefused) {
   expect_problem("[sample]\nparticles = 9000000000000000000\n", "'particles' must lie between");
   expect_problem("[sample]\nparticles = 9e18\n", "'particles' must lie between");

@@ -58,6 +58,12 @@ TEST(Units, AWrongDimensionIsNamedWithAnExample) {
   EXPECT_NE(refusal("5 K/s", Dimension::temperature).find("something else"), std::string::npos);
 }
 
+TEST(Units, AUnitOfTheWrongCaseIsRefusedWithTheRightOne) {
+  EXPECT_EQ(refusal("2 Mpa", Dimension::pressure), "has an unknown unit 'Mpa' in '2 Mpa'; did you mean 'MPa'?");
+  EXPECT_EQ(refusal("2 mn/m", Dimension::line_force), "has an unknown unit 'mn' in '2 mn/m'; did you mean 'mN' or 'MN'?");
+  EXPECT_EQ(refusal("2 x", Dimension::pressure), "has an unknown unit 'x' in '2 x'");
+}
+
 TEST(Units, NonsenseIsRefusedAndNeverGuessed) {
   for (char const* const text : {"",
                                  " ",
@@ -92,6 +98,7 @@ TEST(Units, WhatIsWrittenReadsBackToTheSameBits) {
                                       Dimension::temperature, Dimension::rate, Dimension::stiffness, Dimension::line_force})
       EXPECT_EQ(parse_quantity(format_quantity(value, dimension), dimension), value) << format_quantity(value, dimension);
   EXPECT_EQ(format_quantity(1e6, Dimension::pressure), "1 MPa");
+  EXPECT_EQ(format_quantity(1e13, Dimension::stiffness), "10 TPa");
   EXPECT_EQ(format_quantity(0.1694e-3, Dimension::length), "0.1694 mm");
   EXPECT_EQ(format_quantity(5, Dimension::temperature), "5 degC");
   EXPECT_EQ(format_quantity(0.26, Dimension::ratio), "0.26");

@@ -8,6 +8,15 @@ trap 'rm -rf "$folder"' EXIT
   --output "$folder/out" >"$folder/run.log" 2>&1 || { cat "$folder/run.log"; exit 1; }
 if [ "$viewer" = paraview ]; then
   "$interpreter" "$project/tests/paraview_reads.py" "$folder/out"
+  if command -v xvfb-run >/dev/null; then
+    draw=("$interpreter" "$project/share/paraview/specimen.py" "$folder/out" "$folder/picture.png" --colour stress_yy --strain 0.005)
+    if ! xvfb-run -a "${draw[@]}" >"$folder/draw.log" 2>&1; then
+      grep -q "bad X server connection" "$folder/draw.log" || { cat "$folder/draw.log"; exit 1; }
+      echo "the virtual display came too late: no picture"  # on a busy machine
+      exit 0
+    fi
+    [ "$(stat -c %s "$folder/picture.png")" -gt 20000 ] || { echo "picture.png is all but empty"; exit 1; }
+  fi
 else
   "$interpreter" "$project/share/python/curves.py" "$folder/out" -o "$folder/curves.pdf"
   "$interpreter" "$project/share/python/bonds.py" "$(find "$folder/out/snap" -name '*.h5' | sort | tail -n 1)" -o "$folder/bonds.pdf"

@@ -39,7 +39,7 @@ def main():
     for k, folder in enumerate(options.folders):
         history = read_history(folder)
         strain = [100 * e for e in history["eps1"]]
-        style = {"linestyle": styles[k % len(styles)], "linewidth": 1}
+        style = {"linestyle": styles[k % len(styles)], "color": f"C{k % 10}", "linewidth": 1}
         axes[0].plot(strain, [q / 1e6 for q in history["q_Pa"]], label=label_of(folder), **style)
         axes[1].plot(strain, [100 * e for e in history["eps_v"]], **style)
         if history["bonds_intact"][0] > 0:

@@ -1,5 +1,6 @@
 #include "domain/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -41,7 +42,7 @@ constexpr std::array units = {
     Unit{"bar", 5, 1, pascal},  Unit{"atm", 0, 101325, pascal},   Unit{"psi", 0, 6894.757293168361, pascal},
     Unit{"%", -2, 1, plain},    Unit{"1", 0, 1, plain},           Unit{"degC", 0, 1, kelvin},
     Unit{"C", 0, 1, kelvin},    Unit{"K", 0, 1, kelvin, -273.15}, Unit{"Hz", 0, 1, {0, 0, -1, 0}},
-    Unit{"in", -4, 254, metre},
+    Unit{"TPa", 12, 1, pascal}, Unit{"in", -4, 254, metre},
 };
 
 struct DimensionEntry {
@@ -57,7 +58,7 @@ constexpr std::array<DimensionEntry, 8> dimensions = {{
     {"a density", "kg/m^3", "\"0.9 g/cm^3\"", {-3, 1, 0, 0}, {"kg/m^3"}},
     {"a temperature", "degC", "\"5 degC\"", kelvin, {"degC"}},
     {"a rate", "1/s", "\"5 %/min\"", {0, 0, -1, 0}, {"1/s"}},
-    {"a stiffness", "N/m", "\"300 MPa\"", pascal, {"GPa", "MPa", "kPa", "Pa"}},
+    {"a stiffness", "N/m", "\"300 MPa\"", pascal, {"GPa", "MPa", "kPa", "Pa", "TPa"}},
     {"a force per metre", "N/m", "\"200 N/m\"", {0, 1, -2, 0}, {"MN/m", "kN/m", "N/m"}},
 }};
 
@@ -110,7 +111,8 @@ double shifted_number(std::string_view text, int decimals) {
     if (std::from_chars(part.data(), part.data() + part.size(), exponent).ec != std::errc{})
       throw std::invalid_argument("is out of range: " + quoted(text));
   }
-  digits += "e" + std::to_string(exponent + decimals);
+  digits += 'e';
+  digits += std::to_string(exponent + decimals);
   double value = 0;
   auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
@@ -124,6 +126,24 @@ Unit const* find_unit(std::string_view name) {
   return nullptr;
 }
 
+bool same_but_for_case(std::string_view a, std::string_view b) {
+  auto const small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return small(x) == small(y); });
+}
+
+/// "; did you mean 'MPa'?" for "Mpa", or nothing; of units that differ in their case alone (mN, MN) it names all.
+std::string unit_suggestion(std::string_view name) {
+  std::string hint;
+  for (Unit const& unit : units) {
+    if (!same_but_for_case(unit.name, name)) continue;
+    hint += hint.empty() ? "; did you mean '" : " or '";
+    hint += unit.name;
+    hint += '\'';
+  }
+  if (!hint.empty()) hint += '?';
+  return hint;
+}
+
 /// Multiplies one factor of a unit expression ("cm^3", "min") into the product, or divides by it.
 void multiply(Unit& product, std::string_view factor, int sign, std::string_view whole) {
   int power = 1;
@@ -135,7 +155,8 @@ void multiply(Unit& product, std::string_view factor, int sign, std::string_view
     factor = factor.substr(0, hat);
   }
   Unit const* const unit = find_unit(factor);
-  if (!unit) throw std::invalid_argument("has an unknown unit " + quoted(factor) + " in " + quoted(whole));
+  if (!unit)
+    throw std::invalid_argument("has an unknown unit " + quoted(factor) + " in " + quoted(whole) + unit_suggestion(factor));
   power *= sign;
   product.decimals += unit->decimals * power;
   for (int i = 0; i < power; ++i) product.factor *= unit->factor;

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <stdexcept>
 
@@ -24,6 +25,26 @@ struct Place {
 };
 
 int as_int(toml::source_index index) { return static_cast<int>(index); }
+
+/// A line of a text, counted from 1, up to a comment sign and without blanks at its end.
+std::string_view line_of(std::string_view text, int number) {
+  for (; number > 1; --number) text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
+  text = text.substr(0, text.find_first_of("\n#"));
+  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
+}
+
+/// What the parser says of a line, in the words of somebody who writes scenes: most often quotes are missing.
+std::string syntax_text(std::string_view description, std::string_view line) {
+  if (std::count(line.begin(), line.end(), '"') % 2 != 0) return "a quotation mark (\") is missing in this line";
+  std::string_view const value = line.substr(std::min(line.size(), line.find('=') + 1));
+  std::string_view const from_number = value.substr(std::min(value.size(), value.find_first_not_of(" \t")));
+  std::size_t const after = from_number.find_first_not_of("0123456789+-._eE \t");
+  bool const number = !from_number.empty() && from_number.find_first_of("0123456789+-.") == 0;
+  if (number && after != from_number.npos &&
+      (std::isalpha(static_cast<unsigned char>(from_number[after])) || from_number[after] == '%'))
+    return fmt::format("a number with its unit goes in quotes: \"{}\"", from_number.substr(0, 40));
+  return "cannot be understood: " + std::string(description);
+}
 
 /// One side alone fixes the other by the aspect ratio, unless the number of discs does.
 void complete_box(SampleScene& sample) {
@@ -46,7 +67,9 @@ class SceneReader {
       read_table(root, "");
     } catch (toml::parse_error const& error) {
       auto const at = error.source().begin;
-      problems_.push_back({file_, as_int(at.line), as_int(at.column), std::string(error.description())});
+      int const line = as_int(at.line);
+      problems_.push_back({file_, line, as_int(at.column), syntax_text(error.description(), line_of(source, line))});
+      readable_ = false;
     }
   }
 
@@ -59,6 +82,7 @@ class SceneReader {
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
     if (name == "test.strain_rate") replace("test.inertial_number", "test.strain_rate");
     if (name == "test.inertial_number") replace("test.strain_rate", "test.inertial_number");
+    if (name == "sample.generator" && value == "file") leave_out_sizes();
     Key const* const key = find_key(name);
     if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
     set(*key, place, true, [&] { set_from_text(*key, scene_, value); });
@@ -73,7 +97,8 @@ class SceneReader {
     SceneFindings found = check_scene(scene_, [this](std::string_view name) { return given(name); });
     for (Finding& finding : found.problems) {
       // What is said of a key that could not even be read would only confuse.
-      if (std::any_of(finding.keys.begin(), finding.keys.end(), [this](auto key) { return is_spoilt(key); })) continue;
+      if (!readable_ || std::any_of(finding.keys.begin(), finding.keys.end(), [this](auto key) { return is_spoilt(key); }))
+        continue;
       Place const place = place_of(finding.keys);
       problems_.push_back({place.file, place.line, place.column, std::move(finding.text), finding.severity});
     }
@@ -95,7 +120,11 @@ class SceneReader {
   }
 
   bool given(std::string_view name) const { return places_.count(name) != 0 && !is_zero(*find_key(name), scene_); }
-  bool is_spoilt(std::string_view name) const { return std::find(spoilt_.begin(), spoilt_.end(), name) != spoilt_.end(); }
+  /// Its value is wrong, or its section has a misspelt key, which may be this one.
+  bool is_spoilt(std::string_view name) const {
+    return std::any_of(spoilt_.begin(), spoilt_.end(),
+                       [name](auto const& spoilt) { return spoilt == name || spoilt == name.substr(0, name.find('.')); });
+  }
 
   Place place_of(std::vector<std::string_view> const& keys) const {
     for (std::string_view const key : keys)
@@ -110,13 +139,23 @@ class SceneReader {
     (name == "test.strain_rate" ? scene_.test.inertial_number : scene_.test.strain_rate) = 0;
   }
 
+  /// A specimen that is read takes the place of the one that the file describes.
+  void leave_out_sizes() {
+    for (std::string_view const name :
+         {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"}) {
+      if (std::find(overridden_.begin(), overridden_.end(), name) != overridden_.end()) continue;
+      places_.erase(name);
+      set_from_number(*find_key(name), scene_, 0);
+    }
+  }
+
   template <class Set>
   void set(Key const& key, Place const& place, bool from_override, Set const& assign) {
     places_.insert_or_assign(key.name, place);
     try {
       assign();
     } catch (std::invalid_argument const& problem) {
-      spoilt_.push_back(key.name);
+      spoilt_.emplace_back(key.name);
       return report(place, fmt::format("'{}' {}", from_override ? key.name : key.leaf(), problem.what()));
     }
     if (key.kind != Kind::path || from_override) return;
@@ -150,7 +189,7 @@ class SceneReader {
     else if (section.empty())
       report(place, fmt::format("unknown key '{}' outside any section{}", leaf.substr(0, 60), hint));
     else
-      report(place, fmt::format("unknown key '{}' in [{}]{}", leaf.substr(0, 60), section, hint));
+      report(place, fmt::format("unknown key '{}' in [{}]{}", leaf.substr(0, 60), section, hint)), spoilt_.push_back(section);
   }
 
   static std::string section_suggestion(std::string const& name) {
@@ -182,7 +221,9 @@ class SceneReader {
   Scene scene_;
   std::vector<Problem> problems_;
   std::map<std::string_view, Place> places_;
-  std::vector<std::string_view> spoilt_, overridden_;
+  std::vector<std::string> spoilt_;  ///< keys and sections
+  std::vector<std::string_view> overridden_;
+  bool readable_ = true;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "domain/units.hpp"
 #include "io/scene_value.hpp"
@@ -85,6 +86,23 @@ Json key_json(Key const& key) {
   return json;
 }
 
+/// The value of a key as a scene of one line a key states it, with its unit.
+std::string_view stated_text(Key const& key, std::string_view source) {
+  std::string_view section;
+  while (!source.empty()) {
+    std::size_t const end = std::min(source.size(), source.find('\n'));
+    std::string_view const line = source.substr(0, end);
+    source.remove_prefix(std::min(source.size(), end + 1));
+    if (line.starts_with('[')) section = line.substr(1, line.find(']') - 1);
+    std::size_t const equals = line.find(" = ");
+    if (equals == line.npos || section != key.section() || line.substr(0, equals) != key.leaf()) continue;
+    std::string_view const value = line.substr(equals + 3);
+    std::size_t const comment = value.find(" #");
+    return value.substr(0, comment == value.npos ? comment : value.find_last_not_of(' ', comment) + 1);
+  }
+  throw std::logic_error(std::string(key.name) + " is not stated on a line of its own");
+}
+
 }  // namespace
 
 std::string allowed_values(Key const& key) {
@@ -132,7 +150,8 @@ std::string schema_json() {
   return root.dump(2) + "\n";
 }
 
-std::string commented_scene(Scene const& scene, std::vector<std::string_view> const& stated, std::string_view opening) {
+std::string commented_scene(Scene const& scene, std::vector<std::string_view> const& stated, std::string_view opening,
+                            std::string_view source) {
   std::string text(opening);
   std::string_view section;
   for (Key const& key : schema()) {
@@ -143,7 +162,8 @@ std::string commented_scene(Scene const& scene, std::vector<std::string_view> co
     if (absent && !key.zero.empty()) text += fmt::format("; without it: {}", key.zero);
     // A value that stands for "not given" would be out of range if somebody took the comment sign away.
     text += absent ? fmt::format("\n# {} =\n", key.leaf())
-                   : fmt::format("\n{}{} = {}\n", given ? "" : "# ", key.leaf(), value_text(key, scene));
+                   : fmt::format("\n{}{} = {}\n", given ? "" : "# ", key.leaf(),
+                                 given && !source.empty() ? stated_text(key, source) : value_text(key, scene));
   }
   return text;
 }

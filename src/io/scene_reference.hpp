@@ -22,6 +22,8 @@ std::string schema_json();
 /// A scene file with every key, each under a comment that says what it means and what is allowed. Keys that are not `stated` are
 /// commented out and show their value in `scene`, so that the file loads to the same Scene.
 /// @param opening  comment lines for the top, with their "# "
-std::string commented_scene(Scene const& scene, std::vector<std::string_view> const& stated, std::string_view opening);
+/// @param source  the scene file, one line a key, whose spelling of the values is kept; empty: they are written anew
+std::string commented_scene(Scene const& scene, std::vector<std::string_view> const& stated, std::string_view opening,
+                            std::string_view source = {});
 
 }  // namespace clathra

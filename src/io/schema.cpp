@@ -75,7 +75,7 @@ Key const table[] = {
   {"bond.moment_ratio", quantity, CLATHRA_FIELD(bond, moment_ratio), "L_r over the bond width with moment_scale \"similitude\"", ratio, 1e-4, 10},
   {"bond.coefficients", choice, CLATHRA_CHOICE(bond, coefficients), "strength of hydrate: as printed in Eq. 15, or from temperature, pressure and density (Eq. 13)", ratio, 0, 0, {}, sources},
   {"bond.mode", choice, CLATHRA_CHOICE(bond, mode), "critical thickness from saturation (Eq. 3), as given, or such that the bonds fill the saturation", ratio, 0, 0, {}, modes},
-  {"bond.critical_thickness", quantity, CLATHRA_FIELD(bond, critical_thickness), "largest gap that a bond spans, with mode \"given_thickness\"", length, 1e-9, 0.01, "not given"},
+  {"bond.critical_thickness", quantity, CLATHRA_FIELD(bond, critical_thickness), "largest gap that a bond spans, with mode \"given_thickness\"", length, 1e-9, 0.01, "bond.mode decides"},
   {"bond.plate_thickness", quantity, CLATHRA_FIELD(bond, plate_thickness), "thickness of all bonds with law \"constant_thickness\"", length, 1e-9, 0.01, "half the critical thickness"},
   {"bond.stress", quantity, CLATHRA_FIELD(bond, stress), "isotropic stress under which the specimen is made and hydrate forms", pressure, 1e3, 1e9},
   {"bond.after_consolidation", boolean, CLATHRA_FIELD(bond, after_consolidation), "let hydrate form under the confining stress instead"},
@@ -83,7 +83,7 @@ Key const table[] = {
   {"test.confining_stress", quantity, CLATHRA_FIELD(test, confining_stress), "effective lateral stress sigma_3", pressure, 1e3, 1e9},
   {"test.axial_strain", quantity, CLATHRA_FIELD(test, axial_strain), "natural axial strain to reach", ratio, 1e-6, 0.5},
   {"test.inertial_number", quantity, CLATHRA_FIELD(test, inertial_number), "rate of the test as I = strain rate * d50 * sqrt(density / pressure)", ratio, 1e-12, 1, "strain_rate is given instead"},
-  {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, instead of inertial_number", rate, 1e-12, 1e6, "inertial_number is given instead"},
+  {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, instead of inertial_number", rate, 1e-12, 1e6, "test.inertial_number decides"},
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5},
 
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},

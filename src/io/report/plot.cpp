@@ -146,9 +146,10 @@ void Range::include(std::vector<double> const& values) {
 }
 
 Axis Range::axis(std::string title) const {
-  double const span = high_ > low_ ? high_ - low_ : 1;
-  double const step = tick_step(low_, low_ + span, 6);
-  return {std::move(title), std::floor(low_ / step + 1e-9) * step, std::ceil((low_ + span) / step - 1e-9) * step};
+  double const span = high_ > low_ ? high_ - low_ : 1, step = tick_step(low_, low_ + span, 6);
+  // A curve that starts a hair below zero needs no empty strip there.
+  double const low = low_ < 0 && low_ > -0.01 * span ? 0 : low_;
+  return {std::move(title), std::floor(low / step + 1e-9) * step, std::ceil((low_ + span) / step - 1e-9) * step};
 }
 
 Axis Range::exact_axis(std::string title) const { return {std::move(title), low_, high_ > low_ ? high_ : low_ + 1}; }

@@ -22,6 +22,9 @@ std::string shown(std::optional<double> value, char const* format, double factor
 
 std::string count(std::optional<double> value) { return value ? grouped(*value) : unknown; }
 
+/// What concerns only specimens with hydrate.
+std::string bonded(RunResults const& run, std::string const& text) { return run.has_bonds() ? text : unknown; }
+
 struct Quantity {
   char const* name;
   char const* unit;
@@ -34,6 +37,9 @@ std::vector<Quantity> specimen_quantities() {
   return {
       {"discs", "", [](Run r, Numbers) { return count(r.number("/stages/plan/discs")); }},
       {"hydrate saturation", "%", [](Run r, Numbers) { return shown(r.number("/scene/hydrate/saturation"), "{:.3g}", percent); }},
+      {"temperature", "°C", [](Run r, Numbers) { return bonded(r, shown(r.number("/scene/hydrate/temperature"), "{:.3g}")); }},
+      {"pore pressure", "MPa",
+       [](Run r, Numbers) { return bonded(r, shown(r.number("/scene/hydrate/pore_pressure"), "{:.4g}", mega)); }},
       {"confining stress σ₃", "MPa",
        [](Run r, Numbers) { return shown(r.number("/scene/test/confining_stress"), "{:.4g}", mega); }},
       {"void ratio at the start", "", [](Run r, Numbers) { return shown(r.history["void_ratio"].front(), "{:.4f}"); }},
@@ -56,8 +62,7 @@ std::vector<Quantity> result_quantities() {
           {"secant modulus E₅₀", "MPa", [](Run, Numbers n) { return shown(n.secant_modulus, "{:.4g}", mega); }},
           {"volumetric strain at the peak", "%", [](Run, Numbers n) { return shown(n.eps_v_peak, "{:+.2f}", percent); }},
           {"volumetric strain at the end", "%", [](Run, Numbers n) { return shown(n.eps_v_end, "{:+.2f}", percent); }},
-          {"intact bonds at the end", "%",
-           [](Run r, Numbers n) { return r.has_bonds() ? shown(n.intact_end, "{:.1f}") : std::string(unknown); }}};
+          {"intact bonds at the end", "%", [](Run r, Numbers n) { return bonded(r, shown(n.intact_end, "{:.1f}")); }}};
 }
 
 std::vector<Quantity> cost_quantities() {
