@@ -41,7 +41,7 @@ void Simulation::rebuild() {
   Relocation const moved = sort_in_space(particles_, rows_, skin_);
   if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
   find_neighbours(particles_, skin_, moved, rows_, spare_, faults_, bonded_gap);
-  set_bond_widths(particles_, rows_, laws_.contact.bond);
+  prepare_rows(particles_, rows_, laws_.contact.bond);
   if (!periodic())
     wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_contacts_, moved.new_index);
   if (laws_.contact.ledger) permute_losses(moved.old_index);
@@ -107,7 +107,7 @@ void Simulation::set_laws(SimulationLaws const& laws) {
     change_features(rows_, laws_.features());
     spare_ = ContactRows();
   }
-  set_bond_widths(particles_, rows_, laws_.contact.bond);
+  prepare_rows(particles_, rows_, laws_.contact.bond);
 }
 
 void Simulation::set_ledger(bool on) {
@@ -141,7 +141,7 @@ Measures Simulation::measures() const { return measure(particles_, rows_, laws_.
 void Simulation::throw_if_unstable() const {
   auto const disc = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
   static constexpr char const* cause[fault_count] = {
-      "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than half the smaller radius",
+      "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than the smaller radius",
       "has more neighbours than a row holds (the grading's size ratio is too large)"};
   for (int fault = 0; fault < fault_count; ++fault) {
     if (disc(fault) < 0) continue;

@@ -138,7 +138,7 @@ void Simulation::inject(Specimen const& s) {
         std::pair{&rows_.bond_shear, &bond_shear}, std::pair{&rows_.bond_moment, &bond_moment}}) {
     if (field->extent(0) > 0) Kokkos::deep_copy(*field, *host);
   }
-  set_bond_widths(particles_, rows_, laws_.contact.bond);
+  prepare_rows(particles_, rows_, laws_.contact.bond);
   if (laws_.contact.bond_kind != BondKind::none) breaks_ = make_break_log(bonds);
 }
 

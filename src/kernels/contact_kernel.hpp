@@ -48,8 +48,15 @@ struct ContactKernel {
             0,
             0,
             0};
-    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k)
-      add_block(first, static_cast<std::size_t>(k) * lane_count, own);
+    // Entries out of touch stay so nearly always, and those that carry a history still do: a branch on what the last step found
+    // is foreseen, one on the distances is not.
+    int const begin = rows.slice_start(slice), end = rows.slice_start(slice + 1);
+    std::uint64_t const active = rows.active(slice);
+    std::uint64_t carrying = 0, bit = 1;
+    for (int k = begin; k < end; ++k, bit <<= 1) {
+      if (add_block(first, static_cast<std::size_t>(k) * lane_count, (active & bit) != 0, own)) carrying |= bit;
+    }
+    rows.active(slice) = carrying;
     store(&p.force_x(first), own.force_x);
     store(&p.force_y(first), own.force_y);
     store(&p.torque(first), own.torque);
@@ -62,14 +69,15 @@ struct ContactKernel {
   }
 
   /// Entry block `e .. e + lane_count`: the k-th neighbour of each disc of the slice.
-  KOKKOS_FORCEINLINE_FUNCTION void add_block(std::size_t first, std::size_t e, Own& own) const {
+  /// @param active  false if none of them holds a history;  @return whether one does afterwards
+  KOKKOS_FORCEINLINE_FUNCTION bool add_block(std::size_t first, std::size_t e, bool active, Own& own) const {
     int const* const j = &rows.neighbour(e);
     Lanes const dx = gather(p.x.data(), j) - own.x, dy = gather(p.y.data(), j) - own.y;
     Lanes const other_radius = gather(p.radius.data(), j);
     Lanes const reach = own.radius + other_radius, distance2 = dx * dx + dy * dy;
-    History h = read(e);
     auto const touching = distance2 < reach * reach;
-    if (!any(touching || carries(h))) return;
+    if (!active && !any(touching)) return false;
+    History h = read(e);
 
     Lanes const distance = lane_max(lane_sqrt(distance2), Lanes(1e-30)), inverse = Lanes(1) / distance;
     Lanes const nx = dx * inverse, ny = dy * inverse;
@@ -83,7 +91,7 @@ struct ContactKernel {
     motion.slip = ((dvy * nx - dvx * ny) - (own.omega * arm + other_omega * other_arm)) * dt;
     motion.turn = (other_omega - own.omega) * dt;
     motion.common_radius = common_radius(own.radius, other_radius);
-    auto const deep = motion.overlap > Lanes(0.5) * lane_min(own.radius, other_radius);
+    auto const deep = distance < lane_max(own.radius, other_radius);  // one disc's centre lies inside the other
     if (any(deep)) report_deep(first, deep);
 
     Lanes dashpot(0);
@@ -98,6 +106,8 @@ struct ContactKernel {
     own.force_x -= force.normal * nx + force.shear * ny;
     own.force_y += force.shear * nx - force.normal * ny;
     own.torque += arm * force.shear + force.moment;
+    if constexpr (bonded_code) return any(touching || is_bonded(h.equilibrium));
+    return any(touching);
   }
 
  private:
@@ -130,14 +140,6 @@ struct ContactKernel {
       store(&rows.bond_shear(e), h.bond_shear);
       store(&rows.bond_moment(e), h.bond_moment);
     }
-  }
-
-  /// Entries that must be evaluated although they are out of touch: bonded, or with a history that has to be cleared.
-  KOKKOS_FORCEINLINE_FUNCTION static auto carries(History const& h) {
-    auto carrying = h.shear != Lanes(0);
-    if constexpr (moments) carrying = carrying || h.moment != Lanes(0);
-    if constexpr (bonded_code) carrying = carrying || is_bonded(h.equilibrium);
-    return carrying;
   }
 
   /// The unbonded law on every entry; with `replace` the entries that are bonded are overruled by with_bond().

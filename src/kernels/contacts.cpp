@@ -29,7 +29,8 @@ void change_features(ContactRows& rows, ContactFeatures features) {
 }
 
 std::size_t bytes(ContactRows const& rows) {
-  std::size_t total = (rows.slice_start.span() + rows.length.span() + rows.neighbour.span()) * sizeof(int);
+  std::size_t total = rows.active.span() * sizeof(std::uint64_t) +
+                      (rows.slice_start.span() + rows.length.span() + rows.neighbour.span()) * sizeof(int);
   for (auto const* field : {&rows.shear, &rows.moment, &rows.equilibrium, &rows.width, &rows.bond_shear, &rows.bond_moment}) {
     total += field->span() * sizeof(Real);
   }

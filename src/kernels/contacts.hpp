@@ -23,9 +23,11 @@ struct ContactRows {
   Field<Real> shear;        ///< [entries] F_s [N/m]
   Field<Real> moment;       ///< [entries] M on the row's own disc [N m/m]
   Field<Real> equilibrium;  ///< [entries] u_0 of the bond [m], no_bond without one
-  Field<Real> width;        ///< [entries] B of the bond [m], 0 without one: derived by set_bond_widths(), not part of the state
   Field<Real> bond_shear;   ///< [entries] F_s of a separate bond [N/m]
   Field<Real> bond_moment;  ///< [entries] M of a separate bond [N m/m]
+  // Derived, not part of the state: set by prepare_rows().
+  Field<Real> width;            ///< [entries] B of the bond [m], 0 without one
+  Field<std::uint64_t> active;  ///< [slices] bit k: entries k of the slice may carry a history, so they must be evaluated
 
   KOKKOS_INLINE_FUNCTION std::size_t entry(int disc, int k) const {
     return static_cast<std::size_t>(slice_start(disc / lane_count) + k) * lane_count +

@@ -48,7 +48,10 @@ struct SetBondWidths {
 
 }  // namespace
 
-void set_bond_widths(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law) {
+void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law) {
+  auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
+  if (rows.active.extent(0) != slices) rows.active = uninitialised<std::uint64_t>("active", slices);
+  Kokkos::deep_copy(rows.active, ~std::uint64_t(0));
   if (!rows.features.bonds) {
     rows.width = Field<Real>();
     return;

@@ -16,8 +16,8 @@ struct ContactLaws {
   bool ledger = false;
 };
 
-/// Sets the width of every bond in the rows. To be called after a neighbour search and whenever bonds or the law changed.
-void set_bond_widths(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law);
+/// Derives what the rows keep beside the history. To be called after a neighbour search and whenever history or law changed.
+void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law);
 
 /// Sets force and torque of every owned disc from its contacts and bonds, advances their history by one step of length `dt` [s],
 /// and breaks bonds. Each disc sums its own row; both sides of a pair get exact opposites, so no atomics touch a force.

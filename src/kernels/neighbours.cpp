@@ -237,7 +237,8 @@ void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& 
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
                        FillRows{search, spare});
   std::swap(rows, spare);
-  std::swap(rows.width, spare.width);  // set anew by set_bond_widths(): one is enough
+  std::swap(rows.width, spare.width);  // set anew by prepare_rows(): one of each is enough
+  std::swap(rows.active, spare.active);
 }
 
 }  // namespace clathra

@@ -50,7 +50,7 @@ struct WallForces {
       ContactForce<Real> const force = grain_contact<false>(law, motion, old_shear, Real(0), dashpot);
       if (friction) contacts.shear(c, wall) = force.shear;
       if (losses.sliding.extent(0) > 0) add_losses(i, motion, old_shear, force);
-      if (overlap > 0.5 * p.radius(i)) faults.report(Fault::deep_overlap, p.id(i));
+      if (overlap > p.radius(i)) faults.report(Fault::deep_overlap, p.id(i));
       p.force_x(i) -= force.normal * nx + force.shear * ny;
       p.force_y(i) += force.shear * nx - force.normal * ny;
       p.torque(i) += arm * force.shear;
