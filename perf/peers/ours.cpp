@@ -1,13 +1,15 @@
 /// Our side of the comparison with other codes: perf/peers/run starts it.
-///   peers_ours write SPECIMEN FOLDER            discs.txt (id x y radius), forces.txt (id fx fy), prints the settings for the
-///   peers peers_ours run SPECIMEN CASE DT CHECK SECONDS   steps CHECK times, prints the contact stress, then times steps
+///   peers_ours write SPECIMEN FOLDER
+///     writes discs.txt (id x y radius) and forces.txt (id fx fy) there and prints the settings for the peers
+///   peers_ours run SPECIMEN CASE DT CHECK STEPS
+///     steps CHECK times, prints the contact stress, then times STEPS more
 /// CASE: frictional, rolling or bonded. Every run starts as the peers do: at rest, without history of the contacts, between four
 /// walls that stand still, and without damping.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "domain/experiment.hpp"
@@ -21,7 +23,7 @@ namespace {
 
 using namespace clathra;
 
-constexpr double skin_in_d50 = 0.1;  // that of ThroughputSetup
+double const skin_in_d50 = ThroughputSetup().skin;
 
 Specimen read_at_rest(char const* path) {
   Specimen specimen = read_specimen(path);
@@ -109,14 +111,18 @@ void print_stress(Simulation const& simulation) {
   std::printf("stress_xx %.9g\nstress_yy %.9g\n", xx / area, yy / area);
 }
 
-void run(char const* path, std::string const& what, double dt, int check, double seconds) {
+void run(char const* path, std::string const& what, double dt, int check, int steps) {
   Simulation simulation = simulation_of(read_at_rest(path), what);
   simulation.time_step = dt;
   for (int n = 0; n < check; ++n) simulation.step();
   print_stress(simulation);
-  Throughput const t = measure_throughput(simulation, seconds);
-  std::printf("rate %.9g\nsteps %lld\nrebuilds %lld\nbroken %d\n", t.particle_steps_per_s, static_cast<long long>(t.steps),
-              static_cast<long long>(t.rebuilds), simulation.broken_bonds());
+  std::int64_t const searches = simulation.rebuilds();
+  Kokkos::fence();
+  Kokkos::Timer const clock;
+  for (int n = 0; n < steps; ++n) simulation.step();
+  Kokkos::fence();
+  std::printf("loop %.9g\nsearches %lld\nbroken %d\n", clock.seconds(), static_cast<long long>(simulation.rebuilds() - searches),
+              simulation.broken_bonds());
 }
 
 }  // namespace
@@ -125,7 +131,7 @@ int main(int argc, char** argv) {
   std::string const verb = argc > 1 ? argv[1] : "";
   bool const write = verb == "write" && argc == 4, time = verb == "run" && argc == 7;
   if (!write && !time) {
-    std::fprintf(stderr, "usage: peers_ours write SPECIMEN FOLDER | peers_ours run SPECIMEN CASE DT CHECK SECONDS\n");
+    std::fprintf(stderr, "usage: peers_ours write SPECIMEN FOLDER | peers_ours run SPECIMEN CASE DT CHECK STEPS\n");
     return 64;
   }
   ::setenv("OMP_PROC_BIND", "false", 0);
@@ -135,7 +141,7 @@ int main(int argc, char** argv) {
     if (write)
       write_for_peers(argv[2], argv[3]);
     else
-      run(argv[2], argv[3], std::atof(argv[4]), std::atoi(argv[5]), std::atof(argv[6]));
+      run(argv[2], argv[3], std::atof(argv[4]), std::atoi(argv[5]), std::atoi(argv[6]));
   } catch (std::exception const& problem) {
     std::fprintf(stderr, "peers_ours: %s\n", problem.what());
     return 70;

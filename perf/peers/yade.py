@@ -1,4 +1,4 @@
-"""YADE on our packing: yade -n -x yade.py SETTINGS.json. Prints `stress_xx`, `stress_yy` and `loop` as `name value`."""
+"""YADE on our packing: yade -n -x yade.py SETTINGS.json. Prints what it measured as `name value`."""
 import json
 import math
 import sys
@@ -57,9 +57,10 @@ laws = [Law2_ScGeom_FrictPhys_CundallStrack()]
 if cohesive:
     physics.append(Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True))
     laws.append(Law2_ScGeom6D_CohFrictPhys_CohesionMoment())
+collider = InsertionSortCollider([bound, Bo1_Wall_Aabb()], verletDist=settings["skin"] / 2)
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([bound, Bo1_Wall_Aabb()], verletDist=settings["skin"] / 2),
+    collider,
     InteractionLoop([touch, Ig2_Wall_Sphere_ScGeom()], physics, laws),
     NewtonIntegrator(damping=0, gravity=(0, 0, 0)),
 ]
@@ -81,9 +82,11 @@ for number in range(len(discs)):
 O.dt = settings["dt"]
 O.run(settings["check"], True)
 stress = contact_stress()
+searches = collider.numAction
 start = time.perf_counter()
 O.run(settings["steps"], True)
 print("loop", time.perf_counter() - start)
+print("searches", collider.numAction - searches)
 print("stress_xx", stress[0])
 print("stress_yy", stress[1])
 print("bonds", bonds)
