@@ -39,7 +39,7 @@ def named_numbers(text):
 
 
 def read_forces(path):
-    """{id: (fx, fy)} from a file whose last three columns are these, whatever header it has. Ids from 0."""
+    """{id: (fx, fy)} from the rows of three numbers in a file, whatever header it has. Ids from 0."""
     rows = [line.split() for line in Path(path).read_text().splitlines()]
     numbers = [row for row in rows if len(row) == 3 and row[0].isdigit()]
     first = min(int(row[0]) for row in numbers)
@@ -102,8 +102,8 @@ class Ours:
 
 
 class Lammps:
-    """LAMMPS, and LIGGGHTS which has its input language. Rolling: R_eff = Rbar / 2 is the lever of both, so that k_m = k_n beta^2
-    Rbar^2 / 12 is a spring of k_n beta^2 / 3 and |M| <= F_n beta Rbar / 6 a coefficient of beta / 3."""
+    """LAMMPS, and LIGGGHTS which has its input language. The lever of their rolling laws is R_eff = Rbar / 2, so that our k_m = k_n
+    beta^2 Rbar^2 / 12 is a spring of k_n beta^2 / 3 there, and our |M| <= F_n beta Rbar / 6 a coefficient of beta / 3."""
     name, package, program, input = "LAMMPS", "lammps", "lmp", "lammps.in"
     laws = {"frictional": "gran/hooke/history", "rolling": "granular, rolling sds"}
 
