@@ -102,8 +102,8 @@ class Ours:
 
 
 class Lammps:
-    """LAMMPS, and LIGGGHTS which has its input language. The lever of their rolling laws is R_eff = Rbar / 2, so that our k_m = k_n
-    beta^2 Rbar^2 / 12 is a spring of k_n beta^2 / 3 there, and our |M| <= F_n beta Rbar / 6 a coefficient of beta / 3."""
+    """LAMMPS, and LIGGGHTS which has its input language. The lever of their rolling laws is R_eff = Rbar / 2, so that our
+    k_m = k_n beta^2 Rbar^2 / 12 is a spring of k_n beta^2 / 3 there, and our |M| <= F_n beta Rbar / 6 a coefficient of beta / 3."""
     name, package, program, input = "LAMMPS", "lammps", "lmp", "lammps.in"
     laws = {"frictional": "gran/hooke/history", "rolling": "granular, rolling sds"}
 
