@@ -15,10 +15,16 @@ using namespace clathra;
 
 constexpr std::int64_t rolling = 0, bonded = 1;
 
-/// Packings are made once and shared: every kernel here leaves them as they are.
+using Packings = std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<Simulation>>;
+
+/// Packings are made once and shared: every kernel here leaves them as they are. Cleared before Kokkos ends.
+Packings& packings() {
+  static Packings made;
+  return made;
+}
+
 Simulation& packing(std::int64_t what, std::int64_t discs) {
-  static std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<Simulation>> made;
-  auto& simulation = made[{what, discs}];
+  auto& simulation = packings()[{what, discs}];
   if (!simulation) {
     ThroughputSetup setup;
     setup.what = what == bonded ? ThroughputCase::bonded : ThroughputCase::rolling;
@@ -85,5 +91,6 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 64;
   Kokkos::ScopeGuard const guard(argc, argv);
   benchmark::RunSpecifiedBenchmarks();
+  packings().clear();
   return 0;
 }

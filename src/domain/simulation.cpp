@@ -40,7 +40,7 @@ void Simulation::rebuild() {
   Real const bonded_gap = widest_bonded_gap(particles_, rows_);
   Relocation const moved = sort_in_space(particles_, rows_, skin_);
   if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
-  find_neighbours(particles_, skin_, moved, rows_, spare_, faults_, bonded_gap);
+  find_neighbours(particles_, skin_, moved, rows_, faults_, bonded_gap);
   prepare_rows(particles_, rows_, laws_.contact.bond);
   if (!periodic())
     wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_contacts_, moved.new_index);
@@ -105,9 +105,8 @@ void Simulation::set_laws(SimulationLaws const& laws) {
   laws_.contact.ledger = ledger;
   if (!same_history) {
     change_features(rows_, laws_.features());
-    spare_ = ContactRows();
   }
-  prepare_rows(particles_, rows_, laws_.contact.bond);
+  if (!same_history || rows_.features.bonds) prepare_rows(particles_, rows_, laws_.contact.bond);
 }
 
 void Simulation::set_ledger(bool on) {

@@ -96,7 +96,8 @@ class Simulation {
   int broken_bonds() const;
   BreakCounts break_counts() const;
   std::vector<BreakEvent> break_events(int first) const;  ///< those from the first-th on, sorted by (step, id_a, id_b)
-  std::size_t bytes() const { return clathra::bytes(particles_) + clathra::bytes(rows_) + clathra::bytes(spare_); }
+  /// Bytes of the fields, with the room that a neighbour search needs.
+  std::size_t bytes() const { return clathra::bytes(particles_) + clathra::bytes(rows_) + search_bytes(rows_); }
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
   ParticleSoA const& particles() const { return particles_; }
   ContactRows const& rows() const { return rows_; }
@@ -114,7 +115,7 @@ class Simulation {
   void account_boundary_work(WallReactions const& before);
 
   ParticleSoA particles_;
-  ContactRows rows_, spare_;
+  ContactRows rows_;
   SimulationLaws laws_;
   Walls walls_, reference_walls_;
   WallContacts wall_contacts_;

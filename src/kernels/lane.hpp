@@ -18,6 +18,11 @@ namespace clathra {
 // The scalar instance of the vocabulary: `double` is a lane of width one, `bool` its mask.
 KOKKOS_FORCEINLINE_FUNCTION Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
 KOKKOS_FORCEINLINE_FUNCTION bool any(bool mask) { return mask; }
+/// Calls visit(l) for each lane l of the mask that is set, in order.
+template <class Visit>
+KOKKOS_FORCEINLINE_FUNCTION void for_each_set(bool mask, Visit const& visit) {
+  if (mask) visit(0);
+}
 KOKKOS_FORCEINLINE_FUNCTION Real lane_sqrt(Real a) { return std::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION Real lane_abs(Real a) { return std::fabs(a); }
 // Of equal zeros, and beside a NaN, the second operand counts: written so, either is one instruction with the same bits in
@@ -39,6 +44,14 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes select(Mask const& mask, Lanes const& yes, Lan
   return result;
 }
 KOKKOS_FORCEINLINE_FUNCTION bool any(Mask const& mask) { return stdx::any_of(mask); }
+template <class Visit>
+KOKKOS_FORCEINLINE_FUNCTION void for_each_set(Mask mask, Visit const& visit) {
+  while (stdx::any_of(mask)) {
+    int const l = stdx::find_first_set(mask);
+    visit(l);
+    mask[static_cast<std::size_t>(l)] = false;
+  }
+}
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_sqrt(Lanes const& a) { return stdx::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_abs(Lanes const& a) { return stdx::abs(a); }
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) {

@@ -31,6 +31,41 @@ struct Invert {
   KOKKOS_FUNCTION void operator()(int i) const { inverse(of(i)) = i; }
 };
 
+/// The row that a disc had before the search, its neighbours by id; read when first asked for.
+class OldRow {
+ public:
+  KOKKOS_INLINE_FUNCTION OldRow(ContactRows const& old, Relocation const& moved, int disc)
+      : rows_(old), moved_(moved), new_disc_(disc) {}
+
+  /// The old entry of disc `other`, or -1.
+  KOKKOS_INLINE_FUNCTION int entry(int other) {
+    if (length_ < 0) read();
+    for (int k = 0; k < length_; ++k) {
+      if (id_[k] == other) return static_cast<int>(rows_.entry(disc_, k));
+    }
+    return -1;
+  }
+  KOKKOS_INLINE_FUNCTION bool was_bonded(int other) {
+    if (rows_.equilibrium.extent(0) == 0) return false;
+    int const e = entry(other);
+    return e >= 0 && is_bonded(rows_.equilibrium(e));
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION void read() {
+    length_ = 0;
+    if (rows_.length.extent(0) == 0) return;
+    disc_ = moved_.old_index(new_disc_);
+    length_ = rows_.length(disc_);
+    for (int k = 0; k < length_; ++k) id_[k] = moved_.old_id(rows_.neighbour(rows_.entry(disc_, k)));
+  }
+
+  ContactRows const& rows_;
+  Relocation const& moved_;
+  int new_disc_, disc_ = 0, length_ = -1;
+  int id_[longest_row];
+};
+
 /// What one search needs to know about the old rows and the grid.
 struct Search {
   ParticleSoA p;
@@ -39,37 +74,30 @@ struct Search {
   ContactRows old;
   Relocation moved;
 
-  /// The entry of disc `id` in the old row of new disc `i`, or -1.
-  KOKKOS_INLINE_FUNCTION long old_entry(int i, int id) const {
-    int const before = moved.old_index(i);
-    for (int k = 0; k < old.length(before); ++k) {
-      std::size_t const e = old.entry(before, k);
-      if (moved.old_id(old.neighbour(e)) == id) return static_cast<long>(e);
-    }
-    return -1;
-  }
-  KOKKOS_INLINE_FUNCTION bool was_bonded(int i, int id) const {
-    if (old.equilibrium.extent(0) == 0) return false;
-    long const e = old_entry(i, id);
-    return e >= 0 && is_bonded(old.equilibrium(e));
-  }
-
-  /// Calls visit(j, in_touch) for every disc that belongs into the row of disc i.
+  /// Calls visit(j, in_touch) for every disc that belongs into the row of disc i, whose old row is `before`.
   template <class Visit>
-  KOKKOS_INLINE_FUNCTION void for_each_neighbour(int i, Visit const& visit) const {
+  KOKKOS_INLINE_FUNCTION void for_each_neighbour(int i, OldRow& before, Visit const& visit) const {
     int const column = grid.column_of(p.x(i)), row = grid.row_of(p.y(i));
     for (int r = row > 0 ? row - 1 : 0; r <= row + 1 && r < grid.rows; ++r) {
       int const first = column > 0 ? column - 1 : 0, last = column + 1 < grid.columns ? column + 1 : column;
       int const end = grid.start(r * grid.columns + last + 1);
-      for (int k = grid.start(r * grid.columns + first); k < end; ++k) {
-        int const j = grid.disc(k);
-        Real const dx = p.x(j) - p.x(i), dy = p.y(j) - p.y(i), sum = p.radius(i) + p.radius(j);
-        Real const distance2 = dx * dx + dy * dy;
-        Real const far = sum + bonded_reach;
-        if (distance2 >= far * far || j == i) continue;
-        if (distance2 < (sum + skin) * (sum + skin) || was_bonded(i, p.id(j))) visit(j, distance2 < sum * sum);
-      }
+      for (int k = grid.start(r * grid.columns + first); k < end; k += lane_count) visit_near(i, k, end, before, visit);
     }
+  }
+
+ private:
+  /// The candidates `grid.disc(k .. k + lane_count)`, tested side by side.
+  template <class Visit>
+  KOKKOS_INLINE_FUNCTION void visit_near(int i, int k, int end, OldRow& before, Visit const& visit) const {
+    int j[lane_count];
+    for (int l = 0; l < lane_count; ++l) j[l] = k + l < end ? grid.disc(k + l) : i;
+    Lanes const dx = gather(p.x.data(), j) - p.x(i), dy = gather(p.y.data(), j) - p.y(i);
+    Lanes const sum = gather(p.radius.data(), j) + p.radius(i), far = sum + bonded_reach, distance2 = dx * dx + dy * dy;
+    for_each_set(distance2 < far * far, [&](int l) {
+      if (j[l] == i) return;
+      Real const touch = lane(sum, l), reach = touch + skin, apart2 = lane(distance2, l);
+      if (apart2 < reach * reach || before.was_bonded(p.id(j[l]))) visit(j[l], apart2 < touch * touch);
+    });
   }
 };
 
@@ -79,7 +107,8 @@ struct CountNeighbours {
   Faults faults;
   KOKKOS_FUNCTION void operator()(int i) const {
     int count = 0;
-    search.for_each_neighbour(i, [&](int, bool) { ++count; });
+    OldRow before(search.old, search.moved, i);
+    search.for_each_neighbour(i, before, [&](int, bool) { ++count; });
     if (count > longest_row) {
       faults.report(Fault::row_overflow, search.p.id(i));
       count = longest_row;
@@ -107,6 +136,7 @@ struct ScanSlices {
 struct FillRows {
   Search search;
   ContactRows rows;
+  Field<int> source;  // [entries] the old entry with the history of each new one, -1 for none
 
   KOKKOS_FUNCTION void operator()(int slot) const {
     int const slice = slot / lane_count;
@@ -116,7 +146,7 @@ struct FillRows {
     for (int k = used; k < width; ++k) {
       std::size_t const e = rows.entry(slot, k);
       rows.neighbour(e) = search.p.padding();
-      clear(e);
+      source(e) = -1;
     }
   }
 
@@ -124,10 +154,11 @@ struct FillRows {
     int disc[longest_row];
     std::int64_t key[longest_row];
     int count = 0;
-    search.for_each_neighbour(i, [&](int j, bool in_touch) {
+    OldRow before(search.old, search.moved, i);
+    search.for_each_neighbour(i, before, [&](int j, bool in_touch) {
       if (count == longest_row) return;
       int const id = search.p.id(j);
-      std::int64_t const rank = (in_touch || search.was_bonded(i, id) ? std::int64_t(0) : std::int64_t(1) << 32) + id;
+      std::int64_t const rank = (in_touch || before.was_bonded(id) ? std::int64_t(0) : std::int64_t(1) << 32) + id;
       int at = count++;
       for (; at > 0 && rank < key[at - 1]; --at) {
         key[at] = key[at - 1];
@@ -139,24 +170,18 @@ struct FillRows {
     for (int k = 0; k < count; ++k) {
       std::size_t const e = rows.entry(i, k);
       rows.neighbour(e) = disc[k];
-      copy(e, search.old.length.extent(0) > 0 ? search.old_entry(i, search.p.id(disc[k])) : -1);
+      source(e) = before.entry(search.p.id(disc[k]));
     }
     return count;
   }
+};
 
-  KOKKOS_INLINE_FUNCTION void clear(std::size_t e) const { copy(e, -1); }
-
-  /// History of new entry e from old entry `from`, or none where that is -1.
-  KOKKOS_INLINE_FUNCTION void copy(std::size_t e, long from) const {
-    carry(rows.shear, search.old.shear, e, from, 0);
-    carry(rows.moment, search.old.moment, e, from, 0);
-    carry(rows.equilibrium, search.old.equilibrium, e, from, no_bond);
-    carry(rows.bond_shear, search.old.bond_shear, e, from, 0);
-    carry(rows.bond_moment, search.old.bond_moment, e, from, 0);
-  }
-  KOKKOS_INLINE_FUNCTION static void carry(Field<Real> const& to, Field<Real> const& old, std::size_t e, long from, Real empty) {
-    if (to.extent(0) > 0) to(e) = from >= 0 ? old(from) : empty;
-  }
+/// One field of the history in its new order.
+struct CarryHistory {
+  Field<Real> from, to;
+  Field<int> source;
+  Real empty;
+  KOKKOS_FUNCTION void operator()(int e) const { to(e) = source(e) >= 0 ? from(source(e)) : empty; }
 };
 
 struct WidestBondedGap {
@@ -173,22 +198,24 @@ struct WidestBondedGap {
   }
 };
 
-/// Gives `spare` the features of `rows` and room for `entries`, reusing what it has.
-void make_room(ContactRows& spare, ContactRows const& rows, std::size_t entries, std::size_t discs, std::size_t slices) {
-  spare.features = rows.features;
-  if (spare.length.extent(0) != discs) spare.length = uninitialised<int>("rows.length", discs);
-  if (spare.slice_start.extent(0) != slices + 1) spare.slice_start = uninitialised<int>("rows.slice_start", slices + 1);
-  if (entries == 0) return;
-  std::size_t const room = entries + entries / 16;
-  bool const fits = spare.neighbour.extent(0) >= entries && spare.neighbour.extent(0) <= 2 * room;
-  if (!fits) spare.neighbour = uninitialised<int>("rows.neighbour", room);
-  for (auto* field : {&spare.moment, &spare.equilibrium, &spare.bond_shear, &spare.bond_moment}) {
-    bool const kept = fits && field->extent(0) > 0;
-    if (!kept) *field = Field<Real>();
-  }
-  for_each_history(spare, [&](char const* name, Field<Real>& field, Real) {
-    if (field.extent(0) != spare.neighbour.extent(0)) field = uninitialised<Real>(name, spare.neighbour.extent(0));
+/// Brings the history of `rows` into the order of `found`, field by field through the storage that the one before left free, so
+/// that a search needs room for one field and not for a second set of rows.
+void carry_history(ContactRows& rows, ContactRows& found, Field<int> const& source, std::size_t entries) {
+  std::size_t const size = found.neighbour.extent(0);
+  Field<Real> room;
+  for_each_history(rows, [&](char const* name, Field<Real>& field, Real empty) {
+    if (room.extent(0) != size) {
+      room = Field<Real>();
+      room = uninitialised<Real>(name, size);
+    }
+    Kokkos::parallel_for("carry_history", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(entries)),
+                         CarryHistory{field, room, source, empty});
+    Kokkos::fence();
+    std::swap(field, room);
   });
+  rows.slice_start = found.slice_start;
+  rows.length = found.length;
+  rows.neighbour = found.neighbour;
 }
 
 }  // namespace
@@ -212,6 +239,8 @@ Relocation sort_in_space(ParticleSoA& particles, ContactRows const& rows, Real s
   return moved;
 }
 
+std::size_t search_bytes(ContactRows const& rows) { return rows.neighbour.span() * (2 * sizeof(int) + sizeof(Real)); }
+
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   if (rows.equilibrium.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
   Real widest = 0;
@@ -220,25 +249,30 @@ Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   return lane_max(widest, Real(0));
 }
 
-void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& relocation, ContactRows& rows, ContactRows& spare,
+void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& relocation, ContactRows& rows,
                      Faults const& faults, Real bonded_gap) {
   auto const owned = static_cast<std::size_t>(particles.owned);
   auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
   Real const bonded_reach = lane_max(skin, bonded_gap * (1 + 1e-9));
   Real const cell = 2 * largest_radius(particles, particles.all()) + bonded_reach;
   Search const search{particles, bin_particles(particles, particles.all(), cell), skin, bonded_reach, rows, relocation};
-  make_room(spare, rows, 0, owned, slices);
+  ContactRows found;
+  found.length = uninitialised<int>("rows.length", owned);
+  found.slice_start = uninitialised<int>("rows.slice_start", slices + 1);
   Kokkos::parallel_for("count_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                       CountNeighbours{search, spare.length, faults});
+                       CountNeighbours{search, found.length, faults});
   int total = 0;
   Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices)),
-                        ScanSlices{spare.length, spare.slice_start, particles.owned}, total);
-  make_room(spare, rows, std::max<std::size_t>(static_cast<std::size_t>(total), 1) * lane_count, owned, slices);
+                        ScanSlices{found.length, found.slice_start, particles.owned}, total);
+  std::size_t const entries = std::max<std::size_t>(static_cast<std::size_t>(total), 1) * lane_count,
+                    held = rows.neighbour.extent(0);
+  // A little more than needed, so that the next search finds fields of the right size.
+  std::size_t const size = held >= entries && held <= entries + entries / 8 ? held : entries + entries / 16;
+  found.neighbour = uninitialised<int>("rows.neighbour", size);
+  Field<int> const source = uninitialised<int>("rows.source", size);
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
-                       FillRows{search, spare});
-  std::swap(rows, spare);
-  std::swap(rows.width, spare.width);  // set anew by prepare_rows(): one of each is enough
-  std::swap(rows.active, spare.active);
+                       FillRows{search, found, source});
+  carry_history(rows, found, source, entries);
 }
 
 }  // namespace clathra

@@ -20,11 +20,14 @@ struct Relocation {
 Relocation sort_in_space(ParticleSoA& particles, ContactRows const& rows, Real skin);
 
 /// Replaces `rows` by rows of all pairs closer than `skin` [m] (surface to surface), plus all bonded pairs at any distance.
-/// History is kept by the pair's ids. `spare` is storage swapped with `rows`; keep it between calls to save allocations.
+/// History is kept by the pair's ids.
 /// @param bonded_gap  widest_bonded_gap() before the discs were sorted [m]
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
-void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& relocation, ContactRows& rows, ContactRows& spare,
+void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& relocation, ContactRows& rows,
                      Faults const& faults, Real bonded_gap);
+
+/// Bytes that a search needs beside the rows themselves.
+std::size_t search_bytes(ContactRows const& rows);
 
 /// The widest gap of an intact bond [m] in the present state; 0 without bonds.
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows);
