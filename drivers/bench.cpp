@@ -49,7 +49,8 @@ std::string card_text(nlohmann::ordered_json const& c) {
       "particle steps    {:.4g} million a second\n"
       "contact steps     {:.4g} million a second (pairs that touch or are bonded)\n"
       "memory            {:.0f} bytes a disc\n"
-      "bandwidth         {:.3g} % of the {:.3g} GB/s that reading reaches ({:.0f} bytes a disc and step at the least)\n"
+      "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a disc and step at the "
+      "least)\n"
       "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
       c.at("discs").dump(), c.at("case").get<std::string>(), c.at("threads").dump(), c.at("lanes").dump(),
       c.at("backend").get<std::string>(), number("particle_steps_per_s") * 1e-6, number("contact_steps_per_s") * 1e-6,
@@ -65,7 +66,7 @@ ExitCode bench(BenchOptions options) {
   Simulation simulation = throughput_simulation(options.setup);
   measure_throughput(simulation, 0.2 * options.seconds);  // caches and clock speed settle
   Throughput const measured = measure_throughput(simulation, options.seconds);
-  nlohmann::ordered_json const result = card(options, simulation, measured, read_bandwidth());
+  nlohmann::ordered_json const result = card(options, simulation, measured, update_bandwidth(simulation.bytes()));
   return print_result(options.json ? result.dump(2) + "\n" : card_text(result));
 }
 

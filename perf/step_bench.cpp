@@ -1,7 +1,8 @@
 /// Whole-step throughput on fixed packings: particle-steps per second of Simulation::step() with walls, servo and neighbour
 /// searches.
 ///   step_bench [--discs N] [--case rolling|bonded] [--seconds S] [--repeat R] [--skin S]
-/// Threads: OMP_NUM_THREADS. Prints one row per repeat and the median. `clathra bench` gives a user the same numbers.
+/// Threads: OMP_NUM_THREADS. Prints one row per repeat, the median, and where the time of one more run went, kernel by kernel.
+/// `clathra bench` gives a user the same numbers.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "domain/throughput.hpp"
+#include "phases.hpp"
 
 namespace {
 
@@ -42,6 +44,25 @@ Options read_options(int argc, char** argv) {
   return options;
 }
 
+/// The kernels that took the most time, in ns a disc and step and in shares of the step.
+void print_phases(Simulation& simulation, double seconds) {
+  Phases const listening;
+  Throughput const t = measure_throughput(simulation, seconds);
+  double const disc_steps = static_cast<double>(t.steps) * simulation.discs();
+  std::vector<std::pair<double, std::string>> phases;
+  double in_kernels = 0;
+  for (auto const& [label, time] : Phases::seconds()) {
+    phases.emplace_back(time, label);
+    in_kernels += time;
+  }
+  phases.emplace_back(t.seconds - in_kernels, "between kernels");
+  std::sort(phases.rbegin(), phases.rend());
+  std::printf("phase,ns_per_particle_step,share\n");
+  for (auto const& [time, label] : phases) {
+    if (time > 0.002 * t.seconds) std::printf("%s,%.3f,%.3f\n", label.c_str(), 1e9 * time / disc_steps, time / t.seconds);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,5 +85,6 @@ int main(int argc, char** argv) {
   }
   std::sort(rates.begin(), rates.end());
   std::printf("median %.4g particle-steps/s\n", rates[rates.size() / 2]);
+  print_phases(simulation, options.seconds);
   return 0;
 }

@@ -75,10 +75,13 @@ StageRecord predict(Scene const& scene) {
   p["wave_number"] = rate.wave_number;
   p["steps"] = std::ceil(scene.test.axial_strain / (rate.strain_rate * p["time_step_s"]));
   p["disc_steps"] = p["steps"] * discs;
-  // 15 fields a disc, and about seven row entries of an index and one to five numbers, in two buffers.
-  double const per_entry = 4 + 8 * (1 + (scene.grains.shape_factor > 0 || bonded ? 1 : 0) + (bonded ? 1 : 0) +
-                                    (bonded && scene.bond.composite == Composite::parallel ? 2 : 0));
-  p["memory_bytes"] = discs * (15 * 8 + 2 * 7 * per_entry + 120) + 60e6;
+  // 15 fields a disc, and about six row entries of an index and one to six numbers, with two indices and one number more while
+  // neighbours are searched.
+  double const per_entry = 4 +
+                           8 * (1 + (scene.grains.shape_factor > 0 || bonded ? 1 : 0) + (bonded ? 2 : 0) +
+                                (bonded && scene.bond.composite == Composite::parallel ? 2 : 0)) +
+                           16;
+  p["memory_bytes"] = discs * (15 * 8 + 6 * per_entry + 120) + 60e6;
   constexpr double snapshot_bytes = 35;  // a disc, compressed
   p["disk_bytes"] = discs * 2 * 150 + scene.output.records * 400 + (bonded ? discs * 40 : 0) +
                     (scene.output.snapshots > 0 ? discs * snapshot_bytes * (scene.output.snapshots + 1) : 0);

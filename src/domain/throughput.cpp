@@ -31,26 +31,20 @@ double moved_bytes(Simulation const& simulation) {
   double const entries = static_cast<double>(simulation.contact_entries()) / simulation.discs();
   ContactFeatures const features = simulation.rows().features;
   double const histories = 1 + (features.rolling || features.bonds ? 1 : 0) + (features.separate_bond ? 2 : 0);
-  double const row = sizeof(int) + sizeof(Real) * (2 * histories + (features.bonds ? 1 : 0));
+  double const row = sizeof(int) + sizeof(Real) * (2 * histories + (features.bonds ? 2 : 0));
   constexpr double contact_pass = 6 + 3, drift = 13 + 6;  // fields of a disc
   return entries * row + sizeof(Real) * (contact_pass + drift);
 }
 
-constexpr int block = 64 * lane_count;  // numbers that one call reads
+constexpr int block = 64 * lane_count;  // numbers that one call updates
 
-/// Reads a block with several sums at once, so that the memory and not the adder sets the pace.
-struct ReadBlock {
+struct UpdateBlock {
   Field<Real> values;
-  KOKKOS_FUNCTION void operator()(int i, Real& largest_sum) const {
-    Lanes a(0), b(0), c(0), d(0);
-    for (int k = 0; k < block; k += 4 * lane_count) {
-      Real const* const from = &values(static_cast<std::size_t>(i) * block + static_cast<std::size_t>(k));
-      a += load(from);
-      b += load(from + lane_count);
-      c += load(from + 2 * lane_count);
-      d += load(from + 3 * lane_count);
+  KOKKOS_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < block; k += lane_count) {
+      Real* const at = &values(static_cast<std::size_t>(i) * block + static_cast<std::size_t>(k));
+      store(at, load(at) + Lanes(1));
     }
-    largest_sum = lane_max(largest_sum, largest((a + b) + (c + d)));
   }
 };
 
@@ -106,16 +100,19 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   return result;
 }
 
-double read_bandwidth() {
-  constexpr int blocks = (1 << 27) / block;  // 1 GiB
+double update_bandwidth(std::size_t bytes) {
+  auto const blocks = static_cast<int>(std::max<std::size_t>(bytes / (block * sizeof(Real)), 1));
   Field<Real> const values("bandwidth", static_cast<std::size_t>(blocks) * block);
+  double const moved = 2.0 * blocks * block * sizeof(Real);
+  int const passes = static_cast<int>(std::max(1.0, 2e8 / moved));  // long enough for the clock
   double best = 0;
-  for (int n = 0; n < 3; ++n) {
+  for (int n = 0; n < 5; ++n) {
     Kokkos::Timer const clock;
-    Real sum = 0;
-    Kokkos::parallel_reduce("read_bandwidth", Kokkos::RangePolicy<ExecutionSpace>(0, blocks), ReadBlock{values},
-                            Kokkos::Max<Real>(sum));
-    best = std::max(best, static_cast<double>(blocks) * block * sizeof(Real) / clock.seconds());
+    for (int pass = 0; pass < passes; ++pass) {
+      Kokkos::parallel_for("update_bandwidth", Kokkos::RangePolicy<ExecutionSpace>(0, blocks), UpdateBlock{values});
+    }
+    Kokkos::fence();
+    best = std::max(best, passes * moved / clock.seconds());
   }
   return best;
 }

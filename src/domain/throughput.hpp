@@ -33,7 +33,8 @@ struct Throughput {
 /// Steps for about so many seconds. @throws Diverged
 Throughput measure_throughput(Simulation& simulation, double seconds);
 
-/// Bandwidth of reading a gigabyte with all threads [bytes/s], the best of three.
-double read_bandwidth();
+/// Bandwidth of reading and writing so many bytes over and over with all threads [bytes/s, both counted], the best of five: the
+/// limit of what a specimen of that size could move, from a cache if it fits in one.
+double update_bandwidth(std::size_t bytes);
 
 }  // namespace clathra
