@@ -13,9 +13,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import EllipseCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.patches import Rectangle
 from PIL import Image
+from specimen_and_curve import circles
 
 CELL = 15  # mean diameters
 
@@ -23,7 +24,7 @@ CELL = 15  # mean diameters
 def void_ratio(x, y, radius, left, right, bottom, top):
     """In square cells: the area of a disc goes to the cells around its centre by its bounding square's share in each."""
     size = CELL * 2 * radius.mean()
-    cells = [int((right - left) / size), int((top - bottom) / size)]
+    cells = [max(2, int((right - left) / size)), max(2, int((top - bottom) / size))]
     solid = np.zeros(cells)
     step = [(right - left) / cells[0], (top - bottom) / cells[1]]
     parts = (np.arange(5) - 2) / 2.5
@@ -57,10 +58,8 @@ def main():
         corner = (middle[0] - width / 2, middle[1] - height / 2)
         before.add_patch(Rectangle(corner, width, height, fill=False, edgecolor="#d55e00", linewidth=1.2, zorder=3))
         inside = (abs(x - middle[0]) < width / 2 + radius) & (abs(y - middle[1]) < height / 2 + radius)
-        size = 2 * radius[inside]
-        axis.add_collection(EllipseCollection(size, size, np.zeros_like(size), units="xy", offsets=np.column_stack((x, y))[inside],
-                                              offset_transform=axis.transData, facecolors="#dccba8", edgecolors="#8a744a",
-                                              linewidths=min(0.8, 0.003 * 300 / width)))
+        axis.add_collection(PolyCollection(circles(np.column_stack((x, y))[inside], 2 * radius[inside], 40), facecolors="#dccba8",
+                                           edgecolors="#8a744a", linewidths=min(0.8, 0.9 / width)))
         axis.set(xlim=(corner[0], corner[0] + width), ylim=(corner[1], corner[1] + height))
         axis.set_title(f"{width:.3g} mm wide, {np.count_nonzero(inside):,} discs", fontsize=10)
     for axis in axes:
@@ -68,7 +67,7 @@ def main():
     if options.output.endswith(".png"):
         buffer = io.BytesIO()
         figure.savefig(buffer, format="png")
-        Image.open(buffer).convert("RGB").quantize(32, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(options.output, optimize=True)
+        Image.open(buffer).convert("RGB").quantize(32, method=1, dither=0).save(options.output, optimize=True)
     else:
         figure.savefig(options.output)
 

@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from curves import label_of, read_history
-from matplotlib.collections import EllipseCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, to_rgb
 from PIL import Image
 
@@ -80,6 +80,12 @@ class Moment:
         return 100 * np.log(stretches[..., 0] / stretches[..., 1]), now
 
 
+def circles(position, diameter, corners):
+    """The discs as polygons."""
+    angle = np.arange(corners) * 2 * np.pi / corners
+    return position[:, None, :] + diameter[:, None, None] / 2 * np.column_stack((np.cos(angle), np.sin(angle)))
+
+
 def draw_shear(axis, moment):
     values, (x, y) = moment.shear()
     axis.set_facecolor(plt.get_cmap("viridis")(0))
@@ -87,11 +93,10 @@ def draw_shear(axis, moment):
 
 
 def draw_lost(axis, moment):
-    diameter = 1.2 * moment.diameter  # the gaps between the discs say nothing here
-    discs = EllipseCollection(diameter, diameter, np.zeros_like(diameter), units="xy", offsets=moment.position,
-                              offset_transform=axis.transData, array=moment.lost, cmap=LOST, clim=(0, 100), linewidths=0,
-                              antialiaseds=False)
-    return axis.add_collection(discs), "lost bonds of a disc [%]"
+    wider = 1.2 * moment.diameter  # the gaps between the discs say nothing here
+    shapes = PolyCollection(circles(moment.position, wider, 10), array=moment.lost, cmap=LOST, linewidths=0, antialiaseds=False)
+    shapes.set_clim(0, 100)
+    return axis.add_collection(shapes), "lost bonds of a disc [%]"
 
 
 def draw_specimen(figure, left_edge, moment, draw):
@@ -123,7 +128,7 @@ def save(figure, output):
     palette.putpalette([round(255 * part) for colour in colours for part in colour])
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png")
-    Image.open(buffer).convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE).save(output, optimize=True)
+    Image.open(buffer).convert("RGB").quantize(palette=palette, dither=0).save(output, optimize=True)
 
 
 def main():
