@@ -21,6 +21,7 @@ import numpy as np
 from curves import label_of, read_history
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, to_rgb
+from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 LOST = LinearSegmentedColormap.from_list("lost", ["0.9", "#f0b890", "#d55e00", "#a03000"])
@@ -150,6 +151,7 @@ def main():
     draw_curves(q_axis, v_axis, options.folder, color=LINE, linewidth=1.5)
     for axis in (q_axis, v_axis):
         axis.axvline(100 * early.eps1, color=MARK, linewidth=0.8, linestyle=":")
+        axis.yaxis.set_major_locator(MaxNLocator(5, integer=True))
         axis.grid(color="0.93", linewidth=0.6)
     q_axis.set(ylabel="$q$ [MPa]", ylim=(0, None), xlim=(0, None))
     v_axis.set(ylabel=r"$\varepsilon_v$ [%]", xlabel=r"$\varepsilon_1$ [%]")
