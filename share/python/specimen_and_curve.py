@@ -49,7 +49,7 @@ class Moment:
         return 100 * (2 * self.eps1 - self.eps_v)
 
     def shear(self):
-        """Shear strain [%] in cells of the undeformed specimen, and where their middles are now: ln(l1/l2) of the F fitted over 3 x 3 cells."""
+        """Shear strain [%], ln(l1/l2) of the F fitted over 3 x 3 cells of the undeformed specimen, and where the cells are now."""
         first = self.position - self.displacement
         first -= first.min(axis=0)
         size = self.diameter.mean() * WINDOW / 3
