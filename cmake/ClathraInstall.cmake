@@ -54,7 +54,8 @@ install(
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/share/paraview ${PROJECT_SOURCE_DIR}/share/python
   DESTINATION ${CMAKE_INSTALL_DATADIR}/clathra
-  COMPONENT program)
+  COMPONENT program
+  PATTERN __pycache__ EXCLUDE)
 install(
   FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${clathra_docs_folder}

@@ -20,7 +20,11 @@ if [ "$viewer" = paraview ]; then
 else
   "$interpreter" "$project/share/python/curves.py" "$folder/out" -o "$folder/curves.pdf"
   "$interpreter" "$project/share/python/bonds.py" "$(find "$folder/out/snap" -name '*.h5' | sort | tail -n 1)" -o "$folder/bonds.pdf"
-  for picture in curves bonds; do
-    [ "$(stat -c %s "$folder/$picture.pdf")" -gt 5000 ] || { echo "$picture.pdf is all but empty"; exit 1; }
+  "$interpreter" "$project/share/python/specimen_and_curve.py" "$folder/out" -o "$folder/test.pdf" --strain 0.005 --beside "$folder/out"
+  "$interpreter" "$project/share/python/specimen_and_curve.py" "$folder/out" -o "$folder/test.png"
+  "$interpreter" "$project/share/python/grains.py" "$folder/out/final.h5" -o "$folder/grains.pdf"
+  "$interpreter" "$project/share/python/grains.py" "$folder/out/final.h5" -o "$folder/grains.png"
+  for picture in curves.pdf bonds.pdf test.pdf test.png grains.pdf grains.png; do
+    [ "$(stat -c %s "$folder/$picture")" -gt 5000 ] || { echo "$picture is all but empty"; exit 1; }
   done
 fi

@@ -52,4 +52,5 @@ def main():
     figure.savefig(options.output)
 
 
-main()
+if __name__ == "__main__":
+    main()
