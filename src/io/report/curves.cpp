@@ -60,7 +60,7 @@ std::string intact_figure(std::vector<RunResults> const& runs) {
   std::vector<RunResults> bonded;
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(bonded), [](RunResults const& run) { return run.has_bonds(); });
   if (bonded.empty()) return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
-  Plot plot = plot_of(runs, "intact_initial_pct", 1, "intact bonds [% of those at the start]");
+  Plot plot = plot_of(runs, "intact_initial_pct", 1, "intact bonds [% of those installed]");
   for (std::size_t i = runs.size(); i-- > 0;)
     if (!runs[i].has_bonds()) plot.curves.erase(plot.curves.begin() + static_cast<std::ptrdiff_t>(i));
   plot.title = "Share of intact bonds against axial strain";
