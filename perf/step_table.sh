@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# The table of perf/machines/<machine>-steps.md: step_bench on packings of 20,000, 200,000 and 1,000,000 discs with 1 and 2 threads.
+#   perf/step_table.sh [DISCS ...]        about ten minutes on 2 free cores; standard output is the table
+set -euo pipefail
+bench="$(dirname "${BASH_SOURCE[0]}")/../build/release/perf/step_bench"
+sizes=("$@")
+[ ${#sizes[@]} -gt 0 ] || sizes=(20000 200000 1000000)
+
+echo "| case | discs | threads | M particle-steps/s | M contact-steps/s | neighbour search | bytes a disc | contact kernel | drift |"
+echo "|---|---|---|---|---|---|---|---|---|"
+for discs in "${sizes[@]}"; do
+  for case in rolling bonded; do
+    for threads in 1 2; do
+      OMP_NUM_THREADS=$threads OMP_PROC_BIND=false "$bench" --case $case --discs "$discs" --seconds 3 --repeat 3 |
+        awk -F, -v OFS=' | ' '
+          $1 == "rolling" || $1 == "bonded" { n++; rate[n] = $5; row[n] = $0 }
+          $1 ~ /^contact_forces/ { contact = $2 " ns" }
+          $1 == "kick_and_drift" { drift = $2 " ns" }
+          END {
+            middle = 1
+            for (k = 1; k <= n; k++) {
+              below = 0
+              for (m = 1; m <= n; m++) if (rate[m] < rate[k] || (rate[m] == rate[k] && m < k)) below++
+              if (below == int(n / 2)) middle = k
+            }
+            split(row[middle], f, ",")
+            printf "| %s | %d | %d | %.1f | %.1f | %.1f %% | %d | %s | %s |\n", f[1], f[2], f[3], f[5] / 1e6, f[7] / 1e6, 100 * f[10], f[11], contact, drift
+          }'
+    done
+  done
+done
