@@ -264,10 +264,10 @@ void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& 
   int total = 0;
   Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices)),
                         ScanSlices{found.length, found.slice_start, particles.owned}, total);
-  std::size_t const entries = std::max<std::size_t>(static_cast<std::size_t>(total), 1) * lane_count,
-                    held = rows.neighbour.extent(0);
-  // A little more than needed, so that the next search finds fields of the right size.
-  std::size_t const size = held >= entries && held <= entries + entries / 8 ? held : entries + entries / 16;
+  std::size_t const entries = static_cast<std::size_t>(total) * lane_count, held = rows.neighbour.extent(0);
+  // A little more than needed, so that the next search finds fields of the right size; never nothing.
+  std::size_t const wanted = std::max<std::size_t>(entries, lane_count);
+  std::size_t const size = held >= wanted && held <= wanted + wanted / 8 ? held : wanted + wanted / 16;
   found.neighbour = uninitialised<int>("rows.neighbour", size);
   Field<int> const source = uninitialised<int>("rows.source", size);
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
