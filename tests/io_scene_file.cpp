@@ -269,6 +269,12 @@ TEST(SceneFile, TheResolvedEchoLoadsToTheSameScene) {
   for (Key const& key : schema()) EXPECT_EQ(value_text(key, first.scene), value_text(key, again)) << key.name;
 }
 
+TEST(SceneFile, ANegativeZeroIsZero) {
+  Scene const scene = load("[sample]\nparticles = 110\n[hydrate]\nsaturation = \"-0 %\"\n").scene;
+  EXPECT_FALSE(std::signbit(scene.hydrate.saturation));
+  EXPECT_EQ(scene.hydrate.saturation, 0);
+}
+
 TEST(SceneFile, EveryExampleIsRight) {
   int count = 0;
   for (auto const& entry : std::filesystem::recursive_directory_iterator(CLATHRA_EXAMPLES)) {

@@ -43,7 +43,7 @@ void check_range(Key const& key, double value, bool bare) {
 void set_quantity(Key const& key, Scene& scene, double value, bool bare) {
   if (!std::isfinite(value)) refuse("must be finite");
   check_range(key, value, bare);
-  std::get<double& (*)(Scene&)>(key.field)(scene) = value;
+  std::get<double& (*)(Scene&)>(key.field)(scene) = value + 0.0;  // "-0" is written back as "0"
 }
 
 void store_integer(Key const& key, Scene& scene, std::int64_t value) {
