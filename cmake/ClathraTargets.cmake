@@ -1,10 +1,13 @@
 include(GNUInstallDirs)
 
-# clathra_layer(NAME LINK targets...): the library of the current folder, from all its *.cpp and those of its subfolders. A
-# folder without sources makes an INTERFACE library, so that what stands above it can be configured.
+# clathra_layer(NAME LINK targets... [EXCLUDE regex]): the library of the current folder, from all its *.cpp and those of its
+# subfolders. A folder without sources makes an INTERFACE library, so that what stands above it can be configured.
 function(clathra_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXCLUDE" "LINK")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(arg_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX ${arg_EXCLUDE})
+  endif()
   set(include_folder $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/clathra>)
   if(sources)
     add_library(${name} STATIC ${sources})

@@ -1,7 +1,6 @@
 /// Runs that cannot go on are stopped within 200 steps, naming a disc and the step.
 #include <limits>
 
-#include "kernels/stability.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -15,7 +14,7 @@ Simulation pressed_packing(double dt_share = 0.7) {
   Specimen s = disordered_patch(10, 10, 0.02);
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
-  sim.time_step = dt_share * local_time_step(sim.particles(), sim.rows(), sim.laws().contact);
+  sim.time_step = dt_share * sim.stable_time_step();
   sim.loading.x = sim.loading.y = AxisDrive::at_rate(100);
   return sim;
 }
@@ -136,7 +135,7 @@ TEST(ExtremeSizes, RestTogetherUnderStress) {
   SimulationLaws laws = sand_laws();
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 0.5 * grain_radius);
-  sim.time_step = 0.7 * local_time_step(sim.particles(), sim.rows(), sim.laws().contact);
+  sim.time_step = 0.7 * sim.stable_time_step();
   sim.loading.x = sim.loading.y = AxisDrive::at_stress(1e5, 0.5);
   for (int n = 0; n < 40000; ++n) sim.step();
   sim.loading.x = sim.loading.y = AxisDrive::held();
@@ -155,8 +154,8 @@ TEST(SmallestSpecimen, OfOneDiscFallsAndBounces) {
   Simulation sim(s, laws, 1e-7);
   sim.time_step = 1e-7;
   EXPECT_EQ(sim.measures().touching, 0);
-  EXPECT_GT(local_time_step(sim.particles(), sim.rows(), sim.laws().contact), 0);
-  EXPECT_EQ(largest_frequency(sim.particles(), sim.rows(), sim.laws().contact, sim.wall_contacts(), sim.walls(), laws.wall), 0);
+  EXPECT_GT(sim.stable_time_step(), 0);
+  EXPECT_EQ(sim.largest_frequency(), 0);
   double lowest = 1;
   for (int n = 0; n < 9000; ++n) {  // 2 sqrt(2 h / g) = 0.9 ms
     sim.step();

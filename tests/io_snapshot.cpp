@@ -36,12 +36,12 @@ class SnapshotFile : public testing::Test {
   void SetUp() override {
     fs::create_directories(folder);
     Simulation sim = squeezed_patch();
-    ReferencePositions const start = reference_positions(sim);
+    sim.mark_start();
     for (int n = 0; n < 4000; ++n) sim.step();
     broken = sim.break_events(0);
     measures = sim.measures();
     area = sim.area();
-    snapshot = take_snapshot(sim, start);
+    snapshot = take_snapshot(sim);
     snapshot.d50 = grain_d50;
     snapshot.events = broken;
   }
@@ -211,17 +211,17 @@ Simulation million_discs() {
 }
 
 TEST_F(SnapshotFile, LongAMillionDiscsAreWrittenInTenSecondsAndThirtyMegabytes) {
-  Simulation const sim = million_discs();
-  ReferencePositions reference = reference_positions(sim);
-  for (std::size_t i = 0; i < reference.x.size(); ++i) {  // half a per cent of strain, and a twentieth of a grain off it
-    reference.x[i] *= 1.002;
-    reference.y[i] *= 0.995;
-    reference.x[i] += 1e-5 * (uniform_random(2, 1, i) - 0.5);
-    reference.y[i] += 1e-5 * (uniform_random(2, 2, i) - 0.5);
-  }
+  Simulation sim = million_discs();
+  sim.mark_start();
+  auto const x = sim.start_x(), y = sim.start_y();
+  Kokkos::parallel_for(  // half a per cent of strain, and a twentieth of a grain off it
+      sim.discs(), KOKKOS_LAMBDA(int i) {
+        x(i) = 1.002 * x(i) + 1e-5 * (uniform_random(2, 1, static_cast<std::uint64_t>(i)) - 0.5);
+        y(i) = 0.995 * y(i) + 1e-5 * (uniform_random(2, 2, static_cast<std::uint64_t>(i)) - 0.5);
+      });
   ASSERT_NEAR(sim.discs(), 1e6, 2e4);
   auto const start = std::chrono::steady_clock::now();
-  Snapshot big = take_snapshot(sim, reference);
+  Snapshot big = take_snapshot(sim);
   big.d50 = grain_d50;
   write_snapshot(folder / "big.h5", big);
   double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

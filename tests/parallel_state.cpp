@@ -1,48 +1,9 @@
 /// The same bits whatever the threads, the order of the input and the way through a specimen. The packings are made by hand with
 /// + - * / and sqrt alone, so that their golden values do not lean on any libm.
-#include "kernels/stability.hpp"
-#include "scenes.hpp"
+#include "golden_states.hpp"
 
 namespace clathra {
 namespace {
-
-Specimen bonded_patch(Composite composite) {
-  Specimen s = disordered_patch(20, 20);
-  for (std::size_t i = 0; i < s.size(); ++i) {  // many contacts are loaded when the bonds form
-    s.x[i] *= 0.98;
-    s.y[i] *= 0.98;
-  }
-  enclose(s);
-  bond_all(s, hydrate_scene(0.41, composite));
-  return s;
-}
-
-/// Sheared through breakage.
-Simulation ready(Specimen const& s, Composite composite) {
-  SimulationLaws laws = bonded_laws(hydrate_scene(0.41, composite), s.critical_thickness);
-  laws.motion.damping = 0.3;
-  laws.wall.friction = 0.2;
-  laws.contact.grain.damping_ratio = 0.02;
-  Simulation sim(s, laws, 0.05 * grain_d50);
-  sim.time_step = 1e-7;
-  sim.loading.y = AxisDrive::at_rate(200);
-  sim.loading.x = AxisDrive::at_rate(-60);
-  return sim;
-}
-Simulation sheared(Specimen const& s, Composite composite, int steps = 3000) {
-  Simulation sim = ready(s, composite);
-  for (int n = 0; n < steps; ++n) sim.step();
-  return sim;
-}
-
-struct Golden {
-  Composite composite;
-  std::uint64_t hash;
-  int broken;
-};
-constexpr Golden golden[] = {{Composite::replace, 0xcd0fb531f7ca43bcULL, 211},
-                             {Composite::parallel, 0x931d29321efb401eULL, 476},
-                             {Composite::memory, 0x7bc8460515ada0adULL, 269}};
 
 TEST(State, AfterThousandsOfStepsThroughBreakageIsTheGoldenOne) {
   for (Golden const& g : golden) {

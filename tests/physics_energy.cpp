@@ -1,5 +1,4 @@
 /// The energy ledger: no account is computed as the remainder, so the remainder is the test.
-#include "kernels/stability.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -75,7 +74,7 @@ Balance shear_packing(Composite composite, double dt_share, double dashpot) {
   laws.wall.friction = 0.2;
   laws.contact.grain.damping_ratio = dashpot;
   Simulation sim(s, laws, 0.05 * grain_d50);
-  sim.time_step = dt_share * local_time_step(sim.particles(), sim.rows(), sim.laws().contact);
+  sim.time_step = dt_share * sim.stable_time_step();
   sim.set_ledger(true);
   sim.loading.y = AxisDrive::at_rate(300);
   double const start = stored(sim.measures());

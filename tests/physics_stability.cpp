@@ -1,5 +1,4 @@
 /// The stable time step: estimate, power iteration and what really happens, against exact limits.
-#include "kernels/stability.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -11,11 +10,8 @@ SimulationLaws equal_springs() {
   return laws;
 }
 
-double exact_limit(Simulation const& sim, int iterations) {
-  return 2 / largest_frequency(sim.particles(), sim.rows(), sim.laws().contact, sim.wall_contacts(), sim.walls(), sim.laws().wall,
-                               iterations);
-}
-double estimate(Simulation const& sim) { return local_time_step(sim.particles(), sim.rows(), sim.laws().contact); }
+double exact_limit(Simulation const& sim, int iterations) { return 2 / sim.largest_frequency(iterations); }
+double estimate(Simulation const& sim) { return sim.stable_time_step(); }
 
 /// In units of sqrt(m / k_n).
 double unit_time() { return std::sqrt(grain_mass() / sand_kn); }

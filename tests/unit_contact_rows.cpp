@@ -1,5 +1,4 @@
 /// What the rows keep beside the history, against doing without it.
-#include "kernels/stability.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -11,7 +10,7 @@ Simulation crushed_packing(Composite composite) {
   Specimen s = disordered_patch(10, 10, 0.03);
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
-  sim.time_step = 0.5 * local_time_step(sim.particles(), sim.rows(), sim.laws().contact);
+  sim.time_step = 0.5 * sim.stable_time_step();
   sim.loading.x = AxisDrive::at_rate(-200);
   sim.loading.y = AxisDrive::at_rate(500);
   return sim;

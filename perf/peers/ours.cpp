@@ -58,7 +58,7 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
 }
 
 double stable_step(Simulation const& simulation, Scene const& scene) {
-  return scene.run.dt_safety * local_time_step(simulation.particles(), simulation.rows(), simulation.laws().contact);
+  return scene.run.dt_safety * simulation.stable_time_step();
 }
 
 template <class T>
@@ -98,7 +98,7 @@ void write_for_peers(char const* path, std::string const& folder) {
 
 /// Stress of the contacts between discs [Pa], without those at the walls: all that the peers report alike.
 void print_stress(Simulation const& simulation) {
-  Snapshot const s = take_snapshot(simulation, reference_positions(simulation));
+  Snapshot const s = take_snapshot(simulation);
   double xx = 0, yy = 0;
   for (std::size_t k = 0; k < s.a.size(); ++k) {
     auto const a = static_cast<std::size_t>(s.a[k]), b = static_cast<std::size_t>(s.b[k]);

@@ -7,7 +7,6 @@
 #include "domain/quasi_static.hpp"
 #include "domain/sample_design.hpp"
 #include "domain/settling.hpp"
-#include "kernels/stability.hpp"
 
 namespace clathra {
 
@@ -51,7 +50,6 @@ struct BiaxialTest::State {
   std::int64_t disc_steps = 0;
   int events_taken = 0;
   EnergyRow start;
-  ReferencePositions reference;
 
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   void consolidate(double stress, ProgressCallback const& progress);
@@ -117,9 +115,8 @@ void BiaxialTest::State::begin_shear() {
   SimulationLaws laws = s.laws();
   laws.motion.damping = scene.run.damping;
   s.set_laws(laws);
-  s.time_step = scene.run.dt_safety * local_time_step(s.particles(), s.rows(), s.laws().contact);
-  double const frequency =
-      largest_frequency(s.particles(), s.rows(), s.laws().contact, s.wall_contacts(), s.walls(), s.laws().wall);
+  s.time_step = scene.run.dt_safety * s.stable_time_step();
+  double const frequency = s.largest_frequency();
   preparation["time_step_s"] = s.time_step;
   preparation["time_step_margin"] = frequency > 0 ? 2 / frequency / s.time_step : 0;
   if (frequency > 0 && s.time_step > 2 / frequency)
@@ -138,7 +135,7 @@ void BiaxialTest::State::begin_shear() {
   steps_per_record = std::max<std::int64_t>(1, std::llround(steps / scene.output.records));
   events_taken = s.broken_bonds();
   bonds0 = std::llround(s.measures().bonded) + events_taken;
-  if (scene.output.snapshots > 0) reference = reference_positions(s);
+  if (scene.output.snapshots > 0) s.mark_start();
   preparation["broken_in_consolidation"] = events_taken;
   preparation["bytes_per_disc"] = static_cast<double>(s.bytes()) / s.discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
@@ -176,7 +173,7 @@ Specimen BiaxialTest::specimen() const {
 
 Snapshot BiaxialTest::snapshot() const {
   Simulation const& s = *state_->simulation;
-  Snapshot snapshot = take_snapshot(s, state_->reference);
+  Snapshot snapshot = take_snapshot(s);
   snapshot.step = s.steps() - state_->first_step;
   snapshot.time = static_cast<double>(snapshot.step) * s.time_step;
   snapshot.eps1 = std::log(state_->height0 / height_of(s));

@@ -1,89 +1,143 @@
 #include "domain/halo.hpp"
 
-#include <stdexcept>
+#include <type_traits>
 
 namespace clathra {
 
 namespace {
 
-struct Wrap {
+/// Lists the discs that lie within reach of a rectangle.
+struct ListNear {
   ParticleSoA p;
-  PeriodicCell cell;
-  KOKKOS_FUNCTION void operator()(int i) const {
-    while (p.x(i) < cell.left) p.x(i) += cell.width;
-    while (p.x(i) >= cell.left + cell.width) p.x(i) -= cell.width;
-    while (p.y(i) < cell.bottom) p.y(i) += cell.height;
-    while (p.y(i) >= cell.bottom + cell.height) p.y(i) -= cell.height;
-  }
-};
-
-/// The images of one disc: up to three where it lies near a corner.
-struct ListImages {
-  ParticleSoA p;
-  PeriodicCell cell;
+  Rectangle r;
   Real reach;
-  Field<int> source, shift_x, shift_y;
-  bool counting;
+  Field<int> near;
   KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
-    int const sx = p.x(i) < cell.left + reach ? 1 : p.x(i) >= cell.left + cell.width - reach ? -1 : 0;
-    int const sy = p.y(i) < cell.bottom + reach ? 1 : p.y(i) >= cell.bottom + cell.height - reach ? -1 : 0;
-    if (sx != 0) add(i, sx, 0, slot, final);
-    if (sy != 0) add(i, 0, sy, slot, final);
-    if (sx != 0 && sy != 0) add(i, sx, sy, slot, final);
-  }
-  KOKKOS_INLINE_FUNCTION void add(int i, int sx, int sy, int& slot, bool final) const {
-    if (final && !counting) {
-      source(slot) = i;
-      shift_x(slot) = sx;
-      shift_y(slot) = sy;
-    }
+    Coord const x = p.x(i), y = p.y(i);
+    if (x < r.left - reach || x >= r.right + reach || y < r.bottom - reach || y >= r.top + reach) return;
+    if (final) near(slot) = i;
     ++slot;
   }
 };
 
-struct CopyImages {
-  ParticleSoA p;
-  PeriodicCell cell;
-  Field<int> source, shift_x, shift_y;
-  KOKKOS_FUNCTION void operator()(int g) const {
-    int const from = source(g), to = p.owned + g;
-    p.id(to) = p.id(from);
-    p.x(to) = p.x(from) + shift_x(g) * cell.width;
-    p.y(to) = p.y(from) + shift_y(g) * cell.height;
-    p.angle(to) = p.angle(from);
-    p.vx(to) = p.vx(from);
-    p.vy(to) = p.vy(from);
-    p.omega(to) = p.omega(from);
-    p.radius(to) = p.radius(from);
-    p.inverse_mass(to) = p.inverse_mass(from);
-    p.inverse_inertia(to) = p.inverse_inertia(from);
+struct PackColumn {
+  Field<Real> from, numbers;
+  Field<int> source;
+  int column, columns;
+  KOKKOS_FUNCTION void operator()(int k) const { numbers(k * columns + column) = from(source(k)); }
+};
+
+struct UnpackColumn {
+  Field<Real> numbers, to;
+  int first, column, columns;
+  KOKKOS_FUNCTION void operator()(int k) const { to(first + k) = numbers(k * columns + column); }
+};
+
+struct CopyIds {
+  Field<int> id;
+  Field<Real> as_number;
+  int count;
+  bool to_ids;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    if (to_ids)
+      id(i) = static_cast<int>(as_number(i));
+    else
+      as_number(i) = id(i);
   }
 };
 
-}  // namespace
-
-void Halo::rebuild(ParticleSoA& particles, PeriodicCell const& cell, Real reach) {
-  if (2 * reach > cell.width || 2 * reach > cell.height)
-    throw std::invalid_argument("the periodic cell is smaller than four disc diameters");
-  Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
-  particles.ghosts = 0;
-  Kokkos::parallel_for("wrap", each, Wrap{particles, cell});
-  int count = 0;
-  Kokkos::parallel_scan("count_images", each, ListImages{particles, cell, reach, source_, shift_x_, shift_y_, true}, count);
-  auto const images = static_cast<std::size_t>(count);
-  source_ = uninitialised<int>("halo.source", images);
-  shift_x_ = uninitialised<int>("halo.shift_x", images);
-  shift_y_ = uninitialised<int>("halo.shift_y", images);
-  Kokkos::parallel_scan("list_images", each, ListImages{particles, cell, reach, source_, shift_x_, shift_y_, false}, count);
-  reserve(particles, particles.owned + count);
-  particles.ghosts = count;
-  fill_padding(particles);
-  refresh(particles, cell);
+std::vector<Stretch> times(std::vector<Stretch> stretches, std::size_t columns) {
+  for (Stretch& s : stretches) {
+    s.begin *= columns;
+    s.size *= columns;
+  }
+  return stretches;
 }
 
-void Halo::refresh(ParticleSoA const& particles, PeriodicCell const& cell) const {
-  Kokkos::parallel_for("refresh_halo", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
-                       CopyImages{particles, cell, source_, shift_x_, shift_y_});
+std::size_t total(std::vector<Stretch> const& stretches) {
+  return stretches.empty() ? 0 : stretches.back().begin + stretches.back().size;
+}
+
+/// The stretches of a buffer that holds sizes[r] numbers for each rank r.
+std::vector<Stretch> stretches_of(std::vector<std::size_t> const& sizes) {
+  std::vector<Stretch> stretches;
+  std::size_t begin = 0;
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    if (sizes[r] > 0) stretches.push_back({static_cast<int>(r), begin, sizes[r]});
+    begin += sizes[r];
+  }
+  return stretches;
+}
+
+}  // namespace
+
+void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, Real reach) {
+  auto const count = static_cast<std::size_t>(ranks.count());
+  std::vector<Field<int>> near(count);
+  std::vector<std::size_t> sizes(count, 0);
+  std::vector<std::vector<double>> to(count);
+  particles.ghosts = 0;
+  for (int r = 0; r < ranks.count(); ++r) {
+    if (r == ranks.rank()) continue;
+    auto const at = static_cast<std::size_t>(r);
+    near[at] = uninitialised<int>("near", static_cast<std::size_t>(particles.owned));
+    int found = 0;
+    Kokkos::parallel_scan("list_near", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                          ListNear{particles, decomposition.rectangle(r), reach, near[at]}, found);
+    sizes[at] = static_cast<std::size_t>(found);
+    to[at] = {static_cast<double>(found)};
+  }
+  sent_ = stretches_of(sizes);
+  source_ = uninitialised<int>("halo.source", total(sent_));
+  for (Stretch const& s : sent_) {
+    Kokkos::deep_copy(Kokkos::subview(source_, std::pair(s.begin, s.begin + s.size)),
+                      Kokkos::subview(near[static_cast<std::size_t>(s.rank)], std::pair<std::size_t, std::size_t>(0, s.size)));
+  }
+  auto const from = ranks.exchange(to);
+  for (std::size_t r = 0; r < count; ++r) sizes[r] = from[r].empty() ? 0 : static_cast<std::size_t>(from[r][0]);
+  received_ = stretches_of(sizes);
+  auto const ghosts = static_cast<int>(total(received_));
+  reserve(particles, particles.owned + ghosts);
+  particles.ghosts = ghosts;
+  fill_padding(particles);
+  Field<Real> const id = uninitialised<Real>("id_as_number", particles.x.extent(0));
+  Kokkos::RangePolicy<ExecutionSpace> const all(0, particles.all());
+  Kokkos::parallel_for("ids_to_numbers", all, CopyIds{particles.id, id, particles.all(), false});
+  std::vector<Field<Real>> columns{id};
+  for_each_field(particles, [&](char const*, auto const& field) {
+    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) columns.push_back(field);
+  });
+  trade(ranks, particles, columns);
+  Kokkos::parallel_for("numbers_to_ids", all, CopyIds{particles.id, id, particles.all(), true});
+}
+
+void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
+  trade(ranks, particles, {particles.x, particles.y, particles.vx, particles.vy, particles.omega});
+}
+
+void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles, Field<Real> const& field) const {
+  trade(ranks, particles, {field});
+}
+
+void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Field<Real>> const& columns) const {
+  auto const width = static_cast<int>(columns.size());
+  Field<Real> const out = uninitialised<Real>("halo.out", source_.extent(0) * columns.size()),
+                    in = uninitialised<Real>("halo.in", static_cast<std::size_t>(particles.ghosts) * columns.size());
+  Kokkos::RangePolicy<ExecutionSpace> const each_sent(0, static_cast<int>(source_.extent(0))), each_ghost(0, particles.ghosts);
+  for (int c = 0; c < width; ++c)
+    Kokkos::parallel_for("pack_halo", each_sent, PackColumn{columns[static_cast<std::size_t>(c)], out, source_, c, width});
+  auto const host_out = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
+  auto host_in = Kokkos::create_mirror_view(in);
+  Kokkos::fence();
+  ranks.trade(host_out.data(), times(sent_, columns.size()), host_in.data(), times(received_, columns.size()));
+  Kokkos::deep_copy(in, host_in);
+  for (int c = 0; c < width; ++c)
+    Kokkos::parallel_for("unpack_halo", each_ghost,
+                         UnpackColumn{in, columns[static_cast<std::size_t>(c)], particles.owned, c, width});
+}
+
+std::size_t Halo::bytes() const {
+  return source_.span() * sizeof(int) + (source_.extent(0) + total(received_)) * 5 * sizeof(Real);
 }
 
 }  // namespace clathra

@@ -1,27 +1,26 @@
 #pragma once
-/// Images of discs across the boundary of a periodic cell, kept as ghosts behind the owned discs.
-#include "kernels/particles.hpp"
+/// Copies of the discs that other ranks own near this rank's rectangle, kept as ghosts behind the owned discs.
+#include "domain/decomposition.hpp"
 
 namespace clathra {
 
-/// A rectangular periodic cell. Its stretching is homogeneous: discs and images move with it.
-struct PeriodicCell {
-  Coord left = 0, bottom = 0;
-  Real width = 0, height = 0;  ///< [m]; 0 = not periodic
-  bool exists() const { return width > 0; }
-};
-
-/// The ghosts and the discs they are images of.
 class Halo {
  public:
-  /// Wraps the owned discs into the cell and appends images of all discs closer than `reach` [m] (centre to edge) to an edge.
-  void rebuild(ParticleSoA& particles, PeriodicCell const& cell, Real reach);
-  /// Gives every image the present state of its disc.
-  void refresh(ParticleSoA const& particles, PeriodicCell const& cell) const;
+  /// Replaces the ghosts by all discs of other ranks within `reach` [m] (centre to edge) of this rank's rectangle, and tells
+  /// these ranks to send them from now on.
+  void rebuild(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, Real reach);
+  /// Gives every ghost the present place and velocity of its disc.
+  void refresh(Ranks const& ranks, ParticleSoA const& particles) const;
+  /// Gives every ghost the value of its disc.
+  void refresh(Ranks const& ranks, ParticleSoA const& particles, Field<Real> const& field) const;
+  std::size_t discs_sent() const { return source_.extent(0); }
+  std::size_t bytes() const;
 
  private:
-  Field<int> source_;             // owned index of each ghost
-  Field<int> shift_x_, shift_y_;  // in cell sizes
+  void trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Field<Real>> const& columns) const;
+
+  Field<int> source_;                     ///< [sent] index of each disc that goes to another rank
+  std::vector<Stretch> sent_, received_;  ///< discs, by rank
 };
 
 }  // namespace clathra

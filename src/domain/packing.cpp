@@ -6,7 +6,6 @@
 #include "domain/loose_placement.hpp"
 #include "domain/random.hpp"
 #include "domain/settling.hpp"
-#include "kernels/stability.hpp"
 
 namespace clathra {
 
@@ -52,7 +51,7 @@ void compact(Simulation& simulation, double void_ratio, double stress, double sp
     double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.03, 1.0);
     simulation.loading.y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
     constexpr int look = 200;
-    simulation.time_step = 0.8 * local_time_step(simulation.particles(), simulation.rows(), simulation.laws().contact);
+    simulation.time_step = 0.8 * simulation.stable_time_step();
     mean_stress = 0;
     for (int n = 0; n < look && simulation.void_ratio() > void_ratio; ++n) {
       simulation.step();

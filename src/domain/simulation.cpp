@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "domain/migration.hpp"
+#include "kernels/stability.hpp"
+
 namespace clathra {
 
 namespace {
@@ -15,17 +18,23 @@ Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
 
 void Simulation::step() {
   loading.move(walls_, time_step);
+  Kokkos::Timer const moving;
   Real const farthest2 = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
+  busy_seconds_ += moving.seconds();
   if (periodic()) stretch_homogeneously();
-  if (rebuild_pending_ || outdated(farthest2)) {
+  if (rebuild_pending_ || outdated(ranks_.max(farthest2))) {
     rebuild();
   } else if (periodic()) {
-    halo_.refresh(particles_, cell_);
+    images_.refresh(particles_, cell_);
+  } else if (!ranks_.alone()) {
+    halo_.refresh(ranks_, particles_);
   }
   WallReactions const before = reactions_;
+  Kokkos::Timer const pushing;
   compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, breaks_, losses_, faults_);
+  busy_seconds_ += pushing.seconds();
   if (!periodic()) {
-    reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, time_step, losses_, faults_);
+    reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, time_step, losses_, faults_, sum_);
     account_boundary_work(before);
     loading.steer(walls_, reactions_, time_step);
   }
@@ -37,14 +46,27 @@ void Simulation::step() {
 void Simulation::rebuild() {
   throw_if_unstable();  // discs that are nowhere have no cell
   Kokkos::Timer const clock;
-  Real const bonded_gap = widest_bonded_gap(particles_, rows_);
-  Relocation const moved = sort_in_space(particles_, rows_, skin_);
-  if (periodic()) halo_.rebuild(particles_, cell_, 2 * largest_radius_ + std::max(skin_, bonded_gap));
-  find_neighbours(particles_, skin_, moved, rows_, faults_, bonded_gap);
+  collect_breaks();
+  if (!ranks_.alone() && rows_.features.bonds) halo_.refresh(ranks_, particles_);  // gaps to ghosts are those of now
+  Real const bonded_gap = ranks_.max(widest_bonded_gap(particles_, rows_));
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  Companions const with_discs = companions(wall_shear);
+  OldRows old = take_as_old(particles_, rows_);
+  Field<int> slot = slots_of_discs(particles_, old);
+  if (!ranks_.alone()) {
+    decomposition_.follow(frame());
+    rebalance_if_it_pays();
+    migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
+  }
+  Field<int> const order = sort_in_space(particles_, old, slot, skin_);
+  for (Field<Accum>* const field : with_discs) *field = permuted(*field, order, particles_.x.extent(0));
+  Real const reach = 2 * largest_radius_ + std::max(skin_, bonded_gap);
+  if (periodic()) images_.rebuild(particles_, cell_, reach);
+  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach);
+  find_neighbours(particles_, skin_, old, slot, rows_, faults_, bonded_gap);
   prepare_rows(particles_, rows_, laws_.contact.bond);
-  if (!periodic())
-    wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_contacts_, moved.new_index);
-  if (laws_.contact.ledger) permute_losses(moved.old_index);
+  make_room_for_breaks();
+  if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_shear);
   mark_reference(particles_);
   reference_walls_ = walls_;
   reference_cell_ = cell_;
@@ -52,6 +74,30 @@ void Simulation::rebuild() {
   ++rebuilds_;
   Kokkos::fence();
   rebuild_seconds_ += clock.seconds();
+}
+
+/// Cuts anew when the time that ranks have waited for the slowest, since the last look, is well above what cutting costs.
+void Simulation::rebalance_if_it_pays() {
+  constexpr double worth = 4, least_imbalance = 1.05;
+  double slowest[2] = {busy_seconds_, rebuild_seconds_ / static_cast<double>(std::max<std::int64_t>(rebuilds_, 1))};
+  ranks_.max(slowest, 2);
+  double const mean = 1e-9 * static_cast<double>(ranks_.sum(std::llround(1e9 * busy_seconds_))) / ranks_.count();
+  if (slowest[0] < least_imbalance * mean || slowest[0] - mean < worth * slowest[1]) return;
+  double const seconds_a_disc = busy_seconds_ / std::max(particles_.owned, 1);
+  decomposition_ = Decomposition::bisect(ranks_, particles_, std::max<std::int64_t>(1, std::llround(1e12 * seconds_a_disc)));
+  busy_seconds_ = 0;
+  ++rebalances_;
+}
+
+Companions Simulation::companions(WallShear& wall_shear) {
+  Companions with_discs;
+  if (laws_.contact.ledger)
+    with_discs = {&losses_.sliding, &losses_.rolling, &losses_.dashpot, &losses_.breakage, &losses_.damping};
+  if (start_x_.extent(0) > 0) with_discs.insert(with_discs.end(), {&start_x_, &start_y_});
+  if (wall_contacts_.rough) {
+    for (auto& field : wall_shear) with_discs.push_back(&field);
+  }
+  return with_discs;
 }
 
 /// The homogeneous motion since the last neighbour search: that of the walls, or of the periodic cell.
@@ -96,7 +142,7 @@ void Simulation::account_boundary_work(WallReactions const& before) {
 void Simulation::evaluate_forces() {
   if (rebuild_pending_) rebuild();
   compute_forces(particles_, rows_, laws_.contact, 0, step_, breaks_, losses_, faults_);
-  if (!periodic()) reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, 0, losses_, faults_);
+  if (!periodic()) reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, 0, losses_, faults_, sum_);
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
@@ -115,10 +161,21 @@ void Simulation::set_ledger(bool on) {
   boundary_work_ = 0;
 }
 
-void Simulation::permute_losses(Field<int> const& old_index) {
-  for (auto* account : {&losses_.sliding, &losses_.rolling, &losses_.dashpot, &losses_.breakage, &losses_.damping}) {
-    *account = permuted(*account, old_index, particles_.x.extent(0));
-  }
+void Simulation::mark_start() {
+  start_x_ = Field<Accum>("start_x", particles_.x.extent(0));
+  start_y_ = Field<Accum>("start_y", particles_.x.extent(0));
+  Kokkos::deep_copy(start_x_, particles_.x);
+  Kokkos::deep_copy(start_y_, particles_.y);
+}
+
+void Simulation::cut_anew(Decomposition const& cuts) {
+  decomposition_ = cuts;
+  rebuild_pending_ = true;
+}
+
+void Simulation::refresh_ghosts(Field<Real> const& field) const {
+  if (periodic()) images_.refresh(particles_, field);
+  if (!ranks_.alone()) halo_.refresh(ranks_, particles_, field);
 }
 
 void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
@@ -135,17 +192,38 @@ void Simulation::stretch_homogeneously() {
   cell_.height *= stretch;
 }
 
-Measures Simulation::measures() const { return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall); }
+Measures Simulation::measures() const {
+  return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall, sum_);
+}
+
+LossTotals Simulation::losses() const {
+  return laws_.contact.ledger ? total_losses(losses_, particles_.owned, sum_) : LossTotals();
+}
+
+std::uint64_t Simulation::hash() const {
+  return static_cast<std::uint64_t>(ranks_.sum(static_cast<std::int64_t>(state_hash(particles_, rows_))));
+}
+
+Real Simulation::stable_time_step() const { return ranks_.min(local_time_step(particles_, rows_, laws_.contact)); }
+
+Real Simulation::largest_frequency(int iterations) const {
+  AcrossRanks const across{ranks_.min(local_time_step(particles_, rows_, laws_.contact, 0)), sum_,
+                           [this](Field<Real> const& field) { refresh_ghosts(field); }};
+  return clathra::largest_frequency(particles_, rows_, laws_.contact, walls_, laws_.wall, across, iterations);
+}
 
 void Simulation::throw_if_unstable() const {
-  auto const disc = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
+  auto const here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
+  double disc[fault_count];
+  for (int fault = 0; fault < fault_count; ++fault) disc[fault] = here(fault);
+  ranks_.max(disc, fault_count);
   static constexpr char const* cause[fault_count] = {
       "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than the smaller radius",
       "has more neighbours than a row holds (the grading's size ratio is too large)"};
   for (int fault = 0; fault < fault_count; ++fault) {
-    if (disc(fault) < 0) continue;
+    if (disc[fault] < 0) continue;
     throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: disc " +
-                   std::to_string(disc(fault)) + " " + cause[fault]);
+                   std::to_string(static_cast<int>(disc[fault])) + " " + cause[fault]);
   }
 }
 

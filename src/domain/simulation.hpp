@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "domain/disc_record.hpp"
 #include "domain/halo.hpp"
 #include "domain/loading.hpp"
+#include "domain/periodic_images.hpp"
 #include "domain/specimen.hpp"
 #include "kernels/forces.hpp"
 #include "kernels/integrate.hpp"
@@ -43,17 +45,21 @@ struct BreakEvent {
   double x, y;           ///< midpoint of the branch [m]
 };
 
+/// Several ranks may share a simulation: each owns the discs of a rectangle and keeps their rows. All calls but those that say
+/// "of this rank" are then collective, and what they return is that of the whole specimen and the same on every rank.
 class Simulation {
  public:
   /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
+  /// @param specimen  this rank's share of it: each disc and each contact on one rank, whichever
   /// @param skin  Verlet skin [m], surface to surface
-  Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin);
+  Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin, Ranks ranks = {});
 
   /// One time step of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step
   /// behind.
   void step();
 
-  /// The present state on the host, discs ordered by id.
+  /// The present state of this rank's discs on the host, ordered by id; of a pair of discs of two ranks, the one with the smaller
+  /// id brings the contact.
   Specimen specimen() const;
 
   // Settings that may change between steps.
@@ -70,14 +76,19 @@ class Simulation {
   void add_uniform_strain_rate(Real rate_x,
                                Real rate_y);  ///< sets the discs, not only the walls, in motion; closing positive [1/s]
   void request_rebuild() { rebuild_pending_ = true; }
-  void evaluate_forces();  ///< forces of the present state without advancing it
+  void mark_start();                         ///< displacements count from here
+  void cut_anew(Decomposition const& cuts);  ///< from the next search on
+  void evaluate_forces();                    ///< forces of the present state without advancing it
 
   // Reading.
   std::int64_t steps() const { return step_; }
   std::int64_t rebuilds() const { return rebuilds_; }
   double rebuild_seconds() const { return rebuild_seconds_; }  ///< wall time of all neighbour searches
   Real time() const { return time_; }
-  int discs() const { return particles_.owned; }
+  int discs() const { return discs_; }
+  Ranks const& ranks() const { return ranks_; }
+  Decomposition const& decomposition() const { return decomposition_; }
+  std::int64_t rebalances() const { return rebalances_; }
   Walls const& walls() const { return walls_; }
   PeriodicCell const& cell() const { return cell_; }
   bool periodic() const { return cell_.exists(); }
@@ -90,30 +101,45 @@ class Simulation {
   WallStress stress() const { return wall_stress(walls_, reactions_); }
   Real boundary_work() const { return boundary_work_; }
   Measures measures() const;
-  LossTotals losses() const { return laws_.contact.ledger ? total_losses(losses_, particles_.owned) : LossTotals(); }
-  std::uint64_t hash() const { return state_hash(particles_, rows_); }
+  LossTotals losses() const;
+  std::uint64_t hash() const;
+  Real stable_time_step() const;                      ///< local_time_step() of the present state [s]
+  Real largest_frequency(int iterations = 20) const;  ///< of the present contact network [1/s]
   SimulationLaws const& laws() const { return laws_; }
   int broken_bonds() const;
   BreakCounts break_counts() const;
-  std::vector<BreakEvent> break_events(int first) const;  ///< those from the first-th on, sorted by (step, id_a, id_b)
-  /// Bytes of the fields, with the room that a neighbour search needs.
-  std::size_t bytes() const { return clathra::bytes(particles_) + clathra::bytes(rows_) + search_bytes(rows_); }
+  /// Breaks that this rank has seen, from the first-th on, sorted by (step, id_a, id_b). Each break is seen by one rank.
+  std::vector<BreakEvent> break_events(int first) const;
+  /// Bytes of this rank's fields, with the room that a neighbour search needs.
+  std::size_t bytes() const { return clathra::bytes(particles_) + clathra::bytes(rows_) + search_bytes(rows_) + halo_.bytes(); }
+  // Of this rank:
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
   ParticleSoA const& particles() const { return particles_; }
   ContactRows const& rows() const { return rows_; }
   WallContacts const& wall_contacts() const { return wall_contacts_; }
+  Field<Accum> const& start_x() const { return start_x_; }  ///< [owned] where mark_start() found the discs [m]
+  Field<Accum> const& start_y() const { return start_y_; }
+  /// Gives every ghost the value of its disc.
+  void refresh_ghosts(Field<Real> const& field) const;
   void throw_if_unstable() const;
 
  private:
   void rebuild();
+  void adopt_discs(Specimen const& specimen);
   void inject(Specimen const& specimen);
   AffineFrame frame() const;
   bool outdated(Real farthest2) const;
   void stretch_homogeneously();
-  void permute_losses(Field<int> const& old_index);
+  void rebalance_if_it_pays();
+  Companions companions(WallShear& wall_shear);
   std::vector<SpecimenContact> contacts_by_id() const;
   void account_boundary_work(WallReactions const& before);
+  void collect_breaks() const;
+  void make_room_for_breaks();
 
+  Ranks ranks_;
+  SumOverRanks sum_;
+  Decomposition decomposition_;
   ParticleSoA particles_;
   ContactRows rows_;
   SimulationLaws laws_;
@@ -121,14 +147,20 @@ class Simulation {
   WallContacts wall_contacts_;
   WallReactions reactions_;
   PeriodicCell cell_, reference_cell_;
+  PeriodicImages images_;
   Halo halo_;
-  BreakLog breaks_;
+  BreakLog breaks_;                         // since the last collect_breaks()
+  mutable std::vector<BreakEvent> broken_;  // before
   EnergyLosses losses_;
   Faults faults_;
   Real skin_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
   Real density_ = 0, d50_ = 0, critical_thickness_ = 0;
   std::int64_t step_ = 0, rebuilds_ = 0;
   double rebuild_seconds_ = 0;
+  int discs_ = 0;
+  Field<Accum> start_x_, start_y_;
+  double busy_seconds_ = 0;  // of this rank since the cuts were made
+  std::int64_t rebalances_ = 0;
   bool rebuild_pending_ = true;
 };
 

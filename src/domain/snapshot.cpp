@@ -38,7 +38,7 @@ std::uint8_t broken_state(int mode) {
   return static_cast<std::uint8_t>(ContactState::broken_tension);
 }
 
-void copy_discs(Snapshot& s, Simulation const& simulation, ReferencePositions const& reference) {
+void copy_discs(Snapshot& s, Simulation const& simulation) {
   ParticleSoA const& p = simulation.particles();
   auto const n = static_cast<std::size_t>(p.owned);
   s.id = listed<std::int32_t>(p.id, n);
@@ -49,12 +49,14 @@ void copy_discs(Snapshot& s, Simulation const& simulation, ReferencePositions co
   s.vx = listed<float>(p.vx, n);
   s.vy = listed<float>(p.vy, n);
   s.omega = listed<float>(p.omega, n);
+  bool const marked = simulation.start_x().extent(0) > 0;
+  std::vector<double> const x = marked ? listed<double>(simulation.start_x(), n) : s.x;
+  std::vector<double> const y = marked ? listed<double>(simulation.start_y(), n) : s.y;
   s.ux.resize(n);
   s.uy.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    auto const id = static_cast<std::size_t>(s.id[i]);
-    s.ux[i] = static_cast<float>(s.x[i] - reference.x[id]);
-    s.uy[i] = static_cast<float>(s.y[i] - reference.y[id]);
+    s.ux[i] = static_cast<float>(s.x[i] - x[i]);
+    s.uy[i] = static_cast<float>(s.y[i] - y[i]);
   }
   DiscLoads const loads = disc_loads(p, simulation.rows(), simulation.laws().contact, simulation.walls(), simulation.laws().wall);
   s.stress_xx = listed<float>(loads.stress_xx, n);
@@ -108,21 +110,7 @@ void add_broken_pairs(Snapshot& s, std::vector<BreakEvent> const& broken) {
 
 }  // namespace
 
-ReferencePositions reference_positions(Simulation const& simulation) {
-  ParticleSoA const& p = simulation.particles();
-  auto const id = on_host(p.id);
-  auto const x = on_host(p.x), y = on_host(p.y);
-  ReferencePositions reference;
-  reference.x.resize(static_cast<std::size_t>(p.owned));
-  reference.y.resize(static_cast<std::size_t>(p.owned));
-  for (int i = 0; i < p.owned; ++i) {
-    reference.x[static_cast<std::size_t>(id(i))] = x(i);
-    reference.y[static_cast<std::size_t>(id(i))] = y(i);
-  }
-  return reference;
-}
-
-Snapshot take_snapshot(Simulation const& simulation, ReferencePositions const& reference) {
+Snapshot take_snapshot(Simulation const& simulation) {
   Snapshot s;
   s.step = simulation.steps();
   s.time = simulation.time();
@@ -136,7 +124,7 @@ Snapshot take_snapshot(Simulation const& simulation, ReferencePositions const& r
   s.sigma3 = stress.x;
   s.density = simulation.density();
   s.critical_thickness = simulation.critical_thickness();
-  copy_discs(s, simulation, reference);
+  copy_discs(s, simulation);
   copy_pairs(s, simulation);
   add_broken_pairs(s, simulation.break_events(0));
   return s;

@@ -41,13 +41,8 @@ struct Snapshot {
   std::vector<BreakEvent> events;  ///< bonds broken since the snapshot before
 };
 
-/// Where the discs were when the shear began, by id: displacements refer to it.
-struct ReferencePositions {
-  std::vector<double> x, y;
-};
-ReferencePositions reference_positions(Simulation const& simulation);
-
-/// The present state of a simulation. Strains, step, time and events are the caller's to fill in.
-Snapshot take_snapshot(Simulation const& simulation, ReferencePositions const& reference);
+/// The present state of a simulation; without mark_start() no disc is displaced. Strains, step, time and events are the caller's
+/// to fill in.
+Snapshot take_snapshot(Simulation const& simulation);
 
 }  // namespace clathra

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
+#include "domain/directory.hpp"
 #include "domain/simulation.hpp"
 
 namespace clathra {
@@ -28,44 +31,114 @@ std::vector<double> or_zero(std::vector<double> const& values, std::size_t size)
 }
 
 /// The widest gap among the bonded contacts of a specimen [m].
-Real widest_gap(Specimen const& s, std::vector<std::size_t> const& place) {
-  Real widest = 0;
+Real widest_gap(Ranks const& ranks, Specimen const& s, std::int64_t discs) {
+  std::vector<int> first, second;
   for (SpecimenContact const& c : s.contacts) {
     if (!is_bonded(c.equilibrium)) continue;
-    std::size_t const a = place[static_cast<std::size_t>(c.id_a)], b = place[static_cast<std::size_t>(c.id_b)];
-    double dx = s.x[b] - s.x[a], dy = s.y[b] - s.y[a];
+    first.push_back(c.id_a);
+    second.push_back(c.id_b);
+  }
+  if (!ranks.any(!first.empty())) return 0;
+  Directory const places(ranks, discs, s.id, {s.x, s.y, s.radius});
+  std::vector<double> const a = places.find(first), b = places.find(second);
+  Real widest = 0;
+  for (std::size_t k = 0; k < a.size(); k += 3) {
+    double dx = b[k] - a[k], dy = b[k + 1] - a[k + 1];
     if (s.periodic) {  // the nearest images
       dx -= s.width() * std::round(dx / s.width());
       dy -= s.height() * std::round(dy / s.height());
     }
-    widest = std::max(widest, std::hypot(dx, dy) - s.radius[a] - s.radius[b]);
+    widest = std::max(widest, std::hypot(dx, dy) - a[k + 2] - b[k + 2]);
   }
-  return widest;
+  return ranks.max(widest);
 }
 
 /// @throws Diverged where a number of a disc is not finite: a neighbour search would have no place for it
-void require_finite(Specimen const& s) {
+void require_finite(Ranks const& ranks, Specimen const& s) {
+  double worst = -1;
   for (auto const* field : {&s.x, &s.y, &s.angle, &s.vx, &s.vy, &s.omega, &s.radius}) {
     for (std::size_t i = 0; i < field->size(); ++i) {
-      if (!std::isfinite((*field)[i]))
-        throw Diverged("step 0: disc " + std::to_string(s.id[i]) + " has a position, velocity or radius that is not finite");
+      if (!std::isfinite((*field)[i])) worst = std::max(worst, static_cast<double>(s.id[i]));
     }
   }
+  worst = ranks.max(worst);
+  if (worst < 0) return;
+  throw Diverged("step 0: disc " + std::to_string(static_cast<int>(worst)) +
+                 " has a position, velocity or radius that is not finite");
 }
 
-std::vector<std::size_t> places_by_id(std::vector<int> const& id) {
-  std::vector<std::size_t> place(id.size());
-  for (std::size_t i = 0; i < id.size(); ++i) place.at(static_cast<std::size_t>(id[i])) = i;
-  return place;
+/// The contacts with a disc of this rank, from whichever rank holds them in its share of the specimen.
+std::vector<SpecimenContact> contacts_here(Ranks const& ranks, Specimen const& s, std::int64_t discs,
+                                           std::vector<int> const& ids) {
+  if (ranks.alone()) return s.contacts;
+  Directory const owners(ranks, discs, ids, {std::vector<double>(ids.size(), ranks.rank())});
+  std::vector<int> first, second;
+  for (SpecimenContact const& c : s.contacts) {
+    first.push_back(c.id_a);
+    second.push_back(c.id_b);
+  }
+  std::vector<double> const a = owners.find(first), b = owners.find(second);
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
+  for (std::size_t k = 0; k < s.contacts.size(); ++k) {
+    SpecimenContact const& c = s.contacts[k];
+    for (double const owner : {a[k], b[k]}) {
+      auto& part = to[static_cast<std::size_t>(owner)];
+      part.insert(part.end(), {double(c.id_a), double(c.id_b), c.shear, c.moment, c.equilibrium, c.bond_shear, c.bond_moment});
+      if (a[k] == b[k]) break;
+    }
+  }
+  std::vector<SpecimenContact> contacts;
+  for (auto const& part : ranks.exchange(to)) {
+    for (std::size_t k = 0; k < part.size(); k += 7)
+      contacts.push_back({static_cast<int>(part[k]), static_cast<int>(part[k + 1]), part[k + 2], part[k + 3], part[k + 4],
+                          part[k + 5], part[k + 6]});
+  }
+  return contacts;
 }
+
+/// Indices of discs by id.
+class Places {
+ public:
+  template <class Ids>
+  Places(Ids const& id, int discs) {
+    for (int i = 0; i < discs; ++i) sorted_.emplace_back(id(i), i);
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+  /// -1 where there is no such disc.
+  int find(int id) const {
+    auto const at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{id, -1});
+    return at != sorted_.end() && at->first == id ? at->second : -1;
+  }
+  auto const& sorted() const { return sorted_; }
+
+ private:
+  std::vector<std::pair<int, int>> sorted_;  // (id, index)
+};
 
 }  // namespace
 
-Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin)
-    : laws_(laws), faults_(make_faults()), skin_(skin) {
+Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin, Ranks ranks)
+    : ranks_(std::move(ranks)), sum_(ranks_.summation()), laws_(laws), faults_(make_faults()), skin_(skin) {
+  std::int64_t const total = ranks_.sum(static_cast<std::int64_t>(s.size()));
+  if (total == 0) throw std::invalid_argument("a specimen needs at least one disc");
+  if (s.periodic && !ranks_.alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
+  require_finite(ranks_, s);
+  discs_ = static_cast<int>(total);
+  adopt_discs(s);
+  rows_.features = laws_.features();
+  decomposition_ = Decomposition::bisect(ranks_, particles_, 1);
+  // The first search must reach the widest bond; the skin is its own again afterwards.
+  Real const own_skin = skin_;
+  skin_ = std::max(skin_, widest_gap(ranks_, s, total) * (1 + 1e-9));
+  rebuild();
+  skin_ = own_skin;
+  rebuild_pending_ = true;
+  inject(s);
+  evaluate_forces();
+}
+
+void Simulation::adopt_discs(Specimen const& s) {
   std::size_t const n = s.size();
-  if (n == 0) throw std::invalid_argument("a specimen needs at least one disc");
-  require_finite(s);
   particles_ = allocate_particles(static_cast<int>(n));
   std::vector<double> inverse_mass(n), inverse_inertia(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -73,9 +146,9 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin)
     inverse_inertia[i] = 2 * inverse_mass[i] / (s.radius[i] * s.radius[i]);
     largest_radius_ = std::max(largest_radius_, s.radius[i]);
   }
+  largest_radius_ = ranks_.max(largest_radius_);
   // Summed by id, so that the order of the input does not show.
-  std::vector<std::size_t> const place = places_by_id(s.id);
-  for (std::size_t at : place) solid_area_ += pi * s.radius[at] * s.radius[at];
+  solid_area_ = Directory(ranks_, discs_, s.id, {s.radius}).sum_by_id([](double const* r) { return pi * *r * *r; });
   upload(particles_.id, s.id);
   upload(particles_.x, s.x);
   upload(particles_.y, s.y);
@@ -90,37 +163,28 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin)
   d50_ = s.d50;
   critical_thickness_ = s.critical_thickness;
   if (s.periodic) {
-    cell_ = {s.left, s.bottom, s.width(), s.height()};
+    cell_ = reference_cell_ = {s.left, s.bottom, s.width(), s.height()};
   } else {
-    walls_ = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
+    walls_ = reference_walls_ = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
   }
-  rows_.features = laws_.features();
-  // The first search must reach the widest bond; the skin is its own again afterwards.
-  Real const own_skin = skin_;
-  skin_ = std::max(skin_, widest_gap(s, place) * (1 + 1e-9));
-  rebuild();
-  skin_ = own_skin;
-  rebuild_pending_ = true;
-  inject(s);
-  evaluate_forces();
 }
 
-/// Writes the history of the specimen's contacts into the rows, on both sides, and makes room to log the break of every bond.
+/// Writes the history of the specimen's contacts into the rows, on both sides.
 void Simulation::inject(Specimen const& s) {
   auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
              neighbour = download(rows_.neighbour);
-  std::vector<int> at(s.size());
-  for (int i = 0; i < particles_.owned; ++i) at[static_cast<std::size_t>(id(i))] = i;
+  Places const at(id, particles_.owned);
   auto shear = download(rows_.shear), moment = download(rows_.moment), equilibrium = download(rows_.equilibrium),
        bond_shear = download(rows_.bond_shear), bond_moment = download(rows_.bond_moment);
   auto const set = [](auto& field, std::size_t e, Real value) {
     if (field.extent(0) > 0) field(e) = value;
   };
-  std::size_t bonds = 0;
-  for (SpecimenContact const& c : s.contacts) {
-    if (is_bonded(c.equilibrium)) ++bonds;
+  std::vector<int> ids;
+  for (int i = 0; i < particles_.owned; ++i) ids.push_back(id(i));
+  for (SpecimenContact const& c : contacts_here(ranks_, s, discs_, ids)) {
     for (auto const& [mine, other, sign] : {std::tuple{c.id_a, c.id_b, 1.0}, std::tuple{c.id_b, c.id_a, -1.0}}) {
-      int const i = at[static_cast<std::size_t>(mine)];
+      int const i = at.find(mine);
+      if (i < 0) continue;
       for (int k = 0; k < length(i); ++k) {
         std::size_t const e =
             static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
@@ -139,7 +203,7 @@ void Simulation::inject(Specimen const& s) {
     if (field->extent(0) > 0) Kokkos::deep_copy(*field, *host);
   }
   prepare_rows(particles_, rows_, laws_.contact.bond);
-  if (laws_.contact.bond_kind != BondKind::none) breaks_ = make_break_log(bonds);
+  make_room_for_breaks();
 }
 
 Specimen Simulation::specimen() const {
@@ -155,15 +219,12 @@ Specimen Simulation::specimen() const {
   s.separate_bonds = laws_.contact.bond_kind == BondKind::parallel;
   s.critical_thickness = laws_.contact.bond_kind == BondKind::none ? 0 : critical_thickness_;
   auto const n = static_cast<std::size_t>(particles_.owned);
-  auto const id = download(particles_.id);
-  std::vector<int> at(n);
-  for (int i = 0; i < particles_.owned; ++i) at[static_cast<std::size_t>(id(i))] = i;
-  s.id.resize(n);
-  for (std::size_t i = 0; i < n; ++i) s.id[i] = static_cast<int>(i);
+  Places const places(download(particles_.id), particles_.owned);
+  for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
   auto const fetch = [&](Field<Real> const& field, std::vector<double>& values) {
     auto const host = download(field);
-    values.resize(n);
-    for (std::size_t i = 0; i < n; ++i) values[i] = host(at[i]);
+    values.reserve(n);
+    for (auto const& [id, index] : places.sorted()) values.push_back(host(index));
   };
   fetch(particles_.x, s.x);
   fetch(particles_.y, s.y);
@@ -201,24 +262,44 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
   return contacts;
 }
 
-int Simulation::broken_bonds() const { return breaks_.count.extent(0) > 0 ? download(breaks_.count)(0) : 0; }
-
-BreakCounts Simulation::break_counts() const {
-  if (breaks_.by_mode.extent(0) == 0) return {};
-  auto const by_mode = download(breaks_.by_mode);
-  auto const of = [&](BreakMode mode) { return static_cast<std::int64_t>(by_mode(static_cast<std::size_t>(mode))); };
-  return {of(BreakMode::tension), of(BreakMode::compression), of(BreakMode::shear), of(BreakMode::rolling)};
-}
-
-std::vector<BreakEvent> Simulation::break_events(int first) const {
-  int const count = broken_bonds();
-  if (count <= first) return {};
+/// Moves the breaks that the kernels logged to the host.
+void Simulation::collect_breaks() const {
+  if (breaks_.count.extent(0) == 0) return;
+  int const count = download(breaks_.count)(0);
+  if (count == 0) return;
   auto const step = download(breaks_.step);
   auto const id_a = download(breaks_.id_a), id_b = download(breaks_.id_b);
   auto const mode = download(breaks_.mode);
   auto const x = download(breaks_.x), y = download(breaks_.y);
+  for (int k = 0; k < count; ++k) broken_.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
+  Kokkos::deep_copy(breaks_.count, 0);
+}
+
+/// Bonds break once: a log as long as the number of intact bonds cannot overflow before the next search.
+void Simulation::make_room_for_breaks() {
+  if (laws_.contact.bond_kind == BondKind::none) return;
+  auto const bonds = static_cast<std::size_t>(count_own_bonds(particles_, rows_));
+  if (breaks_.count.extent(0) == 0 || breaks_.step.extent(0) < bonds) breaks_ = make_break_log(bonds);
+}
+
+int Simulation::broken_bonds() const {
+  collect_breaks();
+  return static_cast<int>(ranks_.sum(static_cast<std::int64_t>(broken_.size())));
+}
+
+BreakCounts Simulation::break_counts() const {
+  collect_breaks();
+  std::int64_t by_mode[break_mode_count] = {};
+  for (BreakEvent const& event : broken_) ++by_mode[event.mode];
+  ranks_.sum(by_mode, break_mode_count);
+  auto const of = [&](BreakMode mode) { return by_mode[static_cast<int>(mode)]; };
+  return {of(BreakMode::tension), of(BreakMode::compression), of(BreakMode::shear), of(BreakMode::rolling)};
+}
+
+std::vector<BreakEvent> Simulation::break_events(int first) const {
+  collect_breaks();
   std::vector<BreakEvent> events;
-  for (int k = first; k < count; ++k) events.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
+  if (static_cast<std::size_t>(first) < broken_.size()) events.assign(broken_.begin() + first, broken_.end());
   std::sort(events.begin(), events.end(), [](BreakEvent const& p, BreakEvent const& q) {
     return p.step != q.step ? p.step < q.step : p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;
   });

@@ -68,9 +68,10 @@ struct SortCells {
 
 CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size) {
   Kokkos::RangePolicy<ExecutionSpace> const each(0, discs);
-  Real x0, x1, y0, y1;
-  Kokkos::parallel_reduce("bounds", each, Bounds{particles}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1), Kokkos::Min<Real>(y0),
-                          Kokkos::Max<Real>(y1));
+  Real x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  if (discs > 0)
+    Kokkos::parallel_reduce("bounds", each, Bounds{particles}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
+                            Kokkos::Min<Real>(y0), Kokkos::Max<Real>(y1));
   CellGrid grid;
   grid.x0 = x0;
   grid.y0 = y0;
@@ -95,7 +96,7 @@ Real largest_radius(ParticleSoA const& particles, int discs) {
   Real radius = 0;
   Kokkos::parallel_reduce("largest_radius", Kokkos::RangePolicy<ExecutionSpace>(0, discs), LargestRadius{particles},
                           Kokkos::Max<Real>(radius));
-  return radius;
+  return lane_max(radius, Real(0));  // without a disc the maximum is that of nothing
 }
 
 }  // namespace clathra

@@ -3,6 +3,7 @@
 #include <Kokkos_Core.hpp>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 
 #include "kernels/real.hpp"
 
@@ -53,12 +54,16 @@ struct ExactSumKernel {
   }
 };
 
+/// Adds integers to those of the other ranks that hold parts of the specimen; empty where there are none.
+using SumOverRanks = std::function<void(std::int64_t*, int)>;
+
 /// @return the sums in `result[0 .. Count)`
 template <int Count, class Terms>
-void exact_sums(char const* label, int n, Terms const& terms, Real* result) {
+void exact_sums(char const* label, int n, Terms const& terms, Real* result, SumOverRanks const& over_ranks = {}) {
   std::int64_t sums[2 * Count];
   ExactSumKernel<Count, Terms> kernel{2 * Count, terms};
   Kokkos::parallel_reduce(label, Kokkos::RangePolicy<ExecutionSpace>(0, n), kernel, &sums[0]);
+  if (over_ranks) over_ranks(&sums[0], 2 * Count);
   for (int c = 0; c < Count; ++c) result[c] = FixedPoint{sums[2 * c], sums[2 * c + 1]}.value();
 }
 

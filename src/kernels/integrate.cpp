@@ -51,7 +51,8 @@ struct KickAndDrift {
 
     Lanes const dx = x - (frame.centre_x + frame.stretch_x * (load(&p.reference_x(i)) - frame.reference_centre_x));
     Lanes const dy = y - (frame.centre_y + frame.stretch_y * (load(&p.reference_y(i)) - frame.reference_centre_y));
-    Lanes const moved = select(free, dx * dx + dy * dy + lane_abs(omega) * Lanes(0), Lanes(0));
+    Lanes moved = select(free, dx * dx + dy * dy + lane_abs(omega) * Lanes(0), Lanes(0));
+    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(moved, l, 0);  // ghosts share the last slice
     if (any(!(moved < Lanes(1e10)))) report(i, moved);
     farthest = lane_max(farthest, largest(moved));
   }

@@ -47,7 +47,7 @@ KOKKOS_FORCEINLINE_FUNCTION bool any(Mask const& mask) { return stdx::any_of(mas
 template <class Visit>
 KOKKOS_FORCEINLINE_FUNCTION void for_each_set(Mask mask, Visit const& visit) {
   while (stdx::any_of(mask)) {
-    int const l = stdx::find_first_set(mask);
+    int const l = stdx::find_first_set(mask) & (lane_count - 1);  // so that GCC sees it within the lanes
     visit(l);
     mask[static_cast<std::size_t>(l)] = false;
   }

@@ -134,11 +134,11 @@ struct HashDisc {
 }  // namespace
 
 Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws,
-                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law) {
-  Real pairs[pair_sums], at_walls[pair_sums] = {};
-  exact_sums<pair_sums>("measure_discs", particles.owned, DiscSums{particles, rows, laws}, pairs);
-  if (wall_contacts.size > 0)
-    exact_sums<pair_sums>("measure_walls", wall_contacts.size, WallSums{particles, wall_contacts, walls, wall_law}, at_walls);
+                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law, SumOverRanks const& over_ranks) {
+  Real pairs[pair_sums], at_walls[pair_sums];
+  exact_sums<pair_sums>("measure_discs", particles.owned, DiscSums{particles, rows, laws}, pairs, over_ranks);
+  exact_sums<pair_sums>("measure_walls", wall_contacts.size, WallSums{particles, wall_contacts, walls, wall_law}, at_walls,
+                        over_ranks);
   Measures m;
   m.stress_area_xx = pairs[stress_xx] + at_walls[stress_xx];
   m.stress_area_xy = pairs[stress_xy] + at_walls[stress_xy];
@@ -159,9 +159,9 @@ Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactL
   return m;
 }
 
-LossTotals total_losses(EnergyLosses const& losses, int discs) {
+LossTotals total_losses(EnergyLosses const& losses, int discs, SumOverRanks const& over_ranks) {
   Real sums[5] = {};
-  exact_sums<5>("total_losses", discs, LossSums{losses}, sums);
+  exact_sums<5>("total_losses", discs, LossSums{losses}, sums, over_ranks);
   return {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 

@@ -1,8 +1,8 @@
 #include "kernels/neighbours.hpp"
 
 #include <utility>
+#include <vector>
 
-#include "kernels/bond_law.hpp"
 #include "kernels/cell_grid.hpp"
 
 namespace clathra {
@@ -12,57 +12,62 @@ namespace {
 constexpr int sorting_window = 64;  // discs whose rows are evened out together; they stay near each other in space
 
 struct SortByLength {
-  Field<int> order;
-  Field<int> length;  // by old index; empty at the first search
+  Field<int> order, slot;
+  OldRows old;
   int discs;
+  KOKKOS_INLINE_FUNCTION int length(int disc) const { return old.length(slot(disc)); }
   KOKKOS_FUNCTION void operator()(int window) const {
     int const begin = window * sorting_window, end = begin + sorting_window < discs ? begin + sorting_window : discs;
     for (int k = begin + 1; k < end; ++k) {
-      int const disc = order(k);
+      int const disc = order(k), own = length(disc);
       int at = k;
-      for (; at > begin && length(order(at - 1)) < length(disc); --at) order(at) = order(at - 1);
+      for (; at > begin && length(order(at - 1)) < own; --at) order(at) = order(at - 1);
       order(at) = disc;
     }
   }
 };
 
-struct Invert {
-  Field<int> of, inverse;
-  KOKKOS_FUNCTION void operator()(int i) const { inverse(of(i)) = i; }
+struct FirstSlots {
+  Field<int> slot;
+  int slots;
+  KOKKOS_FUNCTION void operator()(int i) const { slot(i) = i < slots ? i : -1; }
+};
+
+struct NameNeighbours {
+  ParticleSoA p;
+  ContactRows rows;
+  KOKKOS_FUNCTION void operator()(int e) const { rows.neighbour(e) = p.id(rows.neighbour(e)); }
 };
 
 /// The row that a disc had before the search, its neighbours by id; read when first asked for.
 class OldRow {
  public:
-  KOKKOS_INLINE_FUNCTION OldRow(ContactRows const& old, Relocation const& moved, int disc)
-      : rows_(old), moved_(moved), new_disc_(disc) {}
+  KOKKOS_INLINE_FUNCTION OldRow(OldRows const& old, Field<int> const& slot, int disc) : old_(old), slot_(slot), disc_(disc) {}
 
   /// The old entry of disc `other`, or -1.
   KOKKOS_INLINE_FUNCTION int entry(int other) {
     if (length_ < 0) read();
     for (int k = 0; k < length_; ++k) {
-      if (id_[k] == other) return static_cast<int>(rows_.entry(disc_, k));
+      if (id_[k] == other) return old_.entry(at_, k);
     }
     return -1;
   }
   KOKKOS_INLINE_FUNCTION bool was_bonded(int other) {
-    if (rows_.equilibrium.extent(0) == 0) return false;
+    if (old_.here.equilibrium.extent(0) == 0) return false;
     int const e = entry(other);
-    return e >= 0 && is_bonded(rows_.equilibrium(e));
+    return e >= 0 && old_.bonded(e);
   }
 
  private:
   KOKKOS_INLINE_FUNCTION void read() {
-    length_ = 0;
-    if (rows_.length.extent(0) == 0) return;
-    disc_ = moved_.old_index(new_disc_);
-    length_ = rows_.length(disc_);
-    for (int k = 0; k < length_; ++k) id_[k] = moved_.old_id(rows_.neighbour(rows_.entry(disc_, k)));
+    at_ = slot_(disc_);
+    length_ = old_.length(at_);
+    for (int k = 0; k < length_; ++k) id_[k] = old_.neighbour_id(old_.entry(at_, k));
   }
 
-  ContactRows const& rows_;
-  Relocation const& moved_;
-  int new_disc_, disc_ = 0, length_ = -1;
+  OldRows const& old_;
+  Field<int> const& slot_;
+  int disc_, at_ = 0, length_ = -1;
   int id_[longest_row];
 };
 
@@ -71,8 +76,8 @@ struct Search {
   ParticleSoA p;
   CellGrid grid;
   Real skin, bonded_reach;
-  ContactRows old;
-  Relocation moved;
+  OldRows old;
+  Field<int> slot;
 
   /// Calls visit(j, in_touch) for every disc that belongs into the row of disc i, whose old row is `before`.
   template <class Visit>
@@ -107,7 +112,7 @@ struct CountNeighbours {
   Faults faults;
   KOKKOS_FUNCTION void operator()(int i) const {
     int count = 0;
-    OldRow before(search.old, search.moved, i);
+    OldRow before(search.old, search.slot, i);
     search.for_each_neighbour(i, before, [&](int, bool) { ++count; });
     if (count > longest_row) {
       faults.report(Fault::row_overflow, search.p.id(i));
@@ -154,7 +159,7 @@ struct FillRows {
     int disc[longest_row];
     std::int64_t key[longest_row];
     int count = 0;
-    OldRow before(search.old, search.moved, i);
+    OldRow before(search.old, search.slot, i);
     search.for_each_neighbour(i, before, [&](int j, bool in_touch) {
       if (count == longest_row) return;
       int const id = search.p.id(j);
@@ -178,10 +183,14 @@ struct FillRows {
 
 /// One field of the history in its new order.
 struct CarryHistory {
-  Field<Real> from, to;
+  Field<Real> here, arrived, to;
   Field<int> source;
+  int entries_here;
   Real empty;
-  KOKKOS_FUNCTION void operator()(int e) const { to(e) = source(e) >= 0 ? from(source(e)) : empty; }
+  KOKKOS_FUNCTION void operator()(int e) const {
+    int const from = source(e);
+    to(e) = from < 0 ? empty : from < entries_here ? here(from) : arrived(from - entries_here);
+  }
 };
 
 struct WidestBondedGap {
@@ -198,48 +207,82 @@ struct WidestBondedGap {
   }
 };
 
-/// Brings the history of `rows` into the order of `found`, field by field through the storage that the one before left free, so
-/// that a search needs room for one field and not for a second set of rows.
-void carry_history(ContactRows& rows, ContactRows& found, Field<int> const& source, std::size_t entries) {
+struct CountOwnBonds {
+  ParticleSoA p;
+  ContactRows rows;
+  KOKKOS_FUNCTION void operator()(int i, int& bonds) const {
+    for (int k = 0; k < rows.length(i); ++k) {
+      std::size_t const e = rows.entry(i, k);
+      if (is_bonded(rows.equilibrium(e)) && p.id(i) < p.id(rows.neighbour(e))) ++bonds;
+    }
+  }
+};
+
+/// Brings the history of the old rows into the order of `found`, field by field through the storage that the one before left
+/// free, so that a search needs room for one field and not for a second set of rows.
+void carry_history(OldRows old, ContactRows& found, Field<int> const& source, std::size_t entries) {
   std::size_t const size = found.neighbour.extent(0);
+  std::vector<Field<Real>> arrived;
+  for_each_history(old.arrived, [&](char const*, Field<Real> const& field, Real) { arrived.push_back(field); });
   Field<Real> room;
-  for_each_history(rows, [&](char const* name, Field<Real>& field, Real empty) {
+  auto from_others = arrived.begin();
+  for_each_history(old.here, [&](char const* name, Field<Real>& field, Real empty) {
     if (room.extent(0) != size) {
       room = Field<Real>();
       room = uninitialised<Real>(name, size);
     }
     Kokkos::parallel_for("carry_history", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(entries)),
-                         CarryHistory{field, room, source, empty});
+                         CarryHistory{field, *from_others++, room, source, old.entries_here, empty});
     Kokkos::fence();
     std::swap(field, room);
   });
-  rows.slice_start = found.slice_start;
-  rows.length = found.length;
-  rows.neighbour = found.neighbour;
+  old.here.slice_start = found.slice_start;
+  old.here.length = found.length;
+  old.here.neighbour = found.neighbour;
+  found = old.here;
 }
 
 }  // namespace
 
-Relocation sort_in_space(ParticleSoA& particles, ContactRows const& rows, Real skin) {
-  Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
-  auto const owned = static_cast<std::size_t>(particles.owned);
-  CellGrid const grid = bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin);
-  Relocation moved;
-  moved.old_index = grid.disc;
-  if (rows.length.extent(0) == owned) {
-    Kokkos::parallel_for("sort_by_length",
-                         Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
-                         SortByLength{grid.disc, rows.length, particles.owned});
+OldRows take_as_old(ParticleSoA const& particles, ContactRows const& rows) {
+  OldRows old;
+  old.here = rows;
+  old.arrived.features = rows.features;
+  old.slots_here = static_cast<int>(rows.length.extent(0));
+  if (old.slots_here > 0) {
+    Kokkos::deep_copy(old.entries_here, Kokkos::subview(rows.slice_start, slice_count(old.slots_here)));
+    old.entries_here *= lane_count;
   }
-  moved.new_index = uninitialised<int>("new_index", owned);
-  Kokkos::parallel_for("invert", each, Invert{moved.old_index, moved.new_index});
-  moved.old_id = uninitialised<int>("old_id", particles.id.extent(0));
-  Kokkos::deep_copy(moved.old_id, particles.id);
-  permute(particles, moved.old_index);
-  return moved;
+  Kokkos::parallel_for("name_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, old.entries_here),
+                       NameNeighbours{particles, rows});
+  return old;
+}
+
+Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old) {
+  Field<int> const slot = uninitialised<int>("slot", static_cast<std::size_t>(particles.owned));
+  Kokkos::parallel_for("first_slots", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), FirstSlots{slot, old.slots_here});
+  return slot;
+}
+
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin) {
+  Field<int> const order = bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
+  Kokkos::parallel_for("sort_by_length",
+                       Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
+                       SortByLength{order, slot, old, particles.owned});
+  permute(particles, order);
+  slot = permuted(slot, order, order.extent(0));
+  return order;
 }
 
 std::size_t search_bytes(ContactRows const& rows) { return rows.neighbour.span() * (2 * sizeof(int) + sizeof(Real)); }
+
+int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows) {
+  int bonds = 0;
+  if (rows.equilibrium.extent(0) > 0)
+    Kokkos::parallel_reduce("count_own_bonds", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                            CountOwnBonds{particles, rows}, bonds);
+  return bonds;
+}
 
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   if (rows.equilibrium.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
@@ -249,13 +292,13 @@ Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   return lane_max(widest, Real(0));
 }
 
-void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& relocation, ContactRows& rows,
+void find_neighbours(ParticleSoA const& particles, Real skin, OldRows const& old, Field<int> const& slot, ContactRows& rows,
                      Faults const& faults, Real bonded_gap) {
   auto const owned = static_cast<std::size_t>(particles.owned);
   auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
   Real const bonded_reach = lane_max(skin, bonded_gap * (1 + 1e-9));
   Real const cell = 2 * largest_radius(particles, particles.all()) + bonded_reach;
-  Search const search{particles, bin_particles(particles, particles.all(), cell), skin, bonded_reach, rows, relocation};
+  Search const search{particles, bin_particles(particles, particles.all(), cell), skin, bonded_reach, old, slot};
   ContactRows found;
   found.length = uninitialised<int>("rows.length", owned);
   found.slice_start = uninitialised<int>("rows.slice_start", slices + 1);
@@ -272,7 +315,8 @@ void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& 
   Field<int> const source = uninitialised<int>("rows.source", size);
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
                        FillRows{search, found, source});
-  carry_history(rows, found, source, entries);
+  carry_history(old, found, source, entries);
+  rows = found;
 }
 
 }  // namespace clathra

@@ -1,5 +1,6 @@
 #pragma once
 /// Neighbour search: rows of nearby discs, with the history of contacts and bonds carried from the old rows to the new.
+#include "kernels/bond_law.hpp"
 #include "kernels/contacts.hpp"
 #include "kernels/reports.hpp"
 
@@ -8,26 +9,56 @@ namespace clathra {
 /// The longest row; enough for size ratios up to about 15.
 inline constexpr int longest_row = 64;
 
-/// Where the discs of the old rows went.
-struct Relocation {
-  Field<int> old_index;  ///< [owned] the old index of each owned disc
-  Field<int> new_index;  ///< [owned] the inverse
-  Field<int> old_id;     ///< id by old index, ghosts included
+/// The rows before a search, with neighbours by id: those of the discs that were here, and behind them those of discs that came
+/// from other ranks. A slot is a place in this list of rows, -1 that of a disc that had no row yet; entries are numbered through
+/// likewise.
+struct OldRows {
+  ContactRows here, arrived;
+  int slots_here = 0;
+  int entries_here = 0;
+
+  KOKKOS_INLINE_FUNCTION int length(int slot) const {
+    if (slot < 0) return 0;
+    return slot < slots_here ? here.length(slot) : arrived.length(slot - slots_here);
+  }
+  KOKKOS_INLINE_FUNCTION int entry(int slot, int k) const {
+    return slot < slots_here ? static_cast<int>(here.entry(slot, k))
+                             : entries_here + static_cast<int>(arrived.entry(slot - slots_here, k));
+  }
+  KOKKOS_INLINE_FUNCTION int neighbour_id(int entry) const {
+    return entry < entries_here ? here.neighbour(entry) : arrived.neighbour(entry - entries_here);
+  }
+  KOKKOS_INLINE_FUNCTION bool bonded(int entry) const {
+    if (here.equilibrium.extent(0) == 0) return false;
+    return is_bonded(entry < entries_here ? here.equilibrium(entry) : arrived.equilibrium(entry - entries_here));
+  }
 };
 
-/// Puts the discs in spatial order (by cell; within windows of a few slices by row length, which evens out the slices) and drops
-/// the ghosts. `rows` still speaks of the old order afterwards; find_neighbours() needs the relocation to read it.
-Relocation sort_in_space(ParticleSoA& particles, ContactRows const& rows, Real skin);
+/// Replaces the neighbours' indices in the rows by their ids, and takes the rows as old ones.
+OldRows take_as_old(ParticleSoA const& particles, ContactRows const& rows);
 
-/// Replaces `rows` by rows of all pairs closer than `skin` [m] (surface to surface), plus all bonded pairs at any distance.
-/// History is kept by the pair's ids.
-/// @param bonded_gap  widest_bonded_gap() before the discs were sorted [m]
+/// [owned] the slot of each disc, before discs move: its index.
+Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old);
+
+/// Puts the discs in spatial order (by cell; within windows of a few slices by row length, which evens out the slices) and drops
+/// the ghosts.
+/// @param slot  [owned] where the old row of each disc is; reordered with them
+/// @return [owned] the place that each disc had before
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin);
+
+/// Makes rows of all pairs closer than `skin` [m] (surface to surface), plus all bonded pairs at any distance. History is kept by
+/// the pair's ids.
+/// @param slot  [owned] where the old row of each disc is
+/// @param bonded_gap  widest_bonded_gap() before the search, of all ranks [m]
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
-void find_neighbours(ParticleSoA const& particles, Real skin, Relocation const& relocation, ContactRows& rows,
+void find_neighbours(ParticleSoA const& particles, Real skin, OldRows const& old, Field<int> const& slot, ContactRows& rows,
                      Faults const& faults, Real bonded_gap);
 
 /// Bytes that a search needs beside the rows themselves.
 std::size_t search_bytes(ContactRows const& rows);
+
+/// Intact bonds whose break this rank would report: those of its discs to discs with a larger id.
+int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows);
 
 /// The widest gap of an intact bond [m] in the present state; 0 without bonds.
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows);

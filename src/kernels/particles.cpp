@@ -92,6 +92,7 @@ void fill_padding(ParticleSoA const& particles) {
 }
 
 void permute(ParticleSoA& particles, Field<int> const& order) {
+  particles.owned = static_cast<int>(order.extent(0));
   particles.ghosts = 0;
   // Each field is gathered into the storage that the one before it left free.
   Field<int> free_int;
@@ -121,12 +122,22 @@ void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, C
                        ScalePositions{particles, factor, fixed_x, fixed_y});
 }
 
-Field<Accum> permuted(Field<Accum> const& field, Field<int> const& order, std::size_t size) {
-  Field<Accum> to("permuted", size);
+namespace {
+
+template <class T>
+Field<T> gathered(Field<T> const& field, Field<int> const& order, std::size_t size) {
+  Field<T> to("permuted", size);
   Kokkos::parallel_for("permuted", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))),
-                       Gather<Accum>{field, to, order});
+                       Gather<T>{field, to, order});
   return to;
 }
+
+}  // namespace
+
+Field<Accum> permuted(Field<Accum> const& field, Field<int> const& order, std::size_t size) {
+  return gathered(field, order, size);
+}
+Field<int> permuted(Field<int> const& field, Field<int> const& order, std::size_t size) { return gathered(field, order, size); }
 
 void stop_motion(ParticleSoA const& particles) {
   Kokkos::deep_copy(particles.vx, 0);

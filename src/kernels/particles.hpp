@@ -56,7 +56,7 @@ void reserve(ParticleSoA& particles, int discs);
 /// Writes the padding discs behind the last disc. To be called whenever the number of discs changed.
 void fill_padding(ParticleSoA const& particles);
 
-/// Reorders the owned discs: disc `order(i)` becomes disc i. Ghosts are dropped.
+/// Reorders the owned discs: disc `order(i)` becomes disc i. Discs that `order` does not name, and ghosts, are dropped.
 void permute(ParticleSoA& particles, Field<int> const& order);
 
 /// Adds the velocity field of a homogeneous strain rate: v += -rate * (x - centre), compression positive [1/s]; a uniform strain
@@ -68,6 +68,7 @@ void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, C
 
 /// `field` in the order `order`, as permute() does, in a new field of `size` places.
 Field<Accum> permuted(Field<Accum> const& field, Field<int> const& order, std::size_t size);
+Field<int> permuted(Field<int> const& field, Field<int> const& order, std::size_t size);
 
 /// Sets all velocities to zero.
 void stop_motion(ParticleSoA const& particles);

@@ -4,11 +4,9 @@
 
 namespace clathra {
 
-/// Bonds that broke, each once, in no particular order. Bonds never re-form, so the number of bonds at installation is a firm
-/// capacity.
+/// Bonds that broke, each once, in no particular order. Bonds never re-form, so the number of intact bonds is a firm capacity.
 struct BreakLog {
-  Field<int> count;          ///< [1] events so far
-  Field<int> by_mode;        ///< [break_mode_count] events of each BreakMode
+  Field<int> count;          ///< [1] events in the log
   Field<std::int64_t> step;  ///< [bonds] step number
   Field<int> id_a, id_b;     ///< [bonds] id_a < id_b
   Field<std::int8_t> mode;   ///< [bonds] BreakMode
@@ -16,7 +14,6 @@ struct BreakLog {
 
   KOKKOS_INLINE_FUNCTION void record(std::int64_t at_step, int a, int b, BreakMode how, Coord at_x, Coord at_y) const {
     auto const slot = static_cast<std::size_t>(Kokkos::atomic_fetch_add(&count(0), 1));
-    Kokkos::atomic_fetch_add(&by_mode(static_cast<std::size_t>(how)), 1);
     step(slot) = at_step;
     id_a(slot) = a;
     id_b(slot) = b;
@@ -29,7 +26,6 @@ struct BreakLog {
 inline BreakLog make_break_log(std::size_t bonds) {
   BreakLog log;
   log.count = Field<int>("breaks.count", 1);
-  log.by_mode = Field<int>("breaks.by_mode", break_mode_count);
   log.step = Field<std::int64_t>("breaks.step", bonds);
   log.id_a = Field<int>("breaks.id_a", bonds);
   log.id_b = Field<int>("breaks.id_b", bonds);

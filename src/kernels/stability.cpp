@@ -47,7 +47,7 @@ struct LocalPeriod {
   }
 };
 
-/// A motion of all discs: two displacements and a rotation each, ghosts excluded.
+/// A motion of all discs, ghosts included: two displacements and a rotation each.
 struct Motion {
   Field<Real> x, y, turn;
 };
@@ -80,7 +80,7 @@ struct StiffnessProduct {
     Real fx = 0, fy = 0, torque = 0;
     for (int k = 0; k < rows.length(i); ++k) {
       PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
-      if (s.other >= p.owned || !(s.touching || s.bonded)) continue;
+      if (!(s.touching || s.bonded)) continue;
       int const j = s.other;
       Real const dx = u.x(j) - u.x(i), dy = u.y(j) - u.y(i);
       Real const normal = -s.normal_stiffness * (dx * s.nx + dy * s.ny);
@@ -103,7 +103,7 @@ struct StiffnessProduct {
     out[0] = mass * (u.x(i) * u.x(i) + u.y(i) * u.y(i)) + inertia * u.turn(i) * u.turn(i);
     out[1] = (mass * (u.x(i) * w.x(i) + u.y(i) * w.y(i)) + inertia * u.turn(i) * w.turn(i)) * reference_time2;
   }
-  Real reference_mass = 1, reference_time2 = 1;
+  Real reference_mass, reference_time2;
 };
 
 struct Rescale {
@@ -130,23 +130,21 @@ Real local_time_step(ParticleSoA const& particles, ContactRows const& rows, Cont
   return std::sqrt(2 * least);
 }
 
-Real largest_frequency(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, WallContacts const&,
-                       Walls const& walls, WallLaw const& wall_law, int iterations) {
+Real largest_frequency(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Walls const& walls,
+                       WallLaw const& wall_law, AcrossRanks const& across, int iterations) {
   Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
-  Motion u = make_motion(particles.owned), w = make_motion(particles.owned);
-  Kokkos::parallel_for("random_motion", each, RandomMotion{particles, u});
-  Real const period = local_time_step(particles, rows, laws, 0);
-  StiffnessProduct product{particles, rows, laws, walls, wall_law, u, w, 1, 1};
-  product.reference_mass = 1e4;
-  product.reference_time2 = period * period;
+  Motion u = make_motion(particles.all()), w = make_motion(particles.owned);
+  Kokkos::parallel_for("random_motion", Kokkos::RangePolicy<ExecutionSpace>(0, particles.all()), RandomMotion{particles, u});
+  StiffnessProduct product{particles, rows, laws, walls, wall_law, u, w, 1e4, across.period * across.period};
   Real frequency2 = 0;
   for (int n = 0; n < iterations; ++n) {
     Real sums[2];
-    exact_sums<2>("stiffness_product", particles.owned, product, sums);
+    exact_sums<2>("stiffness_product", particles.owned, product, sums, across.sum);
     if (!(sums[0] > 0)) return 0;
     frequency2 = sums[1] / sums[0] / product.reference_time2;
     if (!(frequency2 > 0)) return 0;
     Kokkos::parallel_for("rescale_motion", each, Rescale{w, u, 1 / frequency2});
+    for (auto const& field : {u.x, u.y, u.turn}) across.refresh_ghosts(field);
   }
   return std::sqrt(frequency2);
 }

@@ -12,9 +12,16 @@ namespace clathra {
 /// smallest disc that gains two more contacts than it has stays below 0.65 of it.
 Real local_time_step(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, int least_contacts = 4);
 
+/// What the power iteration needs to know of the other ranks and of the periodic boundary.
+struct AcrossRanks {
+  Real period = 0;   ///< local_time_step() with no contacts to come, the least of all ranks [s]
+  SumOverRanks sum;  ///< for exact_sums()
+  std::function<void(Field<Real> const&)> refresh_ghosts;  ///< gives every ghost the value of its disc
+};
+
 /// Largest angular frequency [1/s] of the present contact network (sticking contacts, intact bonds, walls) by power iteration on
 /// M^-1 K from above-random start; leapfrog is stable below dt = 2 / omega. Converges from below; 20 iterations reach about 2 %.
-Real largest_frequency(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws,
-                       WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law, int iterations = 20);
+Real largest_frequency(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Walls const& walls,
+                       WallLaw const& wall_law, AcrossRanks const& across, int iterations);
 
 }  // namespace clathra

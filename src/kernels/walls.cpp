@@ -1,7 +1,5 @@
 #include "kernels/walls.hpp"
 
-#include "kernels/exact_sum.hpp"
-
 namespace clathra {
 
 namespace {
@@ -86,53 +84,55 @@ struct FindNearWalls {
   }
 };
 
-struct ScatterSlots {
+struct SpreadShear {
   WallContacts contacts;
-  Field<int> slot_of;
-  Field<int> new_index;
+  WallShear shear;
   KOKKOS_FUNCTION void operator()(int c) const {
-    int const disc = contacts.disc(c);
-    slot_of(new_index.extent(0) > 0 ? new_index(disc) : disc) = c + 1;
+    for (int wall = 0; wall < wall_count; ++wall) shear[wall](contacts.disc(c)) = contacts.shear(c, wall);
   }
 };
 
-struct CarryShear {
-  WallContacts now, old;
-  Field<int> slot_of;
+struct CollectShear {
+  WallContacts contacts;
+  WallShear shear;
   KOKKOS_FUNCTION void operator()(int c) const {
-    int const slot = slot_of(now.disc(c)) - 1;
-    for (int wall = 0; wall < wall_count; ++wall) now.shear(c, wall) = slot < 0 ? 0 : old.shear(slot, wall);
+    for (int wall = 0; wall < wall_count; ++wall) contacts.shear(c, wall) = shear[wall](contacts.disc(c));
   }
 };
 
 }  // namespace
 
+WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts) {
+  WallShear shear;
+  if (contacts.shear.extent(0) == 0 && !contacts.rough) return shear;
+  for (auto& field : shear) field = Field<Accum>("wall_shear_of_discs", particles.x.extent(0));
+  Kokkos::parallel_for("spread_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, contacts.size), SpreadShear{contacts, shear});
+  return shear;
+}
+
 WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction,
-                                WallContacts const& old, Field<int> const& new_index) {
+                                WallShear const& shear) {
   WallContacts found;
   Field<int> const candidates = uninitialised<int>("wall_candidates", static_cast<std::size_t>(particles.owned));
   Kokkos::parallel_scan("find_near_walls", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                         FindNearWalls{particles, walls, skin, candidates}, found.size);
   found.disc = candidates;
+  found.rough = friction;
   if (friction) {
     found.shear = decltype(found.shear)("wall_shear", static_cast<std::size_t>(found.size));
-    if (old.shear.extent(0) > 0) {
-      Field<int> const slot_of("wall_slots", static_cast<std::size_t>(particles.owned));
-      Kokkos::parallel_for("scatter_slots", Kokkos::RangePolicy<ExecutionSpace>(0, old.size),
-                           ScatterSlots{old, slot_of, new_index});
-      Kokkos::parallel_for("carry_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, found.size),
-                           CarryShear{found, old, slot_of});
+    if (shear[0].extent(0) > 0) {
+      Kokkos::parallel_for("collect_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, found.size), CollectShear{found, shear});
     }
   }
   return found;
 }
 
 WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt, EnergyLosses const& losses, Faults const& faults) {
+                              Real dt, EnergyLosses const& losses, Faults const& faults, SumOverRanks const& over_ranks) {
   GrainLaw const as_grain{law.normal_stiffness, law.shear_stiffness, law.friction, 0, law.damping_ratio};
   Real sums[reaction_count];
   exact_sums<reaction_count>("wall_forces", contacts.size, WallForces{particles, contacts, walls, as_grain, dt, losses, faults},
-                             sums);
+                             sums, over_ranks);
   WallReactions reactions;
   for (int wall = 0; wall < wall_count; ++wall) {
     reactions.normal[wall] = sums[wall];

@@ -1,6 +1,9 @@
 #pragma once
 /// Four rigid walls around the specimen, with or without friction.
+#include <array>
+
 #include "kernels/contacts.hpp"
+#include "kernels/exact_sum.hpp"
 #include "kernels/grain_contact.hpp"
 #include "kernels/reports.hpp"
 
@@ -27,6 +30,7 @@ struct WallLaw {
 /// The discs near a wall, in no particular order, with the shear history of their four possible wall contacts.
 struct WallContacts {
   int size = 0;
+  bool rough = false;
   Field<int> disc;                                      ///< [size]
   Kokkos::View<Real* [wall_count], MemorySpace> shear;  ///< [size][4] F_s [N/m], empty for smooth walls
 };
@@ -38,15 +42,18 @@ struct WallReactions {
   int contacts[wall_count] = {0, 0, 0, 0};
 };
 
-/// Finds the discs whose surface is within `skin` [m] of a wall; keeps the shear history of those that were in `old`.
-/// @param new_index  where each disc of `old` lies now; an empty field means that nothing moved
-WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction,
-                                WallContacts const& old, Field<int> const& new_index);
+/// The shear of rough walls by disc, while discs change their places: [wall][owned], empty for smooth walls.
+using WallShear = std::array<Field<Accum>, wall_count>;
+WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts);
 
-/// Adds the wall forces to the discs near the walls and returns the reactions. A wall is a disc of infinite radius without
-/// rolling. A disc more than half a radius deep in a wall is a fault.
+/// Finds the discs whose surface is within `skin` [m] of a wall; those of a rough wall have the shear history `shear`.
+WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction,
+                                WallShear const& shear);
+
+/// Adds the wall forces to the discs near the walls and returns the reactions of all ranks. A wall is a disc of infinite radius
+/// without rolling. A disc more than half a radius deep in a wall is a fault.
 /// @param losses  sliding and dashpot are written when their fields exist
 WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt, EnergyLosses const& losses, Faults const& faults);
+                              Real dt, EnergyLosses const& losses, Faults const& faults, SumOverRanks const& over_ranks = {});
 
 }  // namespace clathra

@@ -1,0 +1,17 @@
+# Looks for MPI, which makes several ranks possible. CLATHRA_MPI says whether it is used: files of several ranks need an HDF5
+# built for the same MPI. Without it everything runs on one rank.
+option(CLATHRA_MPI "Use MPI where it is found" ON)
+if(CLATHRA_MPI)
+  find_package(MPI QUIET COMPONENTS C)
+  if(MPI_FOUND)
+    set(HDF5_PREFER_PARALLEL TRUE)
+    find_package(HDF5 QUIET COMPONENTS C)
+  endif()
+  if(NOT MPI_FOUND)
+    message(STATUS "Clathra: one rank only, MPI not found")
+    set(CLATHRA_MPI OFF)
+  elseif(HDF5_FOUND AND NOT HDF5_IS_PARALLEL)
+    message(STATUS "Clathra: one rank only, HDF5 was built without MPI (Debian: libhdf5-openmpi-dev)")
+    set(CLATHRA_MPI OFF)
+  endif()
+endif()

@@ -1,0 +1,150 @@
+#include "domain/disc_record.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace clathra {
+
+namespace {
+
+using Offsets = Field<std::int64_t>;
+
+struct RowLengths {
+  Field<int> which, length, row_length;
+  KOKKOS_FUNCTION void operator()(int k) const { length(k) = row_length(which(k)); }
+};
+
+struct Pack {
+  Field<int> which, id;
+  DiscColumns discs;
+  ContactRows rows;
+  RowColumns history;
+  Offsets begin;
+  Field<double> numbers;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    int const i = which(k), length = rows.length(i);
+    auto at = begin(k);
+    numbers(at++) = id(i);
+    for (int c = 0; c < discs.count; ++c) numbers(at++) = discs.column[c](i);
+    numbers(at++) = length;
+    for (int n = 0; n < length; ++n) {
+      std::size_t const e = rows.entry(i, n);
+      numbers(at++) = rows.neighbour(e);
+      for (int c = 0; c < history.count; ++c) numbers(at++) = history.column[c](e);
+    }
+  }
+};
+
+struct Unpack {
+  Field<double> numbers;
+  Offsets begin;
+  int first;  // where the new discs go
+  Field<int> id;
+  DiscColumns discs;
+  ContactRows rows;
+  RowColumns history;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    auto at = begin(k);
+    id(first + k) = static_cast<int>(numbers(at++));
+    for (int c = 0; c < discs.count; ++c) discs.column[c](first + k) = numbers(at++);
+    auto const length = static_cast<int>(numbers(at++));
+    rows.length(k) = length;
+    for (int n = 0; n < length; ++n) {
+      std::size_t const e = rows.entry(k, n);
+      rows.neighbour(e) = static_cast<int>(numbers(at++));
+      for (int c = 0; c < history.count; ++c) history.column[c](e) = numbers(at++);
+    }
+  }
+};
+
+template <class T>
+Field<T> on_device(char const* label, std::vector<T> const& values) {
+  Field<T> const field = uninitialised<T>(label, values.size());
+  auto host = Kokkos::create_mirror_view(field);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(field, host);
+  return field;
+}
+
+template <class T>
+std::vector<T> on_host(Field<T> const& field) {
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
+  return {host.data(), host.data() + host.extent(0)};
+}
+
+std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) { return {begin.begin(), begin.end()}; }
+
+}  // namespace
+
+DiscColumns::DiscColumns(ParticleSoA const& particles, Companions const& companions) {
+  for_each_field(particles, [&](char const*, auto const& field) {
+    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) column[count++] = field;
+  });
+  for (Field<Accum> const* const field : companions) column[count++] = *field;
+}
+
+RowColumns::RowColumns(ContactRows const& rows) {
+  for_each_history(rows, [&](char const*, Field<Real> const& field, Real) { column[count++] = field; });
+}
+
+DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companions, ContactRows const& rows,
+                       std::vector<int> const& which) {
+  DiscColumns const discs(particles, companions);
+  RowColumns const history(rows);
+  auto const n = static_cast<int>(which.size());
+  Field<int> const indices = on_device("packed", which), length = uninitialised<int>("packed_lengths", which.size());
+  Kokkos::RangePolicy<ExecutionSpace> const each(0, n);
+  Kokkos::parallel_for("row_lengths", each, RowLengths{indices, length, rows.length});
+  DiscRecords records;
+  records.begin.reserve(which.size() + 1);
+  for (int const entries : on_host(length)) {
+    records.begin.push_back(records.begin.back() + static_cast<std::size_t>(2 + discs.count + entries * (1 + history.count)));
+  }
+  Field<double> const numbers = uninitialised<double>("disc_records", records.begin.back());
+  Kokkos::parallel_for(
+      "pack_discs", each,
+      Pack{indices, particles.id, discs, rows, history, on_device("record_offsets", signed_offsets(records.begin)), numbers});
+  records.numbers = on_host(numbers);
+  return records;
+}
+
+ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures const& features, ParticleSoA& particles,
+                         Companions const& companions) {
+  ContactRows rows;
+  rows.features = features;
+  int columns = 0, histories = 0;
+  for_each_field(particles, [&](char const*, auto const&) { ++columns; });  // the id stands for itself
+  columns += static_cast<int>(companions.size());
+  for_each_history(rows, [&](char const*, Field<Real> const&, Real) { ++histories; });
+  std::vector<std::int64_t> begin;
+  std::vector<int> slice_start{0};
+  int widest = 0;
+  for (std::size_t at = 0; at < numbers.size();) {
+    begin.push_back(static_cast<std::int64_t>(at));
+    auto const length = static_cast<int>(numbers[at + static_cast<std::size_t>(columns)]);
+    at += static_cast<std::size_t>(columns + 1 + length * (1 + histories));
+    widest = std::max(widest, length);
+    if (begin.size() % lane_count != 0 && at < numbers.size()) continue;
+    slice_start.push_back(slice_start.back() + widest);
+    widest = 0;
+  }
+  int const first = particles.owned;
+  auto const came = static_cast<int>(begin.size());
+  reserve(particles, first + came);
+  particles.owned = first + came;
+  particles.ghosts = 0;
+  for (Field<Accum>* const field : companions) Kokkos::resize(*field, particles.x.extent(0));
+  fill_padding(particles);
+  rows.slice_start = on_device("rows.slice_start", slice_start);
+  rows.length = uninitialised<int>("rows.length", begin.size());
+  rows.neighbour = uninitialised<int>("rows.neighbour", static_cast<std::size_t>(slice_start.back()) * lane_count);
+  allocate_history(rows, rows.neighbour.extent(0));
+  Kokkos::parallel_for("unpack_discs", Kokkos::RangePolicy<ExecutionSpace>(0, came),
+                       Unpack{on_device("disc_records", numbers), on_device("record_offsets", begin), first, particles.id,
+                              DiscColumns(particles, companions), rows, RowColumns(rows)});
+  return rows;
+}
+
+}  // namespace clathra

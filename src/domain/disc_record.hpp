@@ -1,0 +1,48 @@
+#pragma once
+/// Discs by value, each with its companions and its row, as a string of numbers: how they travel to other ranks and to
+/// checkpoints.
+#include <vector>
+
+#include "kernels/neighbours.hpp"
+
+namespace clathra {
+
+/// What goes with a disc beside its state: accounts, marks. [owned] each.
+using Companions = std::vector<Field<Accum>*>;
+
+/// The fields of a disc as columns of numbers: those of ParticleSoA but the id, and the companions.
+struct DiscColumns {
+  static constexpr int most = 24;
+  int count = 0;
+  Field<Real> column[most];
+  DiscColumns(ParticleSoA const& particles, Companions const& companions);
+};
+
+/// The history of a row as columns.
+struct RowColumns {
+  static constexpr int most = 5;
+  int count = 0;
+  Field<Real> column[most];
+  explicit RowColumns(ContactRows const& rows);
+};
+
+/// Discs in a row of numbers. One record: id, the disc's columns, the length of its row, and for each entry the neighbour's id
+/// and the history columns.
+struct DiscRecords {
+  std::vector<std::size_t> begin{0};  ///< [discs + 1] where each record begins
+  std::vector<double> numbers;
+  std::size_t size() const { return begin.size() - 1; }
+};
+
+/// Records of the discs `which`, in this order.
+/// @param rows  neighbours by id, slots = indices
+DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companions, ContactRows const& rows,
+                       std::vector<int> const& which);
+
+/// Appends discs behind the owned ones and returns their rows, neighbours by id.
+/// @param numbers  records, one behind the other
+/// @param features  what the rows keep
+ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures const& features, ParticleSoA& particles,
+                         Companions const& companions);
+
+}  // namespace clathra

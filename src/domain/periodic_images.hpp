@@ -1,0 +1,30 @@
+#pragma once
+/// Images of discs across the boundary of a periodic cell, kept as ghosts behind the owned discs.
+#include "kernels/particles.hpp"
+
+namespace clathra {
+
+/// A rectangular periodic cell. Its stretching is homogeneous: discs and images move with it.
+struct PeriodicCell {
+  Coord left = 0, bottom = 0;
+  Real width = 0, height = 0;  ///< [m]; 0 = not periodic
+  bool exists() const { return width > 0; }
+};
+
+/// The ghosts and the discs they are images of.
+class PeriodicImages {
+ public:
+  /// Wraps the owned discs into the cell and appends images of all discs closer than `reach` [m] (centre to edge) to an edge.
+  void rebuild(ParticleSoA& particles, PeriodicCell const& cell, Real reach);
+  /// Gives every image the present state of its disc.
+  void refresh(ParticleSoA const& particles, PeriodicCell const& cell) const;
+
+  /// Gives every image the value of its disc.
+  void refresh(ParticleSoA const& particles, Field<Real> const& field) const;
+
+ private:
+  Field<int> source_;             // owned index of each ghost
+  Field<int> shift_x_, shift_y_;  // in cell sizes
+};
+
+}  // namespace clathra

@@ -1,0 +1,46 @@
+#pragma once
+/// A small bonded packing sheared through breakage, and the state that it must have afterwards.
+#include "scenes.hpp"
+
+namespace clathra {
+
+inline Specimen bonded_patch(Composite composite) {
+  Specimen s = disordered_patch(20, 20);
+  for (std::size_t i = 0; i < s.size(); ++i) {  // many contacts are loaded when the bonds form
+    s.x[i] *= 0.98;
+    s.y[i] *= 0.98;
+  }
+  enclose(s);
+  bond_all(s, hydrate_scene(0.41, composite));
+  return s;
+}
+
+/// About to be sheared through breakage.
+/// @param share  this rank's part of the specimen, if there are ranks
+inline Simulation ready(Specimen const& s, Composite composite, Ranks const& ranks = {}, Specimen const* share = nullptr) {
+  SimulationLaws laws = bonded_laws(hydrate_scene(0.41, composite), s.critical_thickness);
+  laws.motion.damping = 0.3;
+  laws.wall.friction = 0.2;
+  laws.contact.grain.damping_ratio = 0.02;
+  Simulation sim(share ? *share : s, laws, 0.05 * grain_d50, ranks);
+  sim.time_step = 1e-7;
+  sim.loading.y = AxisDrive::at_rate(200);
+  sim.loading.x = AxisDrive::at_rate(-60);
+  return sim;
+}
+inline Simulation sheared(Specimen const& s, Composite composite, int steps = 3000) {
+  Simulation sim = ready(s, composite);
+  for (int n = 0; n < steps; ++n) sim.step();
+  return sim;
+}
+
+struct Golden {
+  Composite composite;
+  std::uint64_t hash;
+  int broken;
+};
+inline constexpr Golden golden[] = {{Composite::replace, 0xcd0fb531f7ca43bcULL, 211},
+                                    {Composite::parallel, 0x931d29321efb401eULL, 476},
+                                    {Composite::memory, 0x7bc8460515ada0adULL, 269}};
+
+}  // namespace clathra

@@ -1,0 +1,9 @@
+#pragma once
+/// The ranks that a test program was started on.
+#include "domain/ranks.hpp"
+
+namespace clathra {
+
+Ranks const& world();
+
+}  // namespace clathra

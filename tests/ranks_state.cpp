@@ -1,0 +1,135 @@
+/// The same bits on any number of ranks: ctest runs this file on 1, 2, 3, 4 and 7 of them, with one thread and with two.
+#include "golden_states.hpp"
+#include "ranks_main.hpp"
+
+namespace clathra {
+namespace {
+
+/// This rank's part of a specimen, discs and contacts dealt out like cards: nothing lies where it will belong.
+Specimen dealt(Specimen const& whole) {
+  Specimen part = whole;
+  for (auto* field : {&part.x, &part.y, &part.angle, &part.vx, &part.vy, &part.omega, &part.radius}) field->clear();
+  part.id.clear();
+  part.contacts.clear();
+  auto const mine = [](std::size_t k) {
+    return static_cast<int>(k % static_cast<std::size_t>(world().count())) == world().rank();
+  };
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (!mine(i)) continue;
+    part.id.push_back(whole.id[i]);
+    for (auto field :
+         {&Specimen::x, &Specimen::y, &Specimen::angle, &Specimen::vx, &Specimen::vy, &Specimen::omega, &Specimen::radius})
+      (part.*field).push_back((whole.*field)[i]);
+  }
+  for (std::size_t k = 0; k < whole.contacts.size(); ++k) {
+    if (mine(k / 3)) part.contacts.push_back(whole.contacts[k]);
+  }
+  return part;
+}
+
+/// Two vertical cuts that follow one another, the second so far out that the ranks behind it own nothing.
+Decomposition lopsided(Specimen const& s) {
+  std::vector<Cut> cuts;
+  for (int rank = 0; rank + 1 < world().count(); ++rank) {
+    bool const last = rank + 2 == world().count();
+    cuts.push_back({rank % 2 == 0, rank == 0 ? s.left + 0.3 * s.width() : 1.0 + rank, -1 - rank, last ? -2 - rank : rank + 1});
+  }
+  return Decomposition(cuts);
+}
+
+void expect_equal_measures(Simulation const& one, Simulation const& many) {
+  Measures const a = one.measures(), b = many.measures();
+  EXPECT_EQ(a.kinetic, b.kinetic);
+  EXPECT_EQ(a.grain_energy, b.grain_energy);
+  EXPECT_EQ(a.bond_energy, b.bond_energy);
+  EXPECT_EQ(a.wall_energy, b.wall_energy);
+  EXPECT_EQ(a.stress_area_xy, b.stress_area_xy);
+  EXPECT_EQ(a.stress_area_yy, b.stress_area_yy);
+  EXPECT_EQ(a.bond_area, b.bond_area);
+  EXPECT_EQ(a.mechanical, b.mechanical);
+  EXPECT_EQ(one.stress().x, many.stress().x);
+  EXPECT_EQ(one.stress().y, many.stress().y);
+  EXPECT_EQ(one.boundary_work(), many.boundary_work());
+  EXPECT_EQ(one.void_ratio(), many.void_ratio());
+  EXPECT_EQ(one.losses().sliding, many.losses().sliding);
+  EXPECT_EQ(one.losses().breakage, many.losses().breakage);
+  EXPECT_EQ(one.losses().damping, many.losses().damping);
+  EXPECT_EQ(one.stable_time_step(), many.stable_time_step());
+  EXPECT_EQ(one.largest_frequency(), many.largest_frequency());
+  EXPECT_EQ(one.rebuilds(), many.rebuilds());
+  BreakCounts const p = one.break_counts(), q = many.break_counts();
+  EXPECT_EQ(p.tension, q.tension);
+  EXPECT_EQ(p.shear, q.shear);
+  EXPECT_EQ(p.rolling, q.rolling);
+}
+
+TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
+  for (Golden const& g : golden) {
+    Specimen const whole = bonded_patch(g.composite), part = dealt(whole);
+    Simulation sim = ready(whole, g.composite, world(), &part);
+    for (int n = 0; n < 3000; ++n) sim.step();
+    EXPECT_EQ(sim.hash(), g.hash);
+    EXPECT_EQ(sim.broken_bonds(), g.broken);
+    EXPECT_EQ(sim.discs(), static_cast<int>(whole.size()));
+  }
+}
+
+TEST(Ranks, MeasureWhatOneRankMeasures) {
+  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
+  Simulation one = ready(whole, Composite::parallel), many = ready(whole, Composite::parallel, world(), &part);
+  one.set_ledger(true);
+  many.set_ledger(true);
+  for (int n = 0; n < 1500; ++n) {
+    one.step();
+    many.step();
+  }
+  EXPECT_EQ(one.hash(), many.hash());
+  expect_equal_measures(one, many);
+}
+
+TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
+  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
+  Simulation sim = ready(whole, Composite::parallel, world(), &part);
+  int fewest = sim.discs();
+  for (int n = 0; n < 3000; ++n) {
+    if (n == 400 || n == 2000) sim.cut_anew(lopsided(whole));
+    // The first rank claims to be slower than the others: it gets fewer discs.
+    if (n == 1200) sim.cut_anew(Decomposition::bisect(world(), sim.particles(), world().root() ? 5 : 1));
+    sim.step();
+    fewest = std::min(fewest, sim.particles().owned);
+  }
+  if (world().count() > 2) {
+    EXPECT_EQ(world().min(fewest), 0);
+  }
+  Golden const& g = golden[1];
+  ASSERT_EQ(g.composite, Composite::parallel);
+  // Cutting anew asks for a neighbour search, and searches order rows: the lone rank searches at the same steps.
+  Simulation one = ready(whole, Composite::parallel);
+  for (int n = 0; n < 3000; ++n) {
+    if (n == 400 || n == 1200 || n == 2000) one.request_rebuild();
+    one.step();
+  }
+  EXPECT_EQ(sim.hash(), one.hash());
+  expect_equal_measures(one, sim);
+}
+
+TEST(Ranks, HandOutASpecimenWhosePartsAreTheWhole) {
+  Specimen const whole = bonded_patch(Composite::replace), part = dealt(whole);
+  Simulation sim = ready(whole, Composite::replace, world(), &part);
+  for (int n = 0; n < 500; ++n) sim.step();
+  Simulation alone = ready(whole, Composite::replace);
+  for (int n = 0; n < 500; ++n) alone.step();
+  Specimen const mine = sim.specimen(), all = alone.specimen();
+  EXPECT_EQ(world().sum(static_cast<std::int64_t>(mine.size())), static_cast<std::int64_t>(all.size()));
+  EXPECT_EQ(world().sum(static_cast<std::int64_t>(mine.contacts.size())), static_cast<std::int64_t>(all.contacts.size()));
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    auto const at = static_cast<std::size_t>(mine.id[i]);
+    EXPECT_EQ(mine.x[i], all.x[at]);
+    EXPECT_EQ(mine.omega[i], all.omega[at]);
+  }
+  Simulation const again(mine, sim.laws(), 0.05 * grain_d50, world());
+  EXPECT_EQ(again.hash(), alone.hash());
+}
+
+}  // namespace
+}  // namespace clathra
