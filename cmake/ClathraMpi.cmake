@@ -2,7 +2,7 @@
 # built for the same MPI. Without it everything runs on one rank.
 option(CLATHRA_MPI "Use MPI where it is found" ON)
 if(CLATHRA_MPI)
-  find_package(MPI QUIET COMPONENTS C)
+  find_package(MPI QUIET COMPONENTS CXX)
   if(MPI_FOUND)
     set(HDF5_PREFER_PARALLEL TRUE)
     find_package(HDF5 QUIET COMPONENTS C)

@@ -19,8 +19,11 @@ struct CheckOptions {
 
 ExitCode check(CheckOptions const& options) {
   LoadedScene const input = options.scene.load();
-  bool const from_file = input.scene.sample.generator == Generator::file;
-  Scene const scene = from_file ? sized_by(input.scene, read_specimen(input.scene.sample.file)) : input.scene;
+  Scene scene = input.scene;
+  if (scene.sample.generator == Generator::file) {
+    Specimen const specimen = read_specimen(scene.sample.file);
+    scene = sized_by(scene, specimen, static_cast<std::int64_t>(specimen.size()));
+  }
   Forecast const result = forecast(scene, options.rate);
   std::string text = fmt::format("{}: the scene is right\n{}", options.scene.file, forecast_text(scene, result));
   for (std::string const& warning : input.warnings) text += "warning: " + warning + "\n";

@@ -89,6 +89,10 @@ ExitCode choose_and_run(int argc, char** argv) {
     if (std::string const text = unknown_verb(program, argc, argv); !text.empty()) return say(ExitCode::usage, text);
     return program.exit(error) == 0 ? ExitCode::done : ExitCode::usage;  // --help and --version end here too
   }
+  std::string const verb = program.get_subcommands().front()->get_name();
+  if (launched_ranks() > 1 && verb != "run" && verb != "generate")
+    return say(ExitCode::usage, fmt::format("'{}' runs on one rank, {} were started; only 'run' and 'generate' share their work",
+                                            verb, launched_ranks()));
   return run_guarded(chosen);
 }
 

@@ -8,6 +8,7 @@
 
 #include "domain/hydrate.hpp"
 #include "domain/quasi_static.hpp"
+#include "domain/ranks.hpp"
 #include "progress_line.hpp"
 #include "threads.hpp"
 
@@ -44,7 +45,7 @@ Forecast forecast(Scene const& scene, double disc_steps_per_second) {
   Forecast result;
   result.numbers = predict(scene);
   result.disc_steps_per_second =
-      disc_steps_per_second > 0 ? disc_steps_per_second : assumed_rate * thread_count(scene.run.threads);
+      disc_steps_per_second > 0 ? disc_steps_per_second : assumed_rate * thread_count(scene.run.threads) * launched_ranks();
   RateNumbers const rate{result.numbers["strain_rate_per_s"], result.numbers["inertial_number"], result.numbers["wave_number"]};
   Scene forced = scene;
   forced.run.force = true;
@@ -57,7 +58,8 @@ Forecast forecast(Scene const& scene, double disc_steps_per_second) {
 }
 
 std::string memory_refusal(StageRecord const& numbers) {
-  double const memory = numbers.at("memory_bytes"), available = usable_memory * free_memory();
+  double const memory = numbers.at("memory_bytes") * launched_ranks_here() / launched_ranks(),
+               available = usable_memory * free_memory();
   if (memory <= available) return {};
   return fmt::format("it needs about {} of memory, {} are free", bytes_text(memory), bytes_text(available));
 }

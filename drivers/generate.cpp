@@ -8,6 +8,7 @@
 #include "interrupt.hpp"
 #include "io/specimen_file.hpp"
 #include "print.hpp"
+#include "rank_checks.hpp"
 #include "scene_options.hpp"
 #include "specimen_source.hpp"
 #include "stage_progress.hpp"
@@ -38,16 +39,22 @@ ExitCode generate(GenerateOptions const& options) {
   Scene const& scene = record.input.scene;
   if (scene.sample.generator == Generator::file)
     throw Refused("the scene reads its specimen from a file: there is nothing to generate");
-  if (std::string const refusal = memory_refusal(predict(scene)); !refusal.empty() && !scene.run.force) throw Refused(refusal);
   settle_threads(scene.run.threads);
+  RankSession const session;
+  Ranks const& ranks = session.ranks();
+  require_same_everywhere(ranks, record.input);
+  StageRecord const cost = predict(scene);
+  if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) throw Refused(refusal);
+  require_enough_discs(ranks, static_cast<std::int64_t>(cost.at("particles")));
   watch_for_interrupt();
   ProgressLine line;
   for (std::string const& warning : record.input.warnings) line.warn(warning);
   KokkosSession const kokkos;
-  Specimen const specimen = generate_recorded(scene, show_stage(line), record);
-  write_specimen(options.output, specimen);
+  Specimen const specimen = generate_recorded(scene, show_stage(line, ranks), record, ranks);
+  write_specimen(options.output, specimen, ranks);
   line.repeat_warnings();
-  return print_result(fmt::format("{}: {} discs\n{}", options.output, specimen.size(), record_text(record)));
+  return print_result(
+      fmt::format("{}: {:.0f} discs\n{}", options.output, record.stages.at("generate").at("discs"), record_text(record)));
 }
 
 }  // namespace

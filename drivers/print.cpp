@@ -6,6 +6,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "domain/ranks.hpp"
+
 namespace clathra {
 namespace {
 
@@ -23,12 +25,15 @@ int put(int descriptor, std::string_view text) {
 }  // namespace
 
 ExitCode print_result(std::string const& text) {
+  if (launched_rank() != 0) return ExitCode::done;
   int const error = put(STDOUT_FILENO, text);
   if (error == 0 || error == EPIPE) return ExitCode::done;
   print_error("clathra: cannot write to standard output: " + std::generic_category().message(error));
   return ExitCode::io_error;
 }
 
-void print_error(std::string const& line) { put(STDERR_FILENO, line + "\n"); }
+void print_error(std::string const& line) {
+  if (launched_rank() == 0) put(STDERR_FILENO, line + "\n");
+}
 
 }  // namespace clathra

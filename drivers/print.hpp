@@ -1,5 +1,5 @@
 #pragma once
-/// The two standard streams.
+/// The two standard streams. Of several ranks only the first one speaks.
 #include <string>
 
 #include "io/problems.hpp"

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "domain/ranks.hpp"
+
 namespace clathra {
 namespace {
 
@@ -29,6 +31,7 @@ bool is_terminal() {
 
 /// stderr may be closed or full: nothing that happens to it may stop a run.
 void put(std::string const& text) {
+  if (launched_rank() != 0) return;  // of several ranks the first one speaks
   ssize_t const written = ::write(STDERR_FILENO, text.data(), text.size());
   (void)written;
 }

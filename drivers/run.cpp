@@ -17,7 +17,9 @@
 #include "io/snapshot_file.hpp"
 #include "io/specimen_file.hpp"
 #include "io/text_file.hpp"
+#include "io/together.hpp"
 #include "print.hpp"
+#include "rank_checks.hpp"
 #include "scene_options.hpp"
 #include "specimen_source.hpp"
 #include "stage_progress.hpp"
@@ -37,27 +39,34 @@ struct RunOptions {
 /// One run with its folder, its record and what the user sees of it.
 class Run {
  public:
-  Run(LoadedScene input, std::optional<Specimen> specimen)
-      : scene_(input.scene), specimen_(std::move(specimen)), folder_(scene_.output.folder, scene_.sample.file) {
+  Run(LoadedScene input, std::optional<Specimen> specimen, Ranks const& ranks)
+      : ranks_(ranks), scene_(input.scene), specimen_(std::move(specimen)) {
     record_.version = CLATHRA_VERSION;
     record_.git_hash = CLATHRA_GIT_HASH;
     record_.input = std::move(input);
     record_.threads = thread_count(scene_.run.threads);
-    if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
+    record_.ranks = ranks.count();
+    on_root(ranks_, [&] {
+      lock_.emplace(scene_.output.folder, scene_.sample.file);
+      if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
+    });
+    folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");
   }
 
   void warn(std::string const& text) { line_.warn(text); }
 
   /// @throws whatever ended the run, after run.json says so
   ExitCode run() {
-    replace_text_file(folder_ / "input.toml", record_.input.source);
-    replace_text_file(folder_ / "resolved.toml", resolved_scene(scene_, folder_.path()));
-    write_record(ExitCode::done, "running");
+    on_root(ranks_, [&] {
+      replace_text_file(folder_ / "input.toml", record_.input.source);
+      replace_text_file(folder_ / "resolved.toml", resolved_scene(scene_, folder_));
+      write_record(ExitCode::done, "running");
+    });
     try {
       KokkosSession const kokkos;
       make_specimen();
       shear();
-      record_.result_digests = result_digests(folder_.path());
+      on_root(ranks_, [&] { record_.result_digests = result_digests(folder_); });
     } catch (Stopped const&) {
       return stopped();
     } catch (Diverged const& problem) {
@@ -67,28 +76,28 @@ class Run {
     } catch (FileProblem const& problem) {
       return fail(problem.code, problem.what());
     } catch (std::bad_alloc const&) {
-      return fail(ExitCode::refused, "refused: not enough memory");
+      return fail_here(ExitCode::refused, "refused: not enough memory");
     } catch (std::exception const& problem) {
-      return fail(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
+      return fail_here(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
     }
     conclude(ExitCode::done, "finished");
     line_.repeat_warnings();
-    print_result(summary_->text() +
-                 fmt::format("results   {}\n", folder_.path().string()));  // a closed stdout is no failure of the run
+    print_result(summary_->text() + fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
     return ExitCode::done;
   }
 
  private:
   void make_specimen() {
     if (specimen_) return;
-    specimen_ = generate_recorded(scene_, show_stage(line_), record_);
-    write_specimen(folder_ / "specimen.h5", *specimen_);
+    specimen_ = generate_recorded(scene_, show_stage(line_, ranks_), record_, ranks_);
+    write_specimen(folder_ / "specimen.h5", *specimen_, ranks_);
   }
 
   /// Bonds, consolidates, shears and writes what comes out.
   void shear() {
     Speedometer const preparing;
-    BiaxialTest test(scene_, *specimen_, show_stage(line_));
+    BiaxialTest test(scene_, *specimen_, show_stage(line_, ranks_), ranks_);
+    specimen_.reset();
     record_.wall_seconds["prepare"] = preparing.seconds();
     record_.stages["prepare"] = test.preparation();
     record_.stages["plan"] = test.plan();
@@ -102,46 +111,50 @@ class Run {
     }
     record_.stages["shear"] = summary_->numbers();
     record_.state_hash = test.state_hash();
-    write_specimen(folder_ / "final.h5", test.specimen());
+    write_specimen(folder_ / "final.h5", test.specimen(), ranks_);
   }
 
   void write_curves(BiaxialTest& test) {
-    HistoryFile history(folder_ / "history.csv", scene_.output.energy);
-    std::optional<EventsFile> events;
-    if (scene_.output.events && has_bonds(scene_)) events.emplace(folder_ / "events.csv");
+    on_root(ranks_, [&] {
+      history_.emplace(folder_ / "history.csv", scene_.output.energy);
+      if (scene_.output.events && has_bonds(scene_)) events_.emplace(folder_ / "events.csv");
+    });
     std::optional<SnapshotSeries> snapshots;
-    if (scene_.output.snapshots > 0) snapshots.emplace(folder_.path());
+    if (scene_.output.snapshots > 0) snapshots.emplace(folder_, ranks_);
     Speedometer const clock;
     std::int64_t const steps_before = test.disc_steps();
     auto const write_all = [&] {
-      write_row(test, history, events);
+      write_row(test);
       if (snapshots) write_snapshot_if_due(test, *snapshots);
     };
     for (write_all(); !test.finished(); write_all()) {
-      if (interrupted()) throw Stopped("stopped by Ctrl-C");
+      if (ranks_.any(interrupted())) throw Stopped("stopped by Ctrl-C");
       test.advance_to_next_record();
       record_.disc_steps = test.disc_steps() - steps_before;
       record_.wall_seconds["shear"] = clock.seconds();
       record_.disc_steps_per_second = static_cast<double>(record_.disc_steps) / clock.seconds();
       show(test, clock.text(test.strain_fraction(), record_.disc_steps));
     }
-    history.close();
-    if (events) events->close();
+    on_root(ranks_, [&] {
+      history_->close();
+      if (events_) events_->close();
+    });
   }
 
-  void write_row(BiaxialTest& test, HistoryFile& history, std::optional<EventsFile>& events) {
+  void write_row(BiaxialTest& test) {
     last_ = test.record();
     summary_->add(last_);
-    if (scene_.output.energy) {
-      EnergyRow const energy = test.energy();
-      summary_->add(energy);
-      history.write(last_, energy);
-    } else {
-      history.write(last_);
-    }
+    EnergyRow const energy = scene_.output.energy ? test.energy() : EnergyRow();
+    if (scene_.output.energy) summary_->add(energy);
     std::vector<BreakEvent> const broken = test.take_events();
-    if (events) events->write(broken);
-    if (scene_.output.snapshots > 0) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
+    on_root(ranks_, [&] {
+      if (scene_.output.energy)
+        history_->write(last_, energy);
+      else
+        history_->write(last_);
+      if (events_) events_->write(broken);
+      if (scene_.output.snapshots > 0) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
+    });
   }
 
   void write_snapshot_if_due(BiaxialTest& test, SnapshotSeries& snapshots) {
@@ -169,20 +182,28 @@ class Run {
 
   /// run.json, then the report that draws on it. That there can be no report is a warning and loses nothing else.
   void conclude(ExitCode code, std::string const& reason) {
-    write_record(code, reason);
-    if (!summary_ || summary_->records() < 2) return;
-    try {
-      write_report({folder_.path()}, folder_ / "report.html");
-    } catch (std::exception const& problem) {
-      warn(fmt::format("there is no report: {}", problem.what()));
+    on_root(ranks_, [&] {
       write_record(code, reason);
-    }
+      if (!summary_ || summary_->records() < 2) return;
+      try {
+        write_report({folder_}, folder_ / "report.html");
+      } catch (std::exception const& problem) {
+        warn(fmt::format("there is no report: {}", problem.what()));
+        write_record(code, reason);
+      }
+    });
+  }
+
+  /// A fault that the other ranks may not have: they would wait for this one.
+  ExitCode fail_here(ExitCode code, std::string const& reason) {
+    if (!ranks_.alone()) end_all_ranks(ranks_, FileProblem(code, reason));
+    return fail(code, reason);
   }
 
   ExitCode stopped() {
     conclude(ExitCode::interrupted, fmt::format("stopped by Ctrl-C at an axial strain of {:.3g} %", last_.eps1 * 100));
     line_.repeat_warnings();
-    line_.note("clathra: " + record_.exit_reason + "; what was written so far is in " + folder_.path().string());
+    line_.note("clathra: " + record_.exit_reason + "; what was written so far is in " + folder_.string());
     return ExitCode::interrupted;
   }
 
@@ -198,9 +219,13 @@ class Run {
     return code;
   }
 
+  Ranks ranks_;
   Scene scene_;
   std::optional<Specimen> specimen_;
-  OutputFolder folder_;
+  std::optional<OutputFolder> lock_;    // on rank 0
+  std::optional<HistoryFile> history_;  // on rank 0
+  std::optional<EventsFile> events_;    // on rank 0
+  std::filesystem::path folder_;
   RunRecord record_;
   ProgressLine line_;
   std::optional<Summary> summary_;
@@ -213,9 +238,16 @@ ExitCode run(RunOptions const& options) {
   std::vector<std::string> more;
   if (!options.output.empty()) more.push_back("output.folder=" + options.output);
   LoadedScene input = options.scene.load(more);
+  if (!options.dry_run) settle_threads(input.scene.run.threads);
+  RankSession const session;
+  Ranks const& ranks = session.ranks();
+  require_same_everywhere(ranks, input);
   std::optional<Specimen> specimen;
-  if (input.scene.sample.generator == Generator::file) specimen = read_specimen(input.scene.sample.file);
-  Scene const sized = specimen ? sized_by(input.scene, *specimen) : input.scene;
+  Scene sized = input.scene;
+  if (input.scene.sample.generator == Generator::file) {
+    specimen = read_specimen(input.scene.sample.file, ranks);
+    sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
+  }
   Forecast const cost = forecast(sized, 0);
   if (options.dry_run) {
     ExitCode const printed = print_result(forecast_text(sized, cost));
@@ -223,10 +255,10 @@ ExitCode run(RunOptions const& options) {
     return printed;
   }
   refuse_if_needed(sized, cost);
-  settle_threads(input.scene.run.threads);
+  require_enough_discs(ranks, static_cast<std::int64_t>(cost.numbers.at("particles")));
   watch_for_interrupt();
   std::vector<std::string> const warnings = input.warnings;
-  Run now(std::move(input), std::move(specimen));
+  Run now(std::move(input), std::move(specimen), ranks);
   for (std::string const& warning : warnings) now.warn(warning);
   for (std::string const& warning : cost.warnings) now.warn(warning);
   if (sized.run.force)

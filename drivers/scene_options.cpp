@@ -21,9 +21,9 @@ LoadedScene SceneOptions::load(std::vector<std::string> more) const {
   return load_scene(file, all);
 }
 
-Scene sized_by(Scene scene, Specimen const& specimen) {
+Scene sized_by(Scene scene, Specimen const& specimen, std::int64_t discs) {
   scene.sample.generator = Generator::under_compaction;
-  scene.sample.particles = static_cast<std::int64_t>(specimen.size());
+  scene.sample.particles = discs;
   scene.sample.width = specimen.width();
   scene.sample.height = specimen.height();
   scene.sample.void_ratio = specimen.void_ratio;

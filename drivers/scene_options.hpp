@@ -22,6 +22,6 @@ struct SceneOptions {
 };
 
 /// The scene with its size taken from a specimen: what predict() needs where the specimen comes from a file.
-Scene sized_by(Scene scene, Specimen const& specimen);
+Scene sized_by(Scene scene, Specimen const& specimen, std::int64_t discs);
 
 }  // namespace clathra

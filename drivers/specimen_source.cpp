@@ -7,9 +7,9 @@
 
 namespace clathra {
 
-Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record) {
+Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record, Ranks const& ranks) {
   Speedometer const clock;
-  GeneratedSpecimen generated = generate_specimen(scene, progress);
+  GeneratedSpecimen generated = generate_specimen(scene, progress, ranks);
   record.wall_seconds["generate"] = clock.seconds();
   record.stages["generate"] = generated.record;
   record.layer_void_ratios = generated.layer_void_ratios;

@@ -7,7 +7,7 @@ namespace clathra {
 
 /// Generates the specimen of a scene; Kokkos must have been started. Numbers, layers and wall time go into the record.
 /// @throws Refused, Diverged, Stopped
-Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record);
+Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record, Ranks const& ranks);
 
 /// JSON text: program, digest of the scene, seed; what a specimen file says of its making.
 std::string provenance_text(RunRecord const& record);

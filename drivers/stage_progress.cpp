@@ -18,18 +18,18 @@ std::string Speedometer::text(double fraction, std::int64_t disc_steps) const {
   return fmt::format("{} disc-steps/s | ETA {}", short_count(static_cast<double>(disc_steps) / passed), duration_text(left));
 }
 
-ProgressCallback show_stage(ProgressLine& line) {
+ProgressCallback show_stage(ProgressLine& line, Ranks const& ranks) {
   struct Stage {
     std::string name;
     Speedometer speed;
     std::int64_t disc_steps = 0;  // when the stage began
   };
   auto const stage = std::make_shared<Stage>();
-  return [&line, stage](Progress const& progress) {
+  return [&line, stage, ranks](Progress const& progress) {
     if (progress.stage != stage->name) *stage = {progress.stage, Speedometer{progress.fraction}, progress.disc_steps};
     std::string const speed = stage->speed.text(progress.fraction, progress.disc_steps - stage->disc_steps);
     line.show(progress.stage, progress.fraction, progress.detail.empty() ? speed : progress.detail + " | " + speed);
-    return !interrupted();
+    return !ranks.any(interrupted());
   };
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 /// From the reports of a stage to the progress line, and from Ctrl-C back to the stage.
 #include "domain/progress.hpp"
+#include "domain/ranks.hpp"
 #include "progress_line.hpp"
 
 namespace clathra {
 
-/// A callback for generation and consolidation: shows each report with its rate, and asks to stop after Ctrl-C.
-ProgressCallback show_stage(ProgressLine& line);
+/// A callback for generation and consolidation: shows each report with its rate, and asks to stop after Ctrl-C on any rank.
+ProgressCallback show_stage(ProgressLine& line, Ranks const& ranks);
 
 /// Disc-steps per second and the time left, counted from its construction.
 class Speedometer {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "domain/ranks.hpp"
+
 namespace clathra {
 namespace {
 
@@ -43,7 +45,7 @@ int thread_count(int wanted) {
   if (wanted > 0) return wanted;
   char const* const set = std::getenv("OMP_NUM_THREADS");
   int const from_environment = set ? std::atoi(set) : 0;
-  return from_environment > 0 ? from_environment : core_count();
+  return from_environment > 0 ? from_environment : std::max(1, core_count() / launched_ranks_here());
 }
 
 void settle_threads(int wanted) {

@@ -4,7 +4,8 @@
 
 namespace clathra {
 
-/// Threads that a run with this setting uses: the wanted number, else OMP_NUM_THREADS, else all cores of this process.
+/// Threads that a run with this setting uses: the wanted number, else OMP_NUM_THREADS, else all cores of this process,
+/// shared with the other ranks on this machine.
 int thread_count(int wanted);
 
 /// Settles the environment that OpenMP reads for `thread_count(wanted)` threads. OpenMP reads it when the program starts, so

@@ -34,6 +34,23 @@ SimulationLaws test_laws(Scene const& scene, double h_max) {
   return laws;
 }
 
+/// The events of all ranks on rank 0, in order.
+std::vector<BreakEvent> on_root(Ranks const& ranks, std::vector<BreakEvent> events) {
+  if (ranks.alone()) return events;
+  std::vector<double> numbers;
+  for (BreakEvent const& e : events)
+    numbers.insert(numbers.end(), {static_cast<double>(e.step), double(e.id_a), double(e.id_b), double(e.mode), e.x, e.y});
+  numbers = ranks.gather(numbers);
+  events.clear();
+  for (std::size_t k = 0; k < numbers.size(); k += 6) {
+    double const* const n = &numbers[k];
+    events.push_back(
+        {static_cast<std::int64_t>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3]), n[4], n[5]});
+  }
+  std::sort(events.begin(), events.end(), comes_before);
+  return events;
+}
+
 double height_of(Simulation const& s) { return s.walls().height(); }
 
 }  // namespace
@@ -41,6 +58,7 @@ double height_of(Simulation const& s) { return s.walls().height(); }
 /// Everything a running test knows.
 struct BiaxialTest::State {
   Scene scene;
+  Ranks ranks;
   std::unique_ptr<Simulation> simulation;
   StageRecord preparation;
   std::vector<std::string> warnings;
@@ -48,29 +66,34 @@ struct BiaxialTest::State {
   double d50 = 0, height0 = 0, area0 = 0;
   std::int64_t bonds0 = 0, steps_per_record = 1, first_step = 0;
   std::int64_t disc_steps = 0;
-  int events_taken = 0;
+  int events_taken = 0;  // of those that this rank has seen
   EnergyRow start;
 
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   void consolidate(double stress, ProgressCallback const& progress);
   void begin_shear();
+  double skin() const { return scene.run.skin > 0 ? scene.run.skin : skin_in_d50 * d50; }
   void count_disc_steps() { disc_steps += simulation->steps() * simulation->discs(); }
 };
 
 /// Bonds first and consolidates then, or the other way round (`bond.after_consolidation`).
 void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallback const& progress) {
   bool const bond = has_bonds(scene) && specimen.critical_thickness == 0;
-  if (bond && !scene.bond.after_consolidation) specimen = bond_specimen(scene, specimen, preparation);
+  if (bond && !scene.bond.after_consolidation) {
+    // Bonds reach across ranks: discs must first be where they belong.
+    if (!ranks.alone()) specimen = Simulation(specimen, test_laws(scene, 0), skin(), ranks).specimen();
+    specimen = bond_specimen(scene, specimen, preparation, ranks);
+  }
   auto const start_simulation = [&] {
     SimulationLaws const laws = test_laws(scene, specimen.critical_thickness);
-    simulation = std::make_unique<Simulation>(specimen, laws, scene.run.skin > 0 ? scene.run.skin : skin_in_d50 * d50);
+    simulation = std::make_unique<Simulation>(specimen, laws, skin(), ranks);
   };
   start_simulation();
   preparation["void_ratio_before_consolidation"] = simulation->void_ratio();
   consolidate(scene.test.confining_stress, progress);
   if (bond && scene.bond.after_consolidation) {
     count_disc_steps();
-    specimen = bond_specimen(scene, simulation->specimen(), preparation);
+    specimen = bond_specimen(scene, simulation->specimen(), preparation, ranks);
     start_simulation();
     double const before = simulation->void_ratio();
     consolidate(scene.test.confining_stress, progress);
@@ -133,20 +156,22 @@ void BiaxialTest::State::begin_shear() {
   first_step = s.steps();
   double const steps = scene.test.axial_strain / (rate.strain_rate * s.time_step);
   steps_per_record = std::max<std::int64_t>(1, std::llround(steps / scene.output.records));
-  events_taken = s.broken_bonds();
-  bonds0 = std::llround(s.measures().bonded) + events_taken;
+  events_taken = static_cast<int>(s.break_events(0).size());
+  int const broken = s.broken_bonds();
+  bonds0 = std::llround(s.measures().bonded) + broken;
   if (scene.output.snapshots > 0) s.mark_start();
-  preparation["broken_in_consolidation"] = events_taken;
-  preparation["bytes_per_disc"] = static_cast<double>(s.bytes()) / s.discs();
+  preparation["broken_in_consolidation"] = broken;
+  preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
   preparation["quasi_static"] = is_quasi_static(rate) ? 1 : 0;
 }
 
-BiaxialTest::BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressCallback const& progress)
+BiaxialTest::BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressCallback const& progress, Ranks const& ranks)
     : state_(std::make_unique<State>()) {
   State& t = *state_;
   t.scene = scene;
-  t.d50 = specimen.d50 > 0 ? specimen.d50 : diameter_finer(specimen.radius, 0.5);
+  t.ranks = ranks;
+  t.d50 = specimen.d50 > 0 ? specimen.d50 : diameter_finer(specimen.radius, 0.5, ranks);
   t.bond_and_consolidate(specimen, progress);
   t.begin_shear();
   if (scene.output.energy) t.start = energy();
@@ -250,7 +275,7 @@ std::vector<BreakEvent> BiaxialTest::take_events() {
   std::vector<BreakEvent> events = state_->simulation->break_events(state_->events_taken);
   state_->events_taken += static_cast<int>(events.size());
   for (BreakEvent& event : events) event.step -= state_->first_step;
-  return events;
+  return on_root(state_->ranks, std::move(events));
 }
 
 StageRecord BiaxialTest::plan() const {

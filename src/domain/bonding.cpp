@@ -45,16 +45,18 @@ Verdict judge(BondLaw const& law, double radius, double gap) {
   return fits ? Verdict::bond : Verdict::out_of_fit;
 }
 
+constexpr double of_order_one = 1ll << 34;  // for the area of a bond between grains of sand [1/m^2]
+
 /// Sum of Eq. 5 over the pairs that a critical thickness would bond [m^2].
-double area_at(Scene const& scene, Specimen const& s, std::vector<NearPair> const& pairs, double h_max) {
+double area_at(Scene const& scene, Specimen const& s, std::vector<NearPair> const& pairs, double h_max, Ranks const& ranks) {
   BondLaw const law = make_bond_law(scene, h_max);
-  double area = 0;
+  ExactSum area(of_order_one);
   for (NearPair const& p : pairs) {
     if (!(p.gap < h_max)) continue;
     double const radius = common_radius(s.radius[p.a], s.radius[p.b]), gap = law.gap(-p.gap);
-    if (judge(law, radius, gap) == Verdict::bond) area += bond_area(radius, law.width(radius, gap), gap, h_max);
+    if (judge(law, radius, gap) == Verdict::bond) area.add(bond_area(radius, law.width(radius, gap), gap, h_max));
   }
-  return area;
+  return area.over(ranks.summation());
 }
 
 double area_of_equation_4(Scene const& scene, Specimen const& s) {
@@ -64,7 +66,8 @@ double area_of_equation_4(Scene const& scene, Specimen const& s) {
 
 }  // namespace
 
-std::vector<NearPair> near_pairs(Specimen const& s, double reach) {
+std::vector<NearPair> near_pairs(Specimen const& s, double reach, std::size_t own) {
+  if (s.size() == 0) return {};
   double const widest = 2 * *std::max_element(s.radius.begin(), s.radius.end());
   HostCells const cells = host_cells(s, widest + std::max(reach, 0.0));
   auto const first_of = [&](std::int64_t cell) {
@@ -84,7 +87,7 @@ std::vector<NearPair> near_pairs(Specimen const& s, double reach) {
       std::int64_t const last = cell + (r - 1) * cells.columns + 1;
       for (std::size_t k = row_begin[r]; k < cells.sorted.size() && cells.sorted[k].first <= last; ++k) {
         std::size_t const j = cells.sorted[k].second;
-        if (s.id[i] >= s.id[j]) continue;
+        if (s.id[i] >= s.id[j] || i >= own) continue;
         double const gap = gap_between(s, i, j);
         if (gap < reach) pairs.push_back({i, j, gap});
       }
@@ -96,47 +99,85 @@ std::vector<NearPair> near_pairs(Specimen const& s, double reach) {
   return pairs;
 }
 
-double critical_thickness(Scene const& scene, Specimen const& s) {
+double critical_thickness(Scene const& scene, Specimen const& share, Ranks const& ranks) {
   switch (scene.bond.mode) {
     case BondingMode::eq3:
-      return critical_thickness_ratio(scene.hydrate.saturation) * s.d50;
+      return critical_thickness_ratio(scene.hydrate.saturation) * share.d50;
     case BondingMode::given_thickness:
       return scene.bond.critical_thickness;
     case BondingMode::areal_target:
       break;
   }
-  double const target = area_of_equation_4(scene, s);
+  double const target = area_of_equation_4(scene, share);
   if (target <= 0) return 0;
-  double low = 0, high = s.d50;  // a bond as thick as a grain is no bond any more
-  auto const pairs = near_pairs(s, high);
-  if (area_at(scene, s, pairs, high) < target) {
+  double low = 0, high = share.d50;  // a bond as thick as a grain is no bond any more
+  Specimen const s = with_surroundings(ranks, share, high);
+  auto const pairs = near_pairs(s, high, share.size());
+  if (area_at(scene, s, pairs, high, ranks) < target) {
     throw Refused("bond.mode = 'areal_target': even bonds of thickness d50 hold less hydrate than the saturation " +
                   std::to_string(scene.hydrate.saturation) + " demands");
   }
   for (int n = 0; n < 60; ++n) {
     double const middle = 0.5 * (low + high);
-    (area_at(scene, s, pairs, middle) < target ? low : high) = middle;
+    (area_at(scene, s, pairs, middle, ranks) < target ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
-BondingOutcome install_bonds(Scene const& scene, Specimen& s) {
+Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double reach) {
+  Specimen s = share;
+  if (ranks.alone()) return s;
+  s.contacts.clear();
+  double box[4] = {1e300, -1e300, 1e300, -1e300}, widest = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    box[0] = std::min(box[0], s.x[i]);
+    box[1] = std::max(box[1], s.x[i]);
+    box[2] = std::min(box[2], s.y[i]);
+    box[3] = std::max(box[3], s.y[i]);
+    widest = std::max(widest, 2 * s.radius[i]);
+  }
+  double const far = ranks.max(widest) + std::max(reach, 0.0);
+  std::vector<double> boxes(4 * static_cast<std::size_t>(ranks.count()), -1e300);
+  for (std::size_t k = 0; k < 4; ++k) boxes[4 * static_cast<std::size_t>(ranks.rank()) + k] = k % 2 == 0 ? -box[k] : box[k];
+  ranks.max(boxes.data(), static_cast<int>(boxes.size()));
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
+  for (std::size_t r = 0; r < to.size(); ++r) {
+    if (static_cast<int>(r) == ranks.rank()) continue;
+    double const* const b = &boxes[4 * r];
+    for (std::size_t i = 0; i < share.size(); ++i) {
+      bool const near = s.x[i] > -b[0] - far && s.x[i] < b[1] + far && s.y[i] > -b[2] - far && s.y[i] < b[3] + far;
+      if (near) to[r].insert(to[r].end(), {double(s.id[i]), s.x[i], s.y[i], s.radius[i]});
+    }
+  }
+  for (auto const& part : ranks.exchange(to)) {
+    for (std::size_t k = 0; k < part.size(); k += 4) {
+      s.id.push_back(static_cast<int>(part[k]));
+      s.x.push_back(part[k + 1]);
+      s.y.push_back(part[k + 2]);
+      s.radius.push_back(part[k + 3]);
+    }
+  }
+  return s;
+}
+
+BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& ranks) {
   BondingOutcome outcome;
-  outcome.critical_thickness = critical_thickness(scene, s);
-  outcome.target_area = area_of_equation_4(scene, s);
+  outcome.critical_thickness = critical_thickness(scene, share, ranks);
+  outcome.target_area = area_of_equation_4(scene, share);
   if (!(outcome.critical_thickness > 0)) return outcome;
+  Specimen const s = with_surroundings(ranks, share, outcome.critical_thickness);
+  ExactSum area(of_order_one);
   BondLaw const law = make_bond_law(scene, outcome.critical_thickness);
   std::vector<SpecimenContact> contacts;
-  std::sort(s.contacts.begin(), s.contacts.end(),
-            [](auto const& p, auto const& q) { return p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b; });
-  auto old = s.contacts.begin();
+  std::sort(share.contacts.begin(), share.contacts.end(), by_ids);
+  auto old = share.contacts.begin();
   // Both lists are sorted by ids: one walk merges the bonds into the contacts with history.
   auto const before = [](SpecimenContact const& c, int id_a, int id_b) { return c.id_a != id_a ? c.id_a < id_a : c.id_b < id_b; };
-  for (NearPair const& p : near_pairs(s, outcome.critical_thickness)) {
+  for (NearPair const& p : near_pairs(s, outcome.critical_thickness, share.size())) {
     int const id_a = s.id[p.a], id_b = s.id[p.b];
-    while (old != s.contacts.end() && before(*old, id_a, id_b)) contacts.push_back(*old++);
+    while (old != share.contacts.end() && before(*old, id_a, id_b)) contacts.push_back(*old++);
     SpecimenContact contact{id_a, id_b};
-    if (old != s.contacts.end() && old->id_a == id_a && old->id_b == id_b) contact = *old++;
+    if (old != share.contacts.end() && old->id_a == id_a && old->id_b == id_b) contact = *old++;
     double const radius = common_radius(s.radius[p.a], s.radius[p.b]), gap = law.gap(-p.gap);
     switch (judge(law, radius, gap)) {
       case Verdict::no_tension:
@@ -150,25 +191,32 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& s) {
         contact.equilibrium = -p.gap;
         if (scene.bond.composite == Composite::replace)
           contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
-        outcome.bond_area += bond_area(radius, law.width(radius, gap), gap, outcome.critical_thickness);
+        area.add(bond_area(radius, law.width(radius, gap), gap, outcome.critical_thickness));
     }
     contacts.push_back(contact);
   }
-  contacts.insert(contacts.end(), old, s.contacts.end());
-  s.contacts = std::move(contacts);
-  s.critical_thickness = outcome.critical_thickness;
-  s.separate_bonds = scene.bond.composite == Composite::parallel;
-  double const void_area = s.void_ratio / (1 + s.void_ratio) * s.width() * s.height();
+  contacts.insert(contacts.end(), old, share.contacts.end());
+  share.contacts = std::move(contacts);
+  share.critical_thickness = outcome.critical_thickness;
+  share.separate_bonds = scene.bond.composite == Composite::parallel;
+  std::int64_t counts[] = {outcome.bonds, outcome.rejected_no_tension, outcome.rejected_out_of_fit};
+  ranks.sum(counts, 3);
+  outcome.bonds = counts[0];
+  outcome.rejected_no_tension = counts[1];
+  outcome.rejected_out_of_fit = counts[2];
+  outcome.bond_area = area.over(ranks.summation());
+  double const void_area = share.void_ratio / (1 + share.void_ratio) * share.width() * share.height();
   outcome.areal_saturation = outcome.bond_area / void_area;
   return outcome;
 }
 
-Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record) {
+Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record, Ranks const& ranks) {
   Specimen bonded = specimen;
-  BondingOutcome const outcome = install_bonds(scene, bonded);
+  BondingOutcome const outcome = install_bonds(scene, bonded, ranks);
   record["h_max_m"] = outcome.critical_thickness;
   record["bonds"] = static_cast<double>(outcome.bonds);
-  record["bonds_per_disc"] = static_cast<double>(outcome.bonds) / static_cast<double>(specimen.size());
+  record["bonds_per_disc"] =
+      static_cast<double>(outcome.bonds) / static_cast<double>(ranks.sum(static_cast<std::int64_t>(specimen.size())));
   record["rejected_no_tension"] = static_cast<double>(outcome.rejected_no_tension);
   record["rejected_out_of_fit"] = static_cast<double>(outcome.rejected_out_of_fit);
   record["bond_area_m2"] = outcome.bond_area;

@@ -11,7 +11,12 @@ struct NearPair {
 };
 
 /// All pairs with a gap below `reach` [m], sorted by (id of a, id of b), a having the smaller id.
-std::vector<NearPair> near_pairs(Specimen const& specimen, double reach);
+/// @param own  only pairs whose disc a is among the first `own` discs of the list
+std::vector<NearPair> near_pairs(Specimen const& specimen, double reach, std::size_t own);
+
+/// This rank's share of a specimen with the discs of other ranks behind it that lie within `reach` [m] (surface to surface) of
+/// any of its own. The share must be spatially together, or everything comes.
+Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double reach);
 
 /// What bonding did.
 struct BondingOutcome {
@@ -25,11 +30,12 @@ struct BondingOutcome {
 };
 
 /// h_max [m] of a scene: Eq. 3 (`eq3`), the given one, or by bisection the one whose bond area meets Eq. 4 (`areal_target`).
-double critical_thickness(Scene const& scene, Specimen const& specimen);
+double critical_thickness(Scene const& scene, Specimen const& share, Ranks const& ranks);
 
 /// Adds a bond to every pair of `specimen` with gap < h_max (strictly), R_t > 0 and a positive envelope. The bond is stress-free
 /// at its formation: u_0 = u_n. Grain contact history stays; `replace` and `memory` begin with the grain's shear and moment only
 /// where they keep it.
-BondingOutcome install_bonds(Scene const& scene, Specimen& specimen);
+/// @param share  this rank's discs and the contacts whose smaller id is among them;  @return the outcome of all ranks
+BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& ranks = {});
 
 }  // namespace clathra

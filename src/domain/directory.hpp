@@ -18,14 +18,10 @@ class Directory {
   /// sum(column) in the order of the ids, so that it does not depend on who owns what. Collective.
   template <class Term>
   double sum_by_id(Term const& term) const {
-    double sum = 0;
-    for (int r = 0; r < ranks_.count(); ++r) {
-      if (r == ranks_.rank()) {
-        for (std::size_t at = 0; at < values_.size(); at += columns_) sum += term(&values_[at]);
-      }
-      ranks_.broadcast(&sum, sizeof sum, r);
-    }
-    return sum;
+    return ranks_.relay(0, [&](double sum) {
+      for (std::size_t at = 0; at < values_.size(); at += columns_) sum += term(&values_[at]);
+      return sum;
+    });
   }
 
  private:

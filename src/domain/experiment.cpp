@@ -32,20 +32,20 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
 
 }  // namespace
 
-GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress) {
+GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
   SampleDesign const design = design_sample(scene);
-  PackedSpecimen packed = scene.sample.generator == Generator::tiled ? pack_by_tiling(scene, design, progress)
-                                                                     : pack_by_under_compaction(scene, design, progress);
+  PackedSpecimen packed = scene.sample.generator == Generator::tiled ? pack_by_tiling(scene, design, progress, ranks)
+                                                                     : pack_by_under_compaction(scene, design, progress, ranks);
   GeneratedSpecimen generated;
-  generated.layer_void_ratios = layer_void_ratios(packed.specimen, std::max(1, scene.sample.layers));
+  generated.layer_void_ratios = layer_void_ratios(packed.specimen, std::max(1, scene.sample.layers), ranks);
   StageRecord& r = generated.record;
-  r["discs"] = static_cast<double>(packed.specimen.size());
+  r["discs"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(packed.specimen.size())));
   r["void_ratio"] = packed.specimen.void_ratio;
   r["void_ratio_wanted"] = design.void_ratio;
   r["layer_void_ratio_sd"] = standard_deviation(generated.layer_void_ratios);
-  r["d50_m"] = diameter_finer(packed.specimen.radius, 0.5);
+  r["d50_m"] = diameter_finer(packed.specimen.radius, 0.5, ranks);
   r["d50_wanted_m"] = design.grading.d50();
-  r["grading_distance"] = grading_distance(design.grading, packed.specimen.radius);
+  r["grading_distance"] = grading_distance(design.grading, packed.specimen.radius, ranks);
   r["generation_friction"] = packed.friction;
   r["generation_shape_factor"] = packed.shape_factor;
   r["stress_x_Pa"] = packed.stress_x;

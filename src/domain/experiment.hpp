@@ -29,17 +29,20 @@ struct GeneratedSpecimen {
 
 /// Generates by scene.sample.generator (not `file`). Same scene, same bits, for any thread count.
 /// @throws Refused where the void ratio cannot be reached, Diverged, Stopped
-GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress);
+/// @return this rank's share of the specimen, and the record of the whole
+GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks = {});
 
 /// Installs bonds on a resting, unbonded specimen by scene.bond and scene.hydrate.
 /// The record holds bonds, bonds_per_disc, h_max, geometric (areal) saturation, rejected_no_tension, rejected_out_of_fit.
-Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record);
+/// @param specimen  this rank's share as Simulation::specimen() gives it, spatially together
+Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record, Ranks const& ranks = {});
 
 /// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).
 class BiaxialTest {
  public:
   /// Bonds and consolidates. @throws Refused, Diverged, Stopped
-  BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressCallback const& progress);
+  /// @param specimen  this rank's share of it, whichever. All calls are collective.
+  BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressCallback const& progress, Ranks const& ranks = {});
   ~BiaxialTest();
 
   StageRecord const& preparation() const;  ///< numbers of bonding and consolidation, time step and its margin
@@ -49,7 +52,7 @@ class BiaxialTest {
   void advance_to_next_record();          ///< steps until the next history row is due; @throws Diverged
   HistoryRow record();                    ///< measured now
   EnergyRow energy();                     ///< only with scene.output.energy
-  std::vector<BreakEvent> take_events();  ///< broken bonds since the last call, sorted by (step, id_a, id_b)
+  std::vector<BreakEvent> take_events();  ///< broken bonds since the last call, sorted by (step, id_a, id_b); on rank 0 only
   double strain_fraction() const;         ///< eps_1 / target
   std::int64_t disc_steps() const;
   std::uint64_t state_hash() const;

@@ -115,29 +115,47 @@ std::vector<double> Grading::diameters(std::size_t count) const {
   return sizes;
 }
 
-double grading_distance(Grading const& grading, std::vector<double> const& radii) {
-  std::vector<double> sorted = radii;
-  std::sort(sorted.begin(), sorted.end());
-  double total = 0, below = 0, farthest = 0;
-  for (double r : sorted) total += r * r;
-  for (double r : sorted) {
-    double const curve = grading.finer_than(2 * r);
-    farthest = std::max(farthest, std::abs(curve - (below + 0.5 * r * r) / total));
-    below += r * r;
-  }
-  return farthest;
+namespace {
+
+/// Sum of r^2 of all ranks, in the order of the sizes.
+double total_area(std::vector<double> const& sorted, Ranks const& ranks) {
+  return ranks.relay(0, [&](double total) {
+    for (double r : sorted) total += r * r;
+    return total;
+  });
 }
 
-double diameter_finer(std::vector<double> const& radii, double fraction) {
-  std::vector<double> sorted = radii;
-  std::sort(sorted.begin(), sorted.end());
-  double total = 0, below = 0;
-  for (double r : sorted) total += r * r;
-  for (double r : sorted) {
-    below += r * r;
-    if (below >= fraction * total) return 2 * r;
-  }
-  return sorted.empty() ? 0 : 2 * sorted.back();
+}  // namespace
+
+double grading_distance(Grading const& grading, std::vector<double> const& radii, Ranks const& ranks) {
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  double const total = total_area(sorted, ranks);
+  double farthest = 0;
+  ranks.relay(0, [&](double below) {
+    for (double r : sorted) {
+      double const curve = grading.finer_than(2 * r);
+      farthest = std::max(farthest, std::abs(curve - (below + 0.5 * r * r) / total));
+      below += r * r;
+    }
+    return below;
+  });
+  return ranks.max(farthest);
+}
+
+double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks) {
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  double const total = total_area(sorted, ranks);
+  double found = 1e300;
+  ranks.relay(0, [&](double below) {
+    for (double r : sorted) {
+      below += r * r;
+      if (below >= fraction * total) found = std::min(found, r);
+    }
+    return below;
+  });
+  found = ranks.min(found);
+  if (found < 1e300) return 2 * found;
+  return 2 * ranks.max(sorted.empty() ? 0 : sorted.back());
 }
 
 }  // namespace clathra

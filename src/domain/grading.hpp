@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/ranks.hpp"
 #include "domain/scene.hpp"
 
 namespace clathra {
@@ -42,9 +43,9 @@ class Grading {
 };
 
 /// The largest distance between the grading of discs (by area) and a curve, as a fraction of mass.
-double grading_distance(Grading const& grading, std::vector<double> const& radii);
+double grading_distance(Grading const& grading, std::vector<double> const& radii, Ranks const& ranks = {});
 
 /// d_x [m] of given discs by area fraction.
-double diameter_finer(std::vector<double> const& radii, double fraction);
+double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks = {});
 
 }  // namespace clathra

@@ -1,6 +1,7 @@
 #pragma once
 /// Multi-layer under-compaction (Jiang, Konrad, Leroueil 2003) to a target void ratio, and the proof of what came out.
 #include "domain/progress.hpp"
+#include "domain/ranks.hpp"
 #include "domain/sample_design.hpp"
 #include "domain/specimen.hpp"
 
@@ -10,7 +11,7 @@ namespace clathra {
 /// @param layer 1 .. layers;  De = 0.02, m = 2
 double under_compaction_void_ratio(double target, int layer, int layers, double excess = 0.02, double exponent = 2);
 
-/// A packed specimen, resting under the stress of the design, with its generation friction.
+/// A packed specimen (this rank's share), resting under the stress of the design, with its generation friction.
 struct PackedSpecimen {
   Specimen specimen;
   double friction = 0, shape_factor = 0;  ///< of the knob at the end
@@ -21,10 +22,11 @@ struct PackedSpecimen {
 
 /// Layer by layer: discs of the whole grading are placed loosely above the ones below, and the top wall compacts all of them to
 /// e_(i); then the walls settle to the bonding stress and the friction is lowered until the target void ratio is met.
-PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress);
+PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+                                        Ranks const& ranks = {});
 
 /// Nominal void ratio of `layers` horizontal bands of equal height; discs on a border are shared by their exact area.
-std::vector<double> layer_void_ratios(Specimen const& specimen, int layers);
+std::vector<double> layer_void_ratios(Specimen const& specimen, int layers, Ranks const& ranks = {});
 
 /// Area of the part of a disc below a horizontal line [m^2]; `offset` = line - centre [m].
 double disc_area_below(double radius, double offset);

@@ -1,6 +1,8 @@
 #include "domain/ranks.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <initializer_list>
 
 namespace clathra {
 
@@ -26,26 +28,49 @@ std::vector<double> Ranks::gather(std::vector<double> const& values) const {
   return all;
 }
 
+double Ranks::relay(double value, std::function<double(double)> const& hand) const {
+  for (int r = 0; r < count(); ++r) {
+    if (r == rank()) value = hand(value);
+    broadcast(&value, sizeof value, r);
+  }
+  return value;
+}
+
+std::vector<double> Ranks::sorted_part(std::vector<double> const& values) const {
+  std::vector<double> part = values;
+  if (!alone()) {
+    // Equal numbers of values a rank, as far as a histogram tells them apart.
+    constexpr int bins = 4096;
+    double const least = values.empty() ? 1e300 : *std::min_element(values.begin(), values.end()),
+                 most = values.empty() ? -1e300 : *std::max_element(values.begin(), values.end());
+    double const low = min(least), width = std::max((max(most) - low) / bins, 1e-300);
+    auto const bin_of = [&](double v) { return static_cast<std::size_t>(std::min((v - low) / width, bins - 1.0)); };
+    std::vector<std::int64_t> tally(bins, 0);
+    for (double const v : values) ++tally[bin_of(v)];
+    sum(tally.data(), bins);
+    std::int64_t total = 0, below = 0;
+    for (std::int64_t const n : tally) total += n;
+    std::vector<std::size_t> owner(bins);
+    for (std::size_t b = 0; b < bins; ++b) {
+      owner[b] =
+          static_cast<std::size_t>(std::min<std::int64_t>(below * count() / std::max<std::int64_t>(total, 1), count() - 1));
+      below += tally[b];
+    }
+    std::vector<std::vector<double>> to(static_cast<std::size_t>(count()));
+    for (double const v : values) to[owner[bin_of(v)]].push_back(v);
+    part.clear();
+    for (auto const& from : exchange(to)) part.insert(part.end(), from.begin(), from.end());
+  }
+  std::sort(part.begin(), part.end());
+  return part;
+}
+
 std::string Ranks::from_root(std::string text) const {
   std::uint64_t size = text.size();
   broadcast(&size, sizeof size, 0);
   text.resize(size);
   broadcast(text.data(), text.size(), 0);
   return text;
-}
-
-void Ranks::on_root(std::function<void()> const& action) const {
-  std::exception_ptr problem;
-  if (root()) {
-    try {
-      action();
-    } catch (...) {
-      problem = std::current_exception();
-    }
-  }
-  bool const failed = any(problem != nullptr);
-  if (problem) std::rethrow_exception(problem);
-  if (failed) throw RootFailed();
 }
 
 void Ranks::abort(int code) const {
@@ -58,11 +83,23 @@ SumOverRanks Ranks::summation() const {
   return [communicator = communicator_](std::int64_t* values, int size) { communicator->sum(values, size); };
 }
 
-int launched_ranks() {
-  for (char const* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
-    if (char const* const text = std::getenv(name)) return std::max(1, std::atoi(text));
+namespace {
+
+/// The first of these variables that is set, as a number.
+int from_environment(std::initializer_list<char const*> names, int without) {
+  for (char const* const name : names) {
+    if (char const* const text = std::getenv(name)) return std::atoi(text);
   }
-  return 1;
+  return without;
 }
+
+}  // namespace
+
+int launched_ranks() { return std::max(1, from_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1)); }
+int launched_ranks_here() {
+  return std::max(1,
+                  from_environment({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_NTASKS_PER_NODE"}, launched_ranks()));
+}
+int launched_rank() { return from_environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"}, 0); }
 
 }  // namespace clathra

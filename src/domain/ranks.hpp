@@ -73,10 +73,12 @@ class Ranks {
   }
   /// All ranks' values on rank 0, in the order of the ranks; nothing elsewhere.
   std::vector<double> gather(std::vector<double> const& values) const;
+  /// A number that passes through the hands of all ranks in their order: what one makes of it goes to the next. @return the last
+  double relay(double value, std::function<double(double)> const& hand) const;
+  /// This rank's part of all ranks' values in ascending order, the parts in the order of the ranks.
+  std::vector<double> sorted_part(std::vector<double> const& values) const;
   /// The text of rank 0.
   std::string from_root(std::string text) const;
-  /// Does something on rank 0 alone. What it throws is thrown there, and RootFailed on the others.
-  void on_root(std::function<void()> const& action) const;
   /// Ends all ranks at once. For faults of one rank that the others cannot know of.
   [[noreturn]] void abort(int code) const;
   /// For exact_sums(); empty where there is one rank only.
@@ -84,11 +86,6 @@ class Ranks {
 
  private:
   std::shared_ptr<Communicator const> communicator_;
-};
-
-/// Thrown on the other ranks when on_root() failed on rank 0, which says what it was.
-struct RootFailed : std::exception {
-  char const* what() const noexcept override { return "rank 0 could not go on"; }
 };
 
 /// Message passing from here to the end of the scope. One rank, alone and without any message passing, where the program was not
@@ -105,8 +102,11 @@ class RankSession {
   Ranks ranks_;
 };
 
-/// Number of processes that a launcher says it started, 1 without one. Asks the environment, starts nothing.
+/// What a launcher says of the processes that it started: their number, that of those on this machine, and which this one is; 1,
+/// 1 and 0 without one. Asks the environment, starts nothing.
 int launched_ranks();
+int launched_ranks_here();
+int launched_rank();
 /// "Open MPI 4.1.4", or "none".
 std::string message_passing_name();
 

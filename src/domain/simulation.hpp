@@ -44,6 +44,10 @@ struct BreakEvent {
   int id_a, id_b, mode;  ///< id_a < id_b; mode as in BreakMode
   double x, y;           ///< midpoint of the branch [m]
 };
+/// The order of events: by step, then by the ids.
+inline bool comes_before(BreakEvent const& p, BreakEvent const& q) {
+  return p.step != q.step ? p.step < q.step : p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;
+}
 
 /// Several ranks may share a simulation: each owns the discs of a rectangle and keeps their rows. All calls but those that say
 /// "of this rank" are then collective, and what they return is that of the whole specimen and the same on every rank.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "domain/directory.hpp"
 #include "kernels/pair_list.hpp"
 
 namespace clathra {
@@ -70,8 +71,24 @@ void copy_discs(Snapshot& s, Simulation const& simulation) {
 void copy_pairs(Snapshot& s, Simulation const& simulation) {
   PairList const list = list_pairs(simulation.particles(), simulation.rows(), simulation.laws().contact);
   auto const n = static_cast<std::size_t>(list.size);
-  s.a = listed<std::int32_t>(list.a, n);
-  s.b = listed<std::int32_t>(list.b, n);
+  ParticleSoA const& p = simulation.particles();
+  std::vector<double> number(static_cast<std::size_t>(p.all()));
+  for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<double>(s.first_disc) + static_cast<double>(i);
+  if (!simulation.ranks().alone()) {  // ghosts have the numbers that their owners gave them
+    Field<Real> const numbers("numbers", p.x.extent(0));
+    auto host = Kokkos::create_mirror_view(numbers);
+    std::copy_n(number.begin(), p.owned, host.data());
+    Kokkos::deep_copy(numbers, host);
+    simulation.refresh_ghosts(numbers);
+    number = listed<double>(numbers, number.size());
+  }
+  auto const numbered = [&](Field<int> const& field) {
+    std::vector<std::int32_t> of_all = listed<std::int32_t>(field, n);
+    for (std::int32_t& i : of_all) i = static_cast<std::int32_t>(number[static_cast<std::size_t>(i)]);
+    return of_all;
+  };
+  s.a = numbered(list.a);
+  s.b = numbered(list.b);
   s.state = listed<std::uint8_t>(list.bonded, n);  // 0 = contact, 1 = bonded
   s.normal_force = listed<float>(list.normal, n);
   s.shear_force = listed<float>(list.shear, n);
@@ -80,31 +97,74 @@ void copy_pairs(Snapshot& s, Simulation const& simulation) {
   s.width = listed<float>(list.width, n);
 }
 
+/// A broken bond as the rank that owns its first disc needs to know it; positions and radii are those of now.
+struct BrokenPair {
+  double a, b;  // numbers of the discs in the snapshot
+  double mode;
+  double x, y, r;  // of disc b
+};
+
+/// The breaks of all ranks that concern discs of this one: `first` those whose first disc is here, `second` the numbers of the
+/// discs here that are the second one.
+struct BrokenHere {
+  std::vector<BrokenPair> first;
+  std::vector<std::size_t> second;
+};
+
+BrokenHere broken_here(Ranks const& ranks, Snapshot const& s, int discs, std::vector<BreakEvent> const& broken) {
+  std::vector<double> number(s.id.size()), radius(s.radius.begin(), s.radius.end());
+  for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<double>(s.first_disc) + static_cast<double>(i);
+  Directory const directory(ranks, discs, {s.id.begin(), s.id.end()},
+                            {std::vector<double>(s.id.size(), ranks.rank()), number, s.x, s.y, radius});
+  std::vector<int> first, second;
+  for (BreakEvent const& e : broken) {
+    first.push_back(e.id_a);
+    second.push_back(e.id_b);
+  }
+  std::vector<double> const of_a = directory.find(first), of_b = directory.find(second);
+  constexpr std::size_t width = 6;
+  std::vector<std::vector<double>> to_first(static_cast<std::size_t>(ranks.count())), to_second = to_first;
+  for (std::size_t k = 0; k < broken.size(); ++k) {
+    double const *a = &of_a[5 * k], *b = &of_b[5 * k];
+    if (a[0] == b[0] && a[1] > b[1]) std::swap(a, b);  // of two discs of a rank the one with the smaller number is the first
+    auto& part = to_first[static_cast<std::size_t>(a[0])];
+    part.insert(part.end(), {a[1], b[1], double(broken[k].mode), b[2], b[3], b[4]});
+    to_second[static_cast<std::size_t>(b[0])].push_back(b[1]);
+  }
+  BrokenHere here;
+  for (auto const& part : ranks.exchange(to_first)) {
+    for (std::size_t k = 0; k < part.size(); k += width)
+      here.first.push_back({part[k], part[k + 1], part[k + 2], part[k + 3], part[k + 4], part[k + 5]});
+  }
+  for (auto const& part : ranks.exchange(to_second)) {
+    for (double const n : part) here.second.push_back(static_cast<std::size_t>(n));
+  }
+  return here;
+}
+
 /// Marks the pairs whose bond broke, and appends those that no longer touch.
-void add_broken_pairs(Snapshot& s, std::vector<BreakEvent> const& broken) {
-  std::vector<std::int32_t> place(s.id.size());
-  for (std::size_t i = 0; i < s.id.size(); ++i) place[static_cast<std::size_t>(s.id[i])] = static_cast<std::int32_t>(i);
+void add_broken_pairs(Snapshot& s, BrokenHere const& broken) {
   std::size_t const carriers = s.a.size();
-  for (BreakEvent const& event : broken) {
-    auto const p = static_cast<std::size_t>(event.id_a), q = static_cast<std::size_t>(event.id_b);
-    std::int32_t const a = std::min(place[p], place[q]), b = std::max(place[p], place[q]);
-    ++s.bonds_initial[static_cast<std::size_t>(a)];
-    ++s.bonds_initial[static_cast<std::size_t>(b)];
+  auto const place = [&](auto number) { return static_cast<std::size_t>(number) - static_cast<std::size_t>(s.first_disc); };
+  for (std::size_t const number : broken.second) ++s.bonds_initial[place(number)];
+  for (BrokenPair const& pair : broken.first) {
+    auto const a = static_cast<std::int32_t>(pair.a), b = static_cast<std::int32_t>(pair.b);
+    std::size_t const i = place(pair.a);
+    ++s.bonds_initial[i];
     auto const end = s.a.begin() + static_cast<std::ptrdiff_t>(carriers);
     auto const [from, to] = std::equal_range(s.a.begin(), end, a);
     auto at = static_cast<std::size_t>(from - s.a.begin());
     while (at < static_cast<std::size_t>(to - s.a.begin()) && s.b[at] != b) ++at;
     if (at < static_cast<std::size_t>(to - s.a.begin())) {
-      s.state[at] = broken_state(event.mode);
+      s.state[at] = broken_state(static_cast<int>(pair.mode));
       continue;
     }
-    auto const i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    double const dx = s.x[j] - s.x[i], dy = s.y[j] - s.y[i];
+    double const dx = pair.x - s.x[i], dy = pair.y - s.y[i];
     s.a.push_back(a);
     s.b.push_back(b);
-    s.state.push_back(broken_state(event.mode));
+    s.state.push_back(broken_state(static_cast<int>(pair.mode)));
     for (auto* force : {&s.normal_force, &s.shear_force, &s.moment, &s.width}) force->push_back(0);
-    s.gap.push_back(static_cast<float>(std::sqrt(dx * dx + dy * dy) - double(s.radius[i]) - double(s.radius[j])));
+    s.gap.push_back(static_cast<float>(std::sqrt(dx * dx + dy * dy) - double(s.radius[i]) - pair.r));
   }
 }
 
@@ -124,9 +184,10 @@ Snapshot take_snapshot(Simulation const& simulation) {
   s.sigma3 = stress.x;
   s.density = simulation.density();
   s.critical_thickness = simulation.critical_thickness();
+  s.first_disc = simulation.ranks().sum_before(simulation.particles().owned);
   copy_discs(s, simulation);
   copy_pairs(s, simulation);
-  add_broken_pairs(s, simulation.break_events(0));
+  add_broken_pairs(s, broken_here(simulation.ranks(), s, simulation.discs(), simulation.break_events(0)));
   return s;
 }
 

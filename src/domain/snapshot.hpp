@@ -11,8 +11,8 @@ namespace clathra {
 enum class ContactState : std::uint8_t { contact, bonded, broken_tension, broken_compression, broken_shear, broken_rolling };
 inline constexpr int contact_state_count = 6;
 
-/// Discs in spatial order (`id` is their identity), pairs once each. Compression and closing are positive, the contact normal
-/// points from a to b.
+/// Discs in spatial order (`id` is their identity), pairs once each; with several ranks this rank's discs and pairs, and discs
+/// are numbered through all ranks. Compression and closing are positive, the contact normal points from a to b.
 struct Snapshot {
   std::int64_t step = 0;                                ///< of the shear
   double time = 0;                                      ///< [s]
@@ -21,6 +21,7 @@ struct Snapshot {
   double sigma1 = 0, sigma3 = 0;                        ///< wall stresses [Pa]
   double density = 0, d50 = 0, critical_thickness = 0;  ///< of the grains [kg/m^3], [m]; h_max of the bonds [m], 0 = no bonds
 
+  std::int64_t first_disc = 0;  ///< number of this rank's first disc
   std::vector<std::int32_t> id;
   std::vector<double> x, y;                               ///< centres [m]
   std::vector<float> radius;                              ///< [m]
@@ -31,7 +32,7 @@ struct Snapshot {
   std::vector<std::uint8_t> coordination;                 ///< pairs that carry force
   std::vector<std::uint8_t> bonds_intact, bonds_initial;  ///< bonds now, and with those that broke since they were installed
 
-  std::vector<std::int32_t> a, b;                ///< indices of the discs of a pair in the lists above
+  std::vector<std::int32_t> a, b;                ///< numbers of the discs of a pair: places in the lists above, plus first_disc
   std::vector<std::uint8_t> state;               ///< ContactState
   std::vector<float> normal_force, shear_force;  ///< [N/m]
   std::vector<float> moment;                     ///< on disc a [N m/m]

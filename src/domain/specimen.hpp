@@ -15,6 +15,18 @@ struct SpecimenContact {
   double bond_shear = 0, bond_moment = 0;  ///< of a bond in parallel to the grain contact
 };
 
+/// Contacts as rows of numbers, to send them to other ranks.
+inline void append_numbers(std::vector<double>& numbers, SpecimenContact const& c) {
+  numbers.insert(numbers.end(), {double(c.id_a), double(c.id_b), c.shear, c.moment, c.equilibrium, c.bond_shear, c.bond_moment});
+}
+inline void append_contacts(std::vector<SpecimenContact>& contacts, std::vector<double> const& numbers) {
+  for (auto n = numbers.begin(); n != numbers.end(); n += 7)
+    contacts.push_back({static_cast<int>(n[0]), static_cast<int>(n[1]), n[2], n[3], n[4], n[5], n[6]});
+}
+inline bool by_ids(SpecimenContact const& a, SpecimenContact const& b) {
+  return a.id_a != b.id_a ? a.id_a < b.id_a : a.id_b < b.id_b;
+}
+
 struct Specimen {
   double left = 0, right = 0, bottom = 0, top = 0;  ///< walls [m]
   bool periodic = false;                            ///< a periodic cell: no walls

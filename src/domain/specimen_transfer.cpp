@@ -82,17 +82,12 @@ std::vector<SpecimenContact> contacts_here(Ranks const& ranks, Specimen const& s
   for (std::size_t k = 0; k < s.contacts.size(); ++k) {
     SpecimenContact const& c = s.contacts[k];
     for (double const owner : {a[k], b[k]}) {
-      auto& part = to[static_cast<std::size_t>(owner)];
-      part.insert(part.end(), {double(c.id_a), double(c.id_b), c.shear, c.moment, c.equilibrium, c.bond_shear, c.bond_moment});
+      append_numbers(to[static_cast<std::size_t>(owner)], c);
       if (a[k] == b[k]) break;
     }
   }
   std::vector<SpecimenContact> contacts;
-  for (auto const& part : ranks.exchange(to)) {
-    for (std::size_t k = 0; k < part.size(); k += 7)
-      contacts.push_back({static_cast<int>(part[k]), static_cast<int>(part[k + 1]), part[k + 2], part[k + 3], part[k + 4],
-                          part[k + 5], part[k + 6]});
-  }
+  for (auto const& part : ranks.exchange(to)) append_contacts(contacts, part);
   return contacts;
 }
 
@@ -257,8 +252,7 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
         contacts.push_back(c);
     }
   }
-  std::sort(contacts.begin(), contacts.end(),
-            [](auto const& a, auto const& b) { return a.id_a != b.id_a ? a.id_a < b.id_a : a.id_b < b.id_b; });
+  std::sort(contacts.begin(), contacts.end(), by_ids);
   return contacts;
 }
 
@@ -300,9 +294,7 @@ std::vector<BreakEvent> Simulation::break_events(int first) const {
   collect_breaks();
   std::vector<BreakEvent> events;
   if (static_cast<std::size_t>(first) < broken_.size()) events.assign(broken_.begin() + first, broken_.end());
-  std::sort(events.begin(), events.end(), [](BreakEvent const& p, BreakEvent const& q) {
-    return p.step != q.step ? p.step < q.step : p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;
-  });
+  std::sort(events.begin(), events.end(), comes_before);
   return events;
 }
 

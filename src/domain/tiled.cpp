@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "domain/loose_placement.hpp"
 #include "domain/settling.hpp"
@@ -13,7 +14,8 @@ namespace {
 constexpr double loose_solid_fraction = 0.5;
 constexpr std::int64_t relaxation_steps = 3000;  // about what a wave needs to cross some tens of grains and come to rest
 
-/// A box covered by copies of a periodic cell.
+/// A box covered by copies of a periodic cell. Discs are numbered tile by tile as they come; what a tile holds follows from its
+/// place alone, so that no list of all discs is needed.
 class Tiling {
  public:
   Tiling(Specimen const& cell, double width, double height)
@@ -22,44 +24,66 @@ class Tiling {
         height_(height),
         columns_(static_cast<int>(std::ceil(width / cell.width())) + 1),
         rows_(static_cast<int>(std::ceil(height / cell.height())) + 1),
-        new_id_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) * cell.size(), -1) {}
-
-  /// Adds the discs that lie wholly in the box, numbered as they come.
-  void copy_discs(Specimen& whole) {
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        for (std::size_t i = 0; i < cell_.size(); ++i) {
-          double const x = cell_.x[i] - cell_.left + column * cell_.width(), y = cell_.y[i] - cell_.bottom + row * cell_.height();
-          double const r = cell_.radius[i];
-          if (x < r || x > width_ - r || y < r || y > height_ - r) continue;
-          id_in_tile(column, row, cell_.id[i]) = static_cast<int>(whole.id.size());
-          whole.id.push_back(static_cast<int>(whole.id.size()));
-          whole.x.push_back(x);
-          whole.y.push_back(y);
-          whole.radius.push_back(r);
-          whole.angle.push_back(0);
-        }
-      }
+        place_(cell.size()),
+        first_id_(static_cast<std::size_t>(tiles()) + 1, 0) {
+    for (std::size_t i = 0; i < cell_.size(); ++i) place_[static_cast<std::size_t>(cell_.id[i])] = i;
+    for (int tile = 0; tile < tiles(); ++tile) {
+      int kept = 0;
+      for (std::size_t i = 0; i < cell_.size(); ++i) kept += keeps(tile, i) ? 1 : 0;
+      first_id_[static_cast<std::size_t>(tile) + 1] = first_id_[static_cast<std::size_t>(tile)] + kept;
     }
-    for (auto* field : {&whole.vx, &whole.vy, &whole.omega}) field->assign(whole.size(), 0);
+  }
+  int tiles() const { return columns_ * rows_; }
+
+  /// Adds the discs of a tile that lie wholly in the box.
+  void copy_discs(int tile, Specimen& whole) const {
+    int id = first_id_[static_cast<std::size_t>(tile)];
+    for (std::size_t i = 0; i < cell_.size(); ++i) {
+      if (!keeps(tile, i)) continue;
+      whole.id.push_back(id++);
+      whole.x.push_back(x(tile, i));
+      whole.y.push_back(y(tile, i));
+      whole.radius.push_back(cell_.radius[i]);
+      for (auto* field : {&whole.angle, &whole.vx, &whole.vy, &whole.omega}) field->push_back(0);
+    }
   }
 
-  /// Adds the contacts between discs that are in the box, with their history.
-  void copy_contacts(Specimen& whole) {
-    std::vector<std::size_t> place(cell_.size());
-    for (std::size_t i = 0; i < cell_.size(); ++i) place[static_cast<std::size_t>(cell_.id[i])] = i;
+  /// Adds the contacts, with their history, whose first disc is in a tile and whose second one is in the box.
+  void copy_contacts(int tile, Specimen& whole) const {
+    std::map<int, std::vector<int>> ids;  // of the discs of this tile and those around it
+    int const column = tile % columns_, row = tile / columns_;
     for (SpecimenContact const& c : cell_.contacts) {
-      std::size_t const a = place[static_cast<std::size_t>(c.id_a)], b = place[static_cast<std::size_t>(c.id_b)];
+      std::size_t const a = place_[static_cast<std::size_t>(c.id_a)], b = place_[static_cast<std::size_t>(c.id_b)];
       // The image of b that touches a lies in the same tile or in the one next to it.
       auto const right = static_cast<int>(-std::llround((cell_.x[b] - cell_.x[a]) / cell_.width())),
                  up = static_cast<int>(-std::llround((cell_.y[b] - cell_.y[a]) / cell_.height()));
-      for (int row = std::max(0, -up); row < std::min(rows_, rows_ - up); ++row)
-        for (int column = std::max(0, -right); column < std::min(columns_, columns_ - right); ++column)
-          add_contact(whole, c, id_in_tile(column, row, c.id_a), id_in_tile(column + right, row + up, c.id_b));
+      if (column + right < 0 || column + right >= columns_ || row + up < 0 || row + up >= rows_) continue;
+      int const other = (row + up) * columns_ + column + right;
+      for (int const t : {tile, other}) {
+        if (ids[t].empty()) ids[t] = ids_of(t);
+      }
+      add_contact(whole, c, ids[tile][a], ids[other][b]);
     }
   }
 
  private:
+  double x(int tile, std::size_t i) const { return cell_.x[i] - cell_.left + (tile % columns_) * cell_.width(); }
+  double y(int tile, std::size_t i) const { return cell_.y[i] - cell_.bottom + (tile / columns_) * cell_.height(); }
+  bool keeps(int tile, std::size_t i) const {
+    double const at_x = x(tile, i), at_y = y(tile, i), r = cell_.radius[i];
+    return !(at_x < r || at_x > width_ - r || at_y < r || at_y > height_ - r);
+  }
+
+  /// By place in the cell; -1 where the box cuts a disc away.
+  std::vector<int> ids_of(int tile) const {
+    std::vector<int> ids(cell_.size(), -1);
+    int id = first_id_[static_cast<std::size_t>(tile)];
+    for (std::size_t i = 0; i < cell_.size(); ++i) {
+      if (keeps(tile, i)) ids[i] = id++;
+    }
+    return ids;
+  }
+
   static void add_contact(Specimen& whole, SpecimenContact copy, int id_a, int id_b) {
     if (id_a < 0 || id_b < 0) return;
     copy.id_a = std::min(id_a, id_b);
@@ -71,17 +95,11 @@ class Tiling {
     whole.contacts.push_back(copy);
   }
 
-  /// The new id of a disc of the cell in a tile, -1 where the box cuts it away.
-  int& id_in_tile(int column, int row, int id) {
-    std::size_t const tile =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-    return new_id_[tile * cell_.size() + static_cast<std::size_t>(id)];
-  }
-
   Specimen const& cell_;
   double width_, height_;
   int columns_, rows_;
-  std::vector<int> new_id_;
+  std::vector<std::size_t> place_;  // of a disc of the cell, by id
+  std::vector<int> first_id_;       // of each tile
 };
 
 }  // namespace
@@ -119,27 +137,31 @@ PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design
   return packed;
 }
 
-Specimen replicate(Specimen const& cell, double width, double height) {
+Specimen replicate(Specimen const& cell, double width, double height, Ranks const& ranks) {
   Specimen whole;
   whole.right = width;
   whole.top = height;
   whole.density = cell.density;
   whole.d50 = cell.d50;
   whole.stress = cell.stress;
-  Tiling tiling(cell, width, height);
-  tiling.copy_discs(whole);
-  tiling.copy_contacts(whole);
+  Tiling const tiling(cell, width, height);
+  int const first = tiling.tiles() * ranks.rank() / ranks.count(), last = tiling.tiles() * (ranks.rank() + 1) / ranks.count();
+  for (int tile = first; tile < last; ++tile) {
+    tiling.copy_discs(tile, whole);
+    tiling.copy_contacts(tile, whole);
+  }
   return whole;
 }
 
-PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress) {
+PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+                              Ranks const& ranks) {
   double const d50 = design.grading.d50();
   std::int64_t const tile = std::min(scene.sample.tile_particles, design.particles);
   PackedSpecimen packed = pack_periodic_cell(scene, design, tile, progress);
-  Specimen const whole = replicate(packed.specimen, design.width, design.height);
+  Specimen const whole = replicate(packed.specimen, design.width, design.height, ranks);
   GenerationFriction knob;
   if (design.void_ratio > 0.25) knob.shape_factor = 2;
-  Simulation simulation(whole, generation_laws(scene, knob), 0.05 * d50);
+  Simulation simulation(whole, generation_laws(scene, knob), 0.05 * d50, ranks);
   // The cell's equilibrium is kept inside; the walls close the cut discs' gaps at a speed whose wave stays below the stress.
   prepare_servo(simulation, scene.bond.stress, 1e-3, d50, 0.8);
   double const quiet = 0.5 * scene.bond.stress / (simulation.density() / (1 + design.void_ratio) * wave_speed(simulation));

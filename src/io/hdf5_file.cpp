@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/together.hpp"
+
 namespace clathra {
 namespace {
 
@@ -87,16 +89,30 @@ bool read_attribute(hid_t object, char const* name, hid_t type, void* value) {
   return space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, type, value) >= 0;
 }
 
+#ifdef H5_HAVE_PARALLEL
+void share_among_ranks(hid_t access) {
+  H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
+  H5Pset_all_coll_metadata_ops(access, true);
+  H5Pset_coll_metadata_write(access, true);
+}
+void write_together(hid_t transfer) { H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE); }
+#else
+void share_among_ranks(hid_t) {}
+void write_together(hid_t) {}
+#endif
+
 }  // namespace
 
-Hdf5File Hdf5File::create(std::filesystem::path const& path) {
+Hdf5File Hdf5File::create(std::filesystem::path const& path, Ranks const& ranks) {
   start_hdf5();
   errno = 0;
-  hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0)
+  Id const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (!ranks.alone()) share_among_ranks(access);
+  hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (ranks.any(file < 0))
     throw FileProblem(ExitCode::cannot_create, path,
                       "cannot be created: " + (errno ? std::generic_category().message(errno) : hdf5_reason()));
-  return {path, file, true};
+  return {path, file, true, ranks};
 }
 
 Hdf5File Hdf5File::open(std::filesystem::path const& path) {
@@ -110,7 +126,7 @@ Hdf5File Hdf5File::open(std::filesystem::path const& path) {
 }
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), writing_(other.writing_) {}
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), writing_(other.writing_), ranks_(other.ranks_) {}
 
 Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
@@ -137,15 +153,28 @@ void Hdf5File::make_group(std::string const& name) {
 void Hdf5File::write_column(std::string const& name, void const* values, std::size_t rows, std::size_t width, hid_t type,
                             std::string const& unit) {
   make_group(name);
-  hsize_t const shape[] = {rows, width}, chunk[] = {std::min<hsize_t>(rows, chunk_rows), 1};
+  hsize_t const own[] = {rows, width};
+  hsize_t const first[] = {static_cast<hsize_t>(ranks_.sum_before(static_cast<std::int64_t>(rows))), 0};
+  hsize_t const shape[] = {static_cast<hsize_t>(ranks_.sum(static_cast<std::int64_t>(rows))), width};
+  hsize_t const chunk[] = {std::min<hsize_t>(shape[0], chunk_rows), 1};
   int const rank = width == 1 ? 1 : 2;
   Id const space(H5Screate_simple(rank, shape, nullptr), H5Sclose);
-  Id const filters(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  Id const filters(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   bool const ready = space >= 0 && filters >= 0 &&
-                     (rows == 0 || (H5Pset_chunk(filters, rank, chunk) >= 0 && H5Pset_shuffle(filters) >= 0 &&
-                                    H5Pset_deflate(filters, compression) >= 0 && H5Pset_fletcher32(filters) >= 0));
+                     (shape[0] == 0 || (H5Pset_chunk(filters, rank, chunk) >= 0 && H5Pset_shuffle(filters) >= 0 &&
+                                        H5Pset_deflate(filters, compression) >= 0 && H5Pset_fletcher32(filters) >= 0));
   Id const column(ready ? H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, filters, H5P_DEFAULT) : -1, H5Dclose);
-  if (column < 0 || (rows > 0 && H5Dwrite(column, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
+  Id const part(H5Screate_simple(rank, own, nullptr), H5Sclose);
+  if (!ranks_.alone()) {
+    write_together(transfer);
+    if (rows == 0) {  // nothing to add, but all take part
+      H5Sselect_none(space);
+      H5Sselect_none(part);
+    } else {
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, own, nullptr);
+    }
+  }
+  if (column < 0 || (shape[0] > 0 && H5Dwrite(column, type, part, space, transfer, values) < 0))
     fail(ExitCode::io_error, fmt::format("cannot write {}: {}", name, hdf5_reason()));
   if (!unit.empty() && !write_text_attribute(column, "unit", unit))
     fail(ExitCode::io_error, fmt::format("cannot write the unit of {}: {}", name, hdf5_reason()));
@@ -156,7 +185,7 @@ void Hdf5File::write(std::string const& name, std::vector<T> const& values, std:
   write_column(name, values.data(), values.size() / width, width, type_of<T>(), unit);
 }
 void Hdf5File::write_text(std::string const& name, std::string const& text) {
-  write_column(name, text.data(), text.size(), 1, type_of<char>(), "");
+  write_column(name, text.data(), ranks_.root() ? text.size() : 0, 1, type_of<char>(), "");
 }
 
 void Hdf5File::set_attribute(std::string const& name, double value, std::string const& unit) {
@@ -200,9 +229,32 @@ std::vector<T> Hdf5File::read(std::string const& name, std::size_t size, std::si
   return values;
 }
 
+template <class T>
+std::vector<T> Hdf5File::read_rows(std::string const& name, std::size_t size, std::size_t begin, std::size_t end) const {
+  auto const damaged = [&](std::string const& what) { fail(ExitCode::bad_input, fmt::format("{} {}", name, what)); };
+  if (auto const slash_at = slash(name); slash_at != std::string::npos)
+    if (H5Lexists(file_, name.substr(0, slash_at).c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
+  if (H5Lexists(file_, name.c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
+  Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  Id const space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
+  if (space < 0) damaged("cannot be opened: " + hdf5_reason());
+  hsize_t rows = 0;
+  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &rows, nullptr) < 0) damaged("is no column");
+  if (rows != size) damaged(fmt::format("has {} rows instead of {}", rows, size));
+  hsize_t const first = begin, count = end - begin;
+  std::vector<T> values(end - begin);
+  if (values.empty()) return values;
+  Id const part(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  if (H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &count, nullptr) < 0 ||
+      H5Dread(column, type_of<T>(), part, space, H5P_DEFAULT, values.data()) < 0)
+    damaged("cannot be read: " + hdf5_reason());
+  return values;
+}
+
 #define CLATHRA_COLUMN(T)                                                                                    \
   template void Hdf5File::write(std::string const&, std::vector<T> const&, std::string const&, std::size_t); \
-  template std::vector<T> Hdf5File::read(std::string const&, std::size_t, std::size_t) const;
+  template std::vector<T> Hdf5File::read(std::string const&, std::size_t, std::size_t) const;                \
+  template std::vector<T> Hdf5File::read_rows(std::string const&, std::size_t, std::size_t, std::size_t) const;
 CLATHRA_COLUMN(double)
 CLATHRA_COLUMN(float)
 CLATHRA_COLUMN(std::int32_t)
@@ -254,19 +306,23 @@ void publish(std::filesystem::path const& temporary, std::filesystem::path const
 
 }  // namespace
 
-void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content) {
-  std::filesystem::path const temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
-  ::unlink(temporary.c_str());
+void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content,
+                       Ranks const& ranks) {
+  std::filesystem::path const temporary = path.string() + ranks.from_root(fmt::format(".tmp-{}", ::getpid()));
+  if (ranks.root()) ::unlink(temporary.c_str());
   try {
-    Hdf5File file = Hdf5File::create(temporary);
+    Hdf5File file = Hdf5File::create(temporary, ranks);
     write_content(file);
     file.close();
-    publish(temporary, path);
+    on_root(ranks, [&] { publish(temporary, path); });
   } catch (FileProblem const& problem) {
-    ::unlink(temporary.c_str());
+    if (ranks.root()) ::unlink(temporary.c_str());
     std::string text = problem.what();  // named after the file that the user knows
     if (auto const at = text.find(": "); text.compare(0, at, temporary.string()) == 0) text = text.substr(at + 2);
-    throw FileProblem(problem.code, path, text);
+    FileProblem const named(problem.code, path, text);
+    // Where one rank fails half way the others wait for it in the next collective call, and would wait for ever.
+    if (!ranks.alone() && problem.code == ExitCode::io_error) end_all_ranks(ranks, named);
+    throw named;
   }
 }
 

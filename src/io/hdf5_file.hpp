@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/ranks.hpp"
 #include "io/problems.hpp"
 
 namespace clathra {
@@ -15,8 +16,10 @@ namespace clathra {
 /// An open HDF5 file. Groups are made as paths are written ("particles/radius").
 class Hdf5File {
  public:
-  static Hdf5File create(std::filesystem::path const& path);  ///< @throws FileProblem cannot_create
-  static Hdf5File open(std::filesystem::path const& path);    ///< to read; @throws FileProblem file_missing or bad_input
+  /// A file that all ranks write together: every call is then collective, columns are this rank's rows and follow one another in
+  /// the order of the ranks, texts and attributes are the same on all. Where writing fails half way, several ranks end at once.
+  static Hdf5File create(std::filesystem::path const& path, Ranks const& ranks = {});  ///< @throws FileProblem cannot_create
+  static Hdf5File open(std::filesystem::path const& path);  ///< to read; @throws FileProblem file_missing or bad_input
   Hdf5File(Hdf5File&& other) noexcept;
   ~Hdf5File();
 
@@ -36,6 +39,9 @@ class Hdf5File {
   static constexpr std::size_t any_size = static_cast<std::size_t>(-1);
   template <class T>
   std::vector<T> read(std::string const& name, std::size_t size, std::size_t width = 1) const;
+  /// The rows [begin, end) of a column that must have `size` rows.
+  template <class T>
+  std::vector<T> read_rows(std::string const& name, std::size_t size, std::size_t begin, std::size_t end) const;
   std::string read_text(std::string const& name) const;
   double double_attribute(std::string const& name) const;
   std::int64_t integer_attribute(std::string const& name) const;
@@ -48,7 +54,8 @@ class Hdf5File {
   [[noreturn]] void fail(ExitCode code, std::string const& what) const;
 
  private:
-  Hdf5File(std::filesystem::path path, hid_t file, bool writing) : path_(std::move(path)), file_(file), writing_(writing) {}
+  Hdf5File(std::filesystem::path path, hid_t file, bool writing, Ranks ranks = {})
+      : path_(std::move(path)), file_(file), writing_(writing), ranks_(std::move(ranks)) {}
   void make_group(std::string const& name);
   void write_column(std::string const& name, void const* values, std::size_t rows, std::size_t width, hid_t type,
                     std::string const& unit);
@@ -56,10 +63,12 @@ class Hdf5File {
   std::filesystem::path path_;
   hid_t file_;
   bool writing_;
+  Ranks ranks_;
 };
 
 /// Puts an HDF5 file in place of whatever has that name: written under a temporary name, flushed to the disk, renamed. A reader
 /// sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error
-void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content);
+void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content,
+                       Ranks const& ranks = {});
 
 }  // namespace clathra

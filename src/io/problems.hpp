@@ -25,6 +25,7 @@ enum class ExitCode {
 struct FileProblem : std::runtime_error {
   FileProblem(ExitCode exit_code, std::filesystem::path const& path, std::string const& reason)
       : std::runtime_error(path.string() + ": " + reason), code(exit_code) {}
+  FileProblem(ExitCode exit_code, std::string const& text) : std::runtime_error(text), code(exit_code) {}
   ExitCode code;
 };
 

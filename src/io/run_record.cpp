@@ -27,8 +27,15 @@ struct JsonValue {
 };
 
 Json program_json(RunRecord const& record) {
-  return {{"version", record.version}, {"git_hash", record.git_hash}, {"compiler", compiler_name()}, {"kokkos", kokkos_version()},
-          {"backend", backend_name()}, {"precision", "double"},       {"threads", record.threads}};
+  return {{"version", record.version},
+          {"git_hash", record.git_hash},
+          {"compiler", compiler_name()},
+          {"kokkos", kokkos_version()},
+          {"backend", backend_name()},
+          {"precision", "double"},
+          {"message_passing", message_passing_name()},
+          {"ranks", record.ranks},
+          {"threads", record.threads}};
 }
 
 Json input_json(RunRecord const& record) {

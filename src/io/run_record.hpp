@@ -18,7 +18,8 @@ struct RunRecord {
   std::string version, git_hash;
   LoadedScene input;
   std::string specimen_digest;  ///< of the specimen file that was read, if one was
-  int threads = 0;
+  int threads = 0;              ///< of each rank
+  int ranks = 1;
   std::map<std::string, StageRecord> stages;  ///< "generate", "prepare", "plan", "shear"
   std::vector<double> layer_void_ratios;
   std::vector<std::string> warnings;

@@ -34,11 +34,15 @@ void for_each_scalar(Any& s, Visit&& visit) {
 /// The largest power of two that is not above `value`; 0 for 0.
 double power_of_two(double value) { return value > 0 ? std::exp2(std::floor(std::log2(value))) : 0; }
 
+/// Mean of |value| over all ranks.
 template <class T>
-double mean_size(std::vector<T> const& values) {
-  double sum = 0;
-  for (T const v : values) sum += std::abs(static_cast<double>(v));
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+double mean_size(Ranks const& ranks, std::vector<T> const& values) {
+  double const sum = ranks.relay(0, [&](double total) {
+    for (T const v : values) total += std::abs(static_cast<double>(v));
+    return total;
+  });
+  std::int64_t const count = ranks.sum(static_cast<std::int64_t>(values.size()));
+  return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
 /// Writes vectors of equal length as a table of rounded numbers, a column each; columns without a vector hold 0.
@@ -58,12 +62,12 @@ void write_rounded(Hdf5File& file, std::string const& name, std::vector<std::vec
   file.set_column_attribute(name, "resolution", resolution);
 }
 
-void write_discs(Hdf5File& file, Snapshot const& s) {
+void write_discs(Hdf5File& file, Snapshot const& s, Ranks const& ranks) {
   double const length = power_of_two(s.d50);
-  auto const speed = [&](std::vector<float> const& v) { return power_of_two(mean_size(v)) / 8; };
+  auto const speed = [&](std::vector<float> const& v) { return power_of_two(mean_size(ranks, v)) / 8; };
   file.write("particles/id", s.id, "");
   std::vector<std::int32_t> index(s.id.size());
-  std::iota(index.begin(), index.end(), 0);
+  std::iota(index.begin(), index.end(), static_cast<std::int32_t>(s.first_disc));
   file.write("particles/index", index, "");
   write_rounded<double>(file, "particles/position", {&s.x, &s.y}, length / 4096, "m", 2);
   write_rounded<float>(file, "particles/displacement", {&s.ux, &s.uy}, length / 512, "m", 3);
@@ -71,15 +75,15 @@ void write_discs(Hdf5File& file, Snapshot const& s) {
   write_rounded<float>(file, "particles/angular_velocity", {&s.omega}, speed(s.omega), "rad/s", 1);
   write_rounded<float>(file, "particles/angle", {&s.angle}, 1.0 / 1024, "rad", 1);
   write_rounded<float>(file, "particles/radius", {&s.radius}, length / 8192, "m", 1);
-  double const stress = power_of_two(mean_size(s.stress_yy)) / 16;
+  double const stress = power_of_two(mean_size(ranks, s.stress_yy)) / 16;
   write_rounded<float>(file, "particles/stress", {&s.stress_xx, &s.stress_yy, &s.stress_xy}, stress, "Pa (xx, yy, xy)", 3);
   file.write("particles/coordination", s.coordination, "");
   file.write("particles/bonds_intact", s.bonds_intact, "");
   file.write("particles/bonds_initial", s.bonds_initial, "");
 }
 
-void write_pairs(Hdf5File& file, Snapshot const& s) {
-  double const length = power_of_two(s.d50), force = power_of_two(mean_size(s.normal_force)) / 16;
+void write_pairs(Hdf5File& file, Snapshot const& s, Ranks const& ranks) {
+  double const length = power_of_two(s.d50), force = power_of_two(mean_size(ranks, s.normal_force)) / 16;
   std::size_t const count = s.a.size();
   std::vector<std::uint32_t> pairs(2 * count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -90,7 +94,7 @@ void write_pairs(Hdf5File& file, Snapshot const& s) {
   file.write("contacts/state", s.state, "0 contact, 1 bonded, bond broken by: 2 tension, 3 compression, 4 shear, 5 rolling");
   write_rounded<float>(file, "contacts/normal_force", {&s.normal_force}, force, "N/m", 1);
   write_rounded<float>(file, "contacts/shear_force", {&s.shear_force}, force, "N/m", 1);
-  write_rounded<float>(file, "contacts/moment", {&s.moment}, power_of_two(mean_size(s.moment)) / 8, "N m/m", 1);
+  write_rounded<float>(file, "contacts/moment", {&s.moment}, power_of_two(mean_size(ranks, s.moment)) / 8, "N m/m", 1);
   write_rounded<float>(file, "contacts/gap", {&s.gap}, length / 8192, "m", 1);
   write_rounded<float>(file, "contacts/width", {&s.width}, length / 256, "m", 1);
 }
@@ -171,20 +175,23 @@ void read_events(Hdf5File const& file, Snapshot& s) {
 
 }  // namespace
 
-void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot) {
-  replace_hdf5_file(path, [&](Hdf5File& file) {
+void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot, Ranks const& ranks) {
+  auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
+  auto const write_content = [&](Hdf5File& file) {
     file.set_attribute("format", std::string(format_name));
     file.set_attribute("version", format_version);
     file.set_attribute("step", snapshot.step);
-    file.set_attribute("particles", static_cast<std::int64_t>(snapshot.id.size()));
-    file.set_attribute("contacts", static_cast<std::int64_t>(snapshot.a.size()));
+    file.set_attribute("particles", total(snapshot.id.size()));
+    file.set_attribute("contacts", total(snapshot.a.size()));
     for_each_scalar(snapshot, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
-    write_discs(file, snapshot);
-    write_pairs(file, snapshot);
+    write_discs(file, snapshot, ranks);
+    write_pairs(file, snapshot, ranks);
     write_events(file, snapshot);
-    file.write("walls/position", std::vector<double>{snapshot.left, snapshot.right, snapshot.bottom, snapshot.top},
-               "m (left, right, bottom, top)");
-  });
+    std::vector<double> walls;
+    if (ranks.root()) walls = {snapshot.left, snapshot.right, snapshot.bottom, snapshot.top};
+    file.write("walls/position", walls, "m (left, right, bottom, top)");
+  };
+  replace_hdf5_file(path, write_content, ranks);
 }
 
 Snapshot read_snapshot(std::filesystem::path const& path) {

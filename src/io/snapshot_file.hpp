@@ -10,7 +10,8 @@ namespace clathra {
 /// Writes a snapshot. Discs and pairs keep their spatial order, in which they compress best; `particles/id` is their identity.
 /// Numbers are rounded to a resolution that stands beside each column as the attribute `resolution`: a snapshot shows a state, a
 /// specimen file (specimen.h5, final.h5) continues it. @throws FileProblem cannot_create or io_error
-void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot);
+/// @param snapshot  this rank's part; events on rank 0 only
+void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot, Ranks const& ranks = {});
 
 /// @throws FileProblem file_missing, or bad_input where the file is damaged, no snapshot, or of another version
 Snapshot read_snapshot(std::filesystem::path const& path);
@@ -24,8 +25,8 @@ std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& r
 /// The snapshots of a run, written under RUN/snap/, with RUN/particles.xdmf and RUN/contacts.xdmf brought up to date after each.
 class SnapshotSeries {
  public:
-  explicit SnapshotSeries(std::filesystem::path run_folder);  ///< @throws FileProblem cannot_create
-  void write(Snapshot const& snapshot);                       ///< @throws FileProblem
+  explicit SnapshotSeries(std::filesystem::path run_folder, Ranks ranks = {});  ///< @throws FileProblem cannot_create
+  void write(Snapshot const& snapshot);                                         ///< @throws FileProblem
 
  private:
   struct Entry {
@@ -37,6 +38,7 @@ class SnapshotSeries {
   std::string contacts_index() const;
 
   std::filesystem::path folder_;
+  Ranks ranks_;
   std::vector<Entry> entries_;
 };
 

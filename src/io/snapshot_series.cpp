@@ -3,6 +3,7 @@
 #include "io/problems.hpp"
 #include "io/snapshot_file.hpp"
 #include "io/text_file.hpp"
+#include "io/together.hpp"
 
 namespace clathra {
 namespace {
@@ -68,18 +69,24 @@ std::string collection(std::string const& name, std::string const& grids) {
 
 }  // namespace
 
-SnapshotSeries::SnapshotSeries(std::filesystem::path run_folder) : folder_(std::move(run_folder)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_ / "snap", error);
-  if (error) throw FileProblem(ExitCode::cannot_create, folder_ / "snap", error.message());
+SnapshotSeries::SnapshotSeries(std::filesystem::path run_folder, Ranks ranks)
+    : folder_(std::move(run_folder)), ranks_(std::move(ranks)) {
+  on_root(ranks_, [this] {
+    std::error_code error;
+    std::filesystem::create_directories(folder_ / "snap", error);
+    if (error) throw FileProblem(ExitCode::cannot_create, folder_ / "snap", error.message());
+  });
 }
 
 void SnapshotSeries::write(Snapshot const& snapshot) {
   std::string const name = fmt::format("snap/{:012d}.h5", snapshot.step);
-  write_snapshot(folder_ / name, snapshot);
-  entries_.push_back({name, snapshot.eps1, snapshot.id.size(), snapshot.a.size()});
-  replace_text_file(folder_ / "particles.xdmf", particles_index());
-  replace_text_file(folder_ / "contacts.xdmf", contacts_index());
+  write_snapshot(folder_ / name, snapshot, ranks_);
+  auto const total = [&](std::size_t count) { return static_cast<std::size_t>(ranks_.sum(static_cast<std::int64_t>(count))); };
+  entries_.push_back({name, snapshot.eps1, total(snapshot.id.size()), total(snapshot.a.size())});
+  on_root(ranks_, [this] {
+    replace_text_file(folder_ / "particles.xdmf", particles_index());
+    replace_text_file(folder_ / "contacts.xdmf", contacts_index());
+  });
 }
 
 std::string SnapshotSeries::particles_index() const {

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "domain/id_blocks.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/together.hpp"
 
 namespace clathra {
 namespace {
@@ -52,11 +54,12 @@ void for_each_contact_column(Visit&& visit) {
   visit("bond_moment", &SpecimenContact::bond_moment, "N m/m");
 }
 
-void write_content(Hdf5File& file, Specimen const& specimen) {
+void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks) {
+  auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
   file.set_attribute("format", std::string(format_name));
   file.set_attribute("version", format_version);
-  file.set_attribute("particles", static_cast<std::int64_t>(specimen.size()));
-  file.set_attribute("contacts", static_cast<std::int64_t>(specimen.contacts.size()));
+  file.set_attribute("particles", total(specimen.size()));
+  file.set_attribute("contacts", total(specimen.contacts.size()));
   file.set_attribute("periodic", std::int64_t{specimen.periodic});
   file.set_attribute("separate_bonds", std::int64_t{specimen.separate_bonds});
   for_each_scalar(specimen, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
@@ -91,21 +94,23 @@ void check_box(std::filesystem::path const& path, Specimen const& specimen) {
   if (!(specimen.d50 > 0)) damaged(path, "d50 is not above 0");
 }
 
-void check_particles(std::filesystem::path const& path, Specimen const& specimen) {
-  std::size_t const count = specimen.size();
-  if (count == 0) damaged(path, "there are no discs");
-  std::vector<bool> seen(count, false);
-  for (int const id : specimen.id) {
-    if (id < 0 || static_cast<std::size_t>(id) >= count) damaged(path, fmt::format("disc id {} is outside 0..{}", id, count - 1));
-    if (seen[static_cast<std::size_t>(id)]) damaged(path, fmt::format("disc id {} comes twice", id));
-    seen[static_cast<std::size_t>(id)] = true;
+/// @param discs  of the whole specimen, of which this is a part
+void check_particles(std::filesystem::path const& path, Specimen const& part, std::int64_t discs) {
+  for (int const id : part.id) {
+    if (id < 0 || id >= discs) damaged(path, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
   }
-  for_each_particle_column(specimen, [&](char const* name, std::vector<double> const& column, char const*) {
-    for (std::size_t i = 0; i < count; ++i)
-      if (!std::isfinite(column[i])) damaged(path, fmt::format("{} of disc {} is not a finite number", name, specimen.id[i]));
+  for_each_particle_column(part, [&](char const* name, std::vector<double> const& column, char const*) {
+    for (std::size_t i = 0; i < part.size(); ++i)
+      if (!std::isfinite(column[i])) damaged(path, fmt::format("{} of disc {} is not a finite number", name, part.id[i]));
   });
-  for (std::size_t i = 0; i < count; ++i)
-    if (!(specimen.radius[i] > 0)) damaged(path, fmt::format("the radius of disc {} is not above 0", specimen.id[i]));
+  for (std::size_t i = 0; i < part.size(); ++i)
+    if (!(part.radius[i] > 0)) damaged(path, fmt::format("the radius of disc {} is not above 0", part.id[i]));
+}
+
+void check_ids_once(std::filesystem::path const& path, std::vector<int> ids) {
+  std::sort(ids.begin(), ids.end());
+  if (auto const twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
+    damaged(path, fmt::format("disc id {} comes twice", *twice));
 }
 
 void check_pairs_once(std::filesystem::path const& path, Specimen const& specimen) {
@@ -117,8 +122,7 @@ void check_pairs_once(std::filesystem::path const& path, Specimen const& specime
     damaged(path, fmt::format("contact {} - {} comes twice", twice->first, twice->second));
 }
 
-void check_contacts(std::filesystem::path const& path, Specimen const& specimen) {
-  int const count = static_cast<int>(specimen.size());
+void check_contacts(std::filesystem::path const& path, Specimen const& specimen, std::int64_t count) {
   for (SpecimenContact const& contact : specimen.contacts) {
     if (contact.id_a < 0 || contact.id_a >= contact.id_b || contact.id_b >= count)
       damaged(path, fmt::format("contact {} - {} is not between two discs in order of their ids", contact.id_a, contact.id_b));
@@ -127,45 +131,78 @@ void check_contacts(std::filesystem::path const& path, Specimen const& specimen)
         damaged(path, fmt::format("{} of contact {} - {} is not a finite number", name, contact.id_a, contact.id_b));
     });
   }
-  check_pairs_once(path, specimen);
 }
 
-}  // namespace
+/// The rows of this rank.
+struct Rows {
+  std::size_t size, begin, end;
+  Rows(std::int64_t total, Ranks const& ranks)
+      : size(static_cast<std::size_t>(total)),
+        begin(static_cast<std::size_t>(total * ranks.rank() / ranks.count())),
+        end(static_cast<std::size_t>(total * (ranks.rank() + 1) / ranks.count())) {}
+};
 
-void write_specimen(std::filesystem::path const& path, Specimen const& specimen) {
-  replace_hdf5_file(path, [&](Hdf5File& file) { write_content(file, specimen); });
+void read_discs(Hdf5File const& file, Specimen& part, Rows const& rows) {
+  part.id = file.read_rows<std::int32_t>("particles/id", rows.size, rows.begin, rows.end);
+  for_each_particle_column(part, [&](std::string const& name, std::vector<double>& column, char const*) {
+    column = file.read_rows<double>("particles/" + name, rows.size, rows.begin, rows.end);
+  });
 }
 
-Specimen read_specimen(std::filesystem::path const& path) {
+void read_contacts(Hdf5File const& file, Specimen& part, Rows const& rows) {
+  std::vector<std::int32_t> const id_a = file.read_rows<std::int32_t>("contacts/id_a", rows.size, rows.begin, rows.end);
+  std::vector<std::int32_t> const id_b = file.read_rows<std::int32_t>("contacts/id_b", rows.size, rows.begin, rows.end);
+  part.contacts.resize(id_a.size());
+  for (std::size_t i = 0; i < id_a.size(); ++i) part.contacts[i].id_a = id_a[i], part.contacts[i].id_b = id_b[i];
+  for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const*) {
+    std::vector<double> const column = file.read_rows<double>("contacts/" + name, rows.size, rows.begin, rows.end);
+    for (std::size_t i = 0; i < column.size(); ++i) part.contacts[i].*member = column[i];
+  });
+}
+
+/// This rank's rows of a specimen file, checked as far as they can be without the others'.
+Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std::int64_t& discs) {
   Hdf5File const file = Hdf5File::open(path);
   if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
   if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
     file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
-  Specimen specimen;
-  for_each_scalar(specimen, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
-  specimen.periodic = file.integer_attribute("periodic") != 0;
-  specimen.separate_bonds = file.integer_attribute("separate_bonds") != 0;
-  specimen.provenance = file.read_text("provenance");
-  std::int64_t const claimed = file.integer_attribute("particles"), claimed_contacts = file.integer_attribute("contacts");
-  if (claimed < 1 || claimed > 1'000'000'000 || claimed_contacts < 0 || claimed_contacts > 10'000'000'000)
-    file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", claimed, claimed_contacts));
-  std::size_t const count = static_cast<std::size_t>(claimed), contacts = static_cast<std::size_t>(claimed_contacts);
-  specimen.id = file.read<std::int32_t>("particles/id", count);
-  for_each_particle_column(specimen, [&](std::string const& name, std::vector<double>& column, char const*) {
-    column = file.read<double>("particles/" + name, count);
+  Specimen part;
+  for_each_scalar(part, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
+  part.periodic = file.integer_attribute("periodic") != 0;
+  part.separate_bonds = file.integer_attribute("separate_bonds") != 0;
+  part.provenance = file.read_text("provenance");
+  discs = file.integer_attribute("particles");
+  std::int64_t const contacts = file.integer_attribute("contacts");
+  if (discs < 0 || discs > 1'000'000'000 || contacts < 0 || contacts > 10'000'000'000)
+    file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", discs, contacts));
+  if (discs == 0) damaged(path, "there are no discs");
+  read_discs(file, part, {discs, ranks});
+  read_contacts(file, part, {contacts, ranks});
+  check_box(path, part);
+  check_particles(path, part, discs);
+  check_contacts(path, part, discs);
+  return part;
+}
+
+}  // namespace
+
+void write_specimen(std::filesystem::path const& path, Specimen const& share, Ranks const& ranks) {
+  std::int64_t const discs = ranks.sum(static_cast<std::int64_t>(share.size()));
+  Specimen const& part = ranks.alone() ? share : by_id_blocks(ranks, share, discs);
+  replace_hdf5_file(
+      path, [&](Hdf5File& file) { write_content(file, part, ranks); }, ranks);
+}
+
+Specimen read_specimen(std::filesystem::path const& path, Ranks const& ranks) {
+  Specimen part;
+  std::int64_t discs = 0;
+  on_each(ranks, [&] { part = read_rows_of(path, ranks, discs); });
+  if (!ranks.alone()) part = by_id_blocks(ranks, part, discs);
+  on_each(ranks, [&] {
+    check_ids_once(path, part.id);
+    check_pairs_once(path, part);
   });
-  std::vector<std::int32_t> const id_a = file.read<std::int32_t>("contacts/id_a", contacts);
-  std::vector<std::int32_t> const id_b = file.read<std::int32_t>("contacts/id_b", contacts);
-  specimen.contacts.resize(contacts);
-  for (std::size_t i = 0; i < contacts; ++i) specimen.contacts[i].id_a = id_a[i], specimen.contacts[i].id_b = id_b[i];
-  for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const*) {
-    std::vector<double> const column = file.read<double>("contacts/" + name, contacts);
-    for (std::size_t i = 0; i < contacts; ++i) specimen.contacts[i].*member = column[i];
-  });
-  check_box(path, specimen);
-  check_particles(path, specimen);
-  check_contacts(path, specimen);
-  return specimen;
+  return part;
 }
 
 std::uint64_t specimen_hash(Specimen const& specimen) {

@@ -3,18 +3,21 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "domain/ranks.hpp"
 #include "domain/specimen.hpp"
 #include "io/problems.hpp"
 
 namespace clathra {
 
 /// Writes a specimen under a temporary name, flushes it to the disk and renames it: the name never holds a part of a file.
+/// @param share  this rank's part; the file is the same for any number of ranks
 /// @throws FileProblem cannot_create or io_error
-void write_specimen(std::filesystem::path const& path, Specimen const& specimen);
+void write_specimen(std::filesystem::path const& path, Specimen const& share, Ranks const& ranks = {});
 
 /// Reads a specimen and checks it: sizes, ids 0..N-1 once each, finite numbers, radii > 0, contacts between discs of the file.
-/// @throws FileProblem file_missing or bad_input
-Specimen read_specimen(std::filesystem::path const& path);
+/// @return this rank's part: a block of ids
+/// @throws FileProblem file_missing or bad_input, on all ranks the same
+Specimen read_specimen(std::filesystem::path const& path, Ranks const& ranks = {});
 
 /// A hash of all discs and contacts, bit for bit, whatever order they are stored in. It is not the state hash of a run, which is
 /// taken of the arrays of the simulation.

@@ -57,6 +57,26 @@ struct ExactSumKernel {
 /// Adds integers to those of the other ranks that hold parts of the specimen; empty where there are none.
 using SumOverRanks = std::function<void(std::int64_t*, int)>;
 
+/// A sum of numbers on the host, in any order and over all ranks.
+class ExactSum {
+ public:
+  /// @param scale  a power of two that brings the terms to about 1
+  explicit ExactSum(Real scale = 1) : scale_(scale) {}
+  void add(Real value) {
+    FixedPoint const term = FixedPoint::from(value * scale_);
+    words_[0] += term.high;
+    words_[1] += term.low;
+  }
+  Real over(SumOverRanks const& ranks) {
+    if (ranks) ranks(words_, 2);
+    return FixedPoint{words_[0], words_[1]}.value() / scale_;
+  }
+
+ private:
+  Real scale_;
+  std::int64_t words_[2] = {0, 0};
+};
+
 /// @return the sums in `result[0 .. Count)`
 template <int Count, class Terms>
 void exact_sums(char const* label, int n, Terms const& terms, Real* result, SumOverRanks const& over_ranks = {}) {

@@ -6,6 +6,11 @@ namespace clathra {
 
 namespace {
 
+/// Whether the pair is listed from disc i's side: once, whoever owns the other disc.
+KOKKOS_INLINE_FUNCTION bool list_here(ParticleSoA const& p, int i, int other) {
+  return other < p.owned ? other > i : p.id(other) > p.id(i);
+}
+
 /// How many pairs disc i is the first of.
 struct CountPairs {
   ParticleSoA p;
@@ -18,7 +23,7 @@ struct CountPairs {
     if (i == p.owned) return;
     for (int k = 0; k < rows.length(i); ++k) {
       PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
-      if (s.other > i && s.carries()) ++sum;
+      if (list_here(p, i, s.other) && s.carries()) ++sum;
     }
   }
 };
@@ -34,7 +39,7 @@ struct FillPairs {
     int at = first(i);
     for (int k = 0; k < rows.length(i); ++k) {
       PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
-      if (s.other <= i || !s.carries()) continue;
+      if (!list_here(p, i, s.other) || !s.carries()) continue;
       list.a(at) = i;
       list.b(at) = s.other;
       list.bonded(at) = s.bonded ? 1 : 0;

@@ -6,7 +6,8 @@
 
 namespace clathra {
 
-/// Pairs that touch or are bonded, by index a < b of their discs, sorted by (a, place in the row of a).
+/// Pairs that touch or are bonded, by index a < b of their discs, sorted by (a, place in the row of a). b may be a ghost; the
+/// pair is then listed by the rank that owns the disc with the smaller id.
 struct PairList {
   int size = 0;
   Field<int> a, b;             ///< [size]

@@ -1,0 +1,36 @@
+#include "rank_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "clathra_version.hpp"
+#include "domain/progress.hpp"
+#include "io/digest.hpp"
+#include "io/run_record.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr std::int64_t fewest_discs = 50;  // a rank; below, its ghosts outnumber them
+
+void require_same(Ranks const& ranks, std::string const& own, std::string const& what) {
+  bool const other = ranks.from_root(own) != own;
+  std::int64_t const others = ranks.sum(std::int64_t{other});
+  if (others > 0)
+    throw Refused(
+        fmt::format("{} of the {} ranks have another {} than rank 0 ({})", others, ranks.count(), what, ranks.from_root(own)));
+}
+
+}  // namespace
+
+void require_same_everywhere(Ranks const& ranks, LoadedScene const& input) {
+  require_same(ranks, fmt::format("clathra {} {}, {}", CLATHRA_VERSION, CLATHRA_GIT_HASH, compiler_name()), "program");
+  require_same(ranks, "digest " + text_digest(resolved_scene(input.scene, ".")), "scene");
+}
+
+void require_enough_discs(Ranks const& ranks, std::int64_t discs) {
+  if (ranks.count() == 1 || discs >= fewest_discs * ranks.count()) return;
+  throw Refused(fmt::format("{} discs cannot be cut among {} ranks: each needs {}, so at most {} can share them", discs,
+                            ranks.count(), fewest_discs, std::max<std::int64_t>(1, discs / fewest_discs)));
+}
+
+}  // namespace clathra
