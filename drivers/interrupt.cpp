@@ -16,6 +16,7 @@ void watch_for_interrupt() {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGUSR1, &action, nullptr);  // what batch systems send before the end, and what mpirun passes on in peace
 }
 
 bool interrupted() { return signal_came != 0; }

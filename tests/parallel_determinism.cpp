@@ -56,7 +56,8 @@ Outcome shear(Specimen const& specimen) {
   BiaxialTest test(small_test(), specimen, {});
   Outcome outcome;
   while (!test.finished()) {
-    test.advance_to_next_record();
+    while (!test.advance(100)) {
+    }
     outcome.rows.push_back(test.record());
   }
   outcome.hash = test.state_hash();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "domain/bonding.hpp"
 #include "domain/experiment.hpp"
@@ -64,7 +65,7 @@ struct BiaxialTest::State {
   std::vector<std::string> warnings;
   RateNumbers rate;
   double d50 = 0, height0 = 0, area0 = 0;
-  std::int64_t bonds0 = 0, steps_per_record = 1, first_step = 0;
+  std::int64_t bonds0 = 0, steps_per_record = 1, steps_since_record = 0, first_step = 0;
   std::int64_t disc_steps = 0;
   int events_taken = 0;  // of those that this rank has seen
   EnergyRow start;
@@ -73,6 +74,8 @@ struct BiaxialTest::State {
   void consolidate(double stress, ProgressCallback const& progress);
   void begin_shear();
   double skin() const { return scene.run.skin > 0 ? scene.run.skin : skin_in_d50 * d50; }
+  template <class Visit>
+  void for_each_number(Visit&& visit);
   void count_disc_steps() { disc_steps += simulation->steps() * simulation->discs(); }
 };
 
@@ -207,14 +210,17 @@ Snapshot BiaxialTest::snapshot() const {
   return snapshot;
 }
 
-void BiaxialTest::advance_to_next_record() {
+bool BiaxialTest::advance(std::int64_t most_steps) {
   Simulation& s = *state_->simulation;
-  double const target = state_->scene.test.axial_strain;
-  for (std::int64_t n = 0; n < state_->steps_per_record; ++n) {
+  for (std::int64_t n = 0; n < most_steps; ++n) {
     s.step();
-    if (std::log(state_->height0 / height_of(s)) >= target) break;
+    bool const due = ++state_->steps_since_record >= state_->steps_per_record || finished();
+    if (!due) continue;
+    state_->steps_since_record = 0;
+    s.throw_if_unstable();
+    return true;
   }
-  s.throw_if_unstable();
+  return false;
 }
 
 HistoryRow BiaxialTest::record() {
@@ -276,6 +282,60 @@ std::vector<BreakEvent> BiaxialTest::take_events() {
   state_->events_taken += static_cast<int>(events.size());
   for (BreakEvent& event : events) event.step -= state_->first_step;
   return on_root(state_->ranks, std::move(events));
+}
+
+std::vector<BreakEvent> BiaxialTest::events_after(std::int64_t step) const {
+  std::vector<BreakEvent> later;
+  std::vector<BreakEvent> const all = state_->simulation->break_events(0);
+  std::vector<BreakEvent> const pending = state_->simulation->break_events(state_->events_taken);
+  for (BreakEvent event : all) {
+    if (!pending.empty() && !comes_before(event, pending.front())) break;
+    event.step -= state_->first_step;
+    if (event.step > step) later.push_back(event);
+  }
+  return on_root(state_->ranks, std::move(later));
+}
+
+template <class Visit>
+void BiaxialTest::State::for_each_number(Visit&& visit) {
+  visit("d50", d50);
+  visit("height0", height0);
+  visit("area0", area0);
+  visit("bonds0", bonds0);
+  visit("steps_per_record", steps_per_record);
+  visit("steps_since_record", steps_since_record);
+  visit("first_step", first_step);
+  visit("disc_steps", disc_steps);
+  visit("strain_rate", rate.strain_rate);
+  visit("inertial_number", rate.inertial_number);
+  visit("wave_number", rate.wave_number);
+  for_each_energy_column(start, [&](std::string const& name, double& value) { visit("start_" + name, value); });
+}
+
+TestState BiaxialTest::state() const {
+  State& t = *state_;
+  TestState s;
+  s.simulation = t.simulation->state();
+  s.events_taken = static_cast<std::size_t>(t.events_taken);
+  s.hash = t.simulation->hash();
+  t.for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
+  s.preparation = t.preparation;
+  s.warnings = t.warnings;
+  return s;
+}
+
+BiaxialTest::BiaxialTest(Scene const& scene, TestState const& state, Ranks const& ranks) : state_(std::make_unique<State>()) {
+  State& t = *state_;
+  t.scene = scene;
+  t.ranks = ranks;
+  t.for_each_number(
+      [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
+  t.preparation = state.preparation;
+  t.warnings = state.warnings;
+  t.events_taken = static_cast<int>(state.events_taken);
+  SimulationLaws laws = test_laws(scene, state.simulation.numbers.at("critical_thickness"));
+  laws.motion.damping = scene.run.damping;
+  t.simulation = std::make_unique<Simulation>(state.simulation, laws, ranks);
 }
 
 StageRecord BiaxialTest::plan() const {

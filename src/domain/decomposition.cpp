@@ -66,7 +66,13 @@ Decomposition Decomposition::bisect(Ranks const& ranks, ParticleSoA const& parti
   auto const n = static_cast<std::size_t>(particles.owned);
   auto const host_x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles.x);
   auto const host_y = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles.y);
-  std::vector<double> const x(host_x.data(), host_x.data() + n), y(host_y.data(), host_y.data() + n);
+  return bisect(ranks, {host_x.data(), host_x.data() + n}, {host_y.data(), host_y.data() + n}, weight);
+}
+
+Decomposition Decomposition::bisect(Ranks const& ranks, std::vector<double> const& x, std::vector<double> const& y,
+                                    std::int64_t weight) {
+  if (ranks.count() == 1) return {};
+  std::size_t const n = x.size();
   std::vector<int> group_of(n, 0);
   std::vector<Group> groups{{0, ranks.count(), -1, false, {}}};
   std::vector<Cut> cuts;
@@ -107,6 +113,15 @@ Decomposition Decomposition::bisect(Ranks const& ranks, ParticleSoA const& parti
     groups = std::move(next);
   }
   return Decomposition(std::move(cuts));
+}
+
+int Decomposition::owner(Coord x, Coord y) const {
+  int at = cuts_.empty() ? -1 : 0;
+  while (at >= 0) {
+    Cut const& cut = cuts_[static_cast<std::size_t>(at)];
+    at = (cut.upright ? x : y) < cut.at ? cut.below : cut.above;
+  }
+  return -1 - at;
 }
 
 Rectangle Decomposition::rectangle(int rank) const {

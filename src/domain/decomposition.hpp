@@ -31,8 +31,11 @@ class Decomposition {
   /// Cuts the discs of all ranks into parts of equal weight, always across the longer side.
   /// @param weight  of one of this rank's discs, > 0: the time it takes, in any unit
   static Decomposition bisect(Ranks const& ranks, ParticleSoA const& particles, std::int64_t weight);
+  static Decomposition bisect(Ranks const& ranks, std::vector<double> const& x, std::vector<double> const& y,
+                              std::int64_t weight);
 
   bool single() const { return cuts_.empty(); }
+  int owner(Coord x, Coord y) const;
   Rectangle rectangle(int rank) const;
   void follow(AffineFrame const& motion);
 

@@ -82,7 +82,7 @@ DiscColumns::DiscColumns(ParticleSoA const& particles, Companions const& compani
   for_each_field(particles, [&](char const*, auto const& field) {
     if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) column[count++] = field;
   });
-  for (Field<Accum> const* const field : companions) column[count++] = *field;
+  for (Companion const& companion : companions) column[count++] = *companion.field;
 }
 
 RowColumns::RowColumns(ContactRows const& rows) {
@@ -135,7 +135,7 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   reserve(particles, first + came);
   particles.owned = first + came;
   particles.ghosts = 0;
-  for (Field<Accum>* const field : companions) Kokkos::resize(*field, particles.x.extent(0));
+  for (Companion const& companion : companions) Kokkos::resize(*companion.field, particles.x.extent(0));
   fill_padding(particles);
   rows.slice_start = on_device("rows.slice_start", slice_start);
   rows.length = uninitialised<int>("rows.length", begin.size());

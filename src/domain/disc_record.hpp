@@ -7,8 +7,12 @@
 
 namespace clathra {
 
-/// What goes with a disc beside its state: accounts, marks. [owned] each.
-using Companions = std::vector<Field<Accum>*>;
+/// What goes with a disc beside its state: accounts, marks. [owned]
+struct Companion {
+  char const* name;
+  Field<Accum>* field;
+};
+using Companions = std::vector<Companion>;
 
 /// The fields of a disc as columns of numbers: those of ParticleSoA but the id, and the companions.
 struct DiscColumns {

@@ -38,6 +38,8 @@ GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& 
 Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record, Ranks const& ranks = {});
 
 /// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).
+struct TestState;
+
 class BiaxialTest {
  public:
   /// Bonds and consolidates. @throws Refused, Diverged, Stopped
@@ -48,12 +50,18 @@ class BiaxialTest {
   StageRecord const& preparation() const;  ///< numbers of bonding and consolidation, time step and its margin
   std::vector<std::string> const& warnings() const;
 
+  /// Goes on from a state, on any number of ranks, with the bits of the test that gave it.
+  BiaxialTest(Scene const& scene, TestState const& state, Ranks const& ranks);
+  TestState state() const;
+
   bool finished() const;
-  void advance_to_next_record();          ///< steps until the next history row is due; @throws Diverged
+  /// Makes at most so many steps towards the next history row. @return whether it is due;  @throws Diverged
+  bool advance(std::int64_t most_steps);
   HistoryRow record();                    ///< measured now
   EnergyRow energy();                     ///< only with scene.output.energy
   std::vector<BreakEvent> take_events();  ///< broken bonds since the last call, sorted by (step, id_a, id_b); on rank 0 only
   double strain_fraction() const;         ///< eps_1 / target
+  std::vector<BreakEvent> events_after(std::int64_t step) const;  ///< those already taken that came later; on rank 0 only
   std::int64_t disc_steps() const;
   std::uint64_t state_hash() const;
   Specimen specimen() const;  ///< the present state, to go on from
@@ -63,6 +71,16 @@ class BiaxialTest {
  private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// What a test needs to go on to the bit; this rank's part of discs and events.
+struct TestState {
+  SimulationState simulation;
+  std::size_t events_taken = 0;  ///< of simulation.broken, from the first on
+  std::uint64_t hash = 0;        ///< of the whole simulation
+  std::map<std::string, double> numbers;
+  StageRecord preparation;
+  std::vector<std::string> warnings;
 };
 
 /// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,

@@ -59,10 +59,10 @@ void Simulation::rebuild() {
     migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
   }
   Field<int> const order = sort_in_space(particles_, old, slot, skin_);
-  for (Field<Accum>* const field : with_discs) *field = permuted(*field, order, particles_.x.extent(0));
-  Real const reach = 2 * largest_radius_ + std::max(skin_, bonded_gap);
-  if (periodic()) images_.rebuild(particles_, cell_, reach);
-  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach);
+  for (Companion const& with : with_discs) *with.field = permuted(*with.field, order, particles_.x.extent(0));
+  reach_ = 2 * largest_radius_ + std::max(skin_, bonded_gap);
+  if (periodic()) images_.rebuild(particles_, cell_, reach_);
+  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
   find_neighbours(particles_, skin_, old, slot, rows_, faults_, bonded_gap);
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
@@ -91,11 +91,17 @@ void Simulation::rebalance_if_it_pays() {
 
 Companions Simulation::companions(WallShear& wall_shear) {
   Companions with_discs;
-  if (laws_.contact.ledger)
-    with_discs = {&losses_.sliding, &losses_.rolling, &losses_.dashpot, &losses_.breakage, &losses_.damping};
-  if (start_x_.extent(0) > 0) with_discs.insert(with_discs.end(), {&start_x_, &start_y_});
+  if (laws_.contact.ledger) {
+    with_discs = {{"lost_sliding", &losses_.sliding},
+                  {"lost_rolling", &losses_.rolling},
+                  {"lost_dashpot", &losses_.dashpot},
+                  {"lost_breakage", &losses_.breakage},
+                  {"lost_damping", &losses_.damping}};
+  }
+  if (start_x_.extent(0) > 0) with_discs.insert(with_discs.end(), {{"start_x", &start_x_}, {"start_y", &start_y_}});
+  static constexpr char const* shear_names[] = {"shear_left", "shear_right", "shear_bottom", "shear_top"};
   if (wall_contacts_.rough) {
-    for (auto& field : wall_shear) with_discs.push_back(&field);
+    for (std::size_t wall = 0; wall < wall_count; ++wall) with_discs.push_back({shear_names[wall], &wall_shear[wall]});
   }
   return with_discs;
 }

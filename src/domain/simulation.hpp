@@ -8,6 +8,7 @@
 #include "domain/halo.hpp"
 #include "domain/loading.hpp"
 #include "domain/periodic_images.hpp"
+#include "domain/simulation_state.hpp"
 #include "domain/specimen.hpp"
 #include "kernels/forces.hpp"
 #include "kernels/integrate.hpp"
@@ -38,17 +39,6 @@ struct BreakCounts {
   std::int64_t tension = 0, compression = 0, shear = 0, rolling = 0;
 };
 
-/// A broken bond.
-struct BreakEvent {
-  std::int64_t step;
-  int id_a, id_b, mode;  ///< id_a < id_b; mode as in BreakMode
-  double x, y;           ///< midpoint of the branch [m]
-};
-/// The order of events: by step, then by the ids.
-inline bool comes_before(BreakEvent const& p, BreakEvent const& q) {
-  return p.step != q.step ? p.step < q.step : p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;
-}
-
 /// Several ranks may share a simulation: each owns the discs of a rectangle and keeps their rows. All calls but those that say
 /// "of this rank" are then collective, and what they return is that of the whole specimen and the same on every rank.
 class Simulation {
@@ -57,6 +47,12 @@ class Simulation {
   /// @param specimen  this rank's share of it: each disc and each contact on one rank, whichever
   /// @param skin  Verlet skin [m], surface to surface
   Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin, Ranks ranks = {});
+
+  /// Goes on from a state, on any number of ranks, with the bits of the simulation that gave it.
+  /// @param laws  those of that simulation
+  Simulation(SimulationState const& state, SimulationLaws const& laws, Ranks ranks);
+  /// All that is needed to go on; not of a periodic cell.
+  SimulationState state();
 
   /// One time step of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step
   /// behind.
@@ -136,6 +132,11 @@ class Simulation {
   void stretch_homogeneously();
   void rebalance_if_it_pays();
   Companions companions(WallShear& wall_shear);
+  Companions companions_of_state(WallShear& wall_shear);
+  std::vector<double> brought_home(DiscRecords const& discs);
+  void find_listed_neighbours();
+  template <class Visit>
+  void for_each_number(Visit&& visit);
   std::vector<SpecimenContact> contacts_by_id() const;
   void account_boundary_work(WallReactions const& before);
   void collect_breaks() const;
@@ -157,7 +158,7 @@ class Simulation {
   mutable std::vector<BreakEvent> broken_;  // before
   EnergyLosses losses_;
   Faults faults_;
-  Real skin_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
+  Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
   Real density_ = 0, d50_ = 0, critical_thickness_ = 0;
   std::int64_t step_ = 0, rebuilds_ = 0;
   double rebuild_seconds_ = 0;

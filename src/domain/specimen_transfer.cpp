@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "domain/directory.hpp"
+#include "domain/places.hpp"
 #include "domain/simulation.hpp"
 
 namespace clathra {
@@ -90,25 +91,6 @@ std::vector<SpecimenContact> contacts_here(Ranks const& ranks, Specimen const& s
   for (auto const& part : ranks.exchange(to)) append_contacts(contacts, part);
   return contacts;
 }
-
-/// Indices of discs by id.
-class Places {
- public:
-  template <class Ids>
-  Places(Ids const& id, int discs) {
-    for (int i = 0; i < discs; ++i) sorted_.emplace_back(id(i), i);
-    std::sort(sorted_.begin(), sorted_.end());
-  }
-  /// -1 where there is no such disc.
-  int find(int id) const {
-    auto const at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{id, -1});
-    return at != sorted_.end() && at->first == id ? at->second : -1;
-  }
-  auto const& sorted() const { return sorted_; }
-
- private:
-  std::vector<std::pair<int, int>> sorted_;  // (id, index)
-};
 
 }  // namespace
 

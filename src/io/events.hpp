@@ -12,9 +12,13 @@ class EventsFile {
   /// Writes the header. @throws FileProblem cannot_create or io_error
   explicit EventsFile(std::filesystem::path path);
 
+  /// Goes on with the file behind its first `bytes`.
+  EventsFile(std::filesystem::path path, std::uintmax_t bytes) : file_(std::move(path), bytes) {}
+
   /// One row an event: step, ids of the discs, how the bond broke, where [m]. @throws FileProblem io_error
   void write(std::vector<BreakEvent> const& events);
   void close() { file_.close(); }
+  std::uintmax_t bytes() const { return file_.bytes(); }
 
  private:
   RowFile file_;

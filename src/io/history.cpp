@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
+#include <stdexcept>
+
+#include "domain/units.hpp"
+#include "io/problems.hpp"
 
 namespace clathra {
 namespace {
@@ -25,7 +30,38 @@ struct Names {
   }
 };
 
+/// Takes the values of a line, one after the other.
+struct Parse {
+  std::string_view line;
+  void operator()(char const*, double& value) { value = parse_number(next()); }
+  void operator()(char const*, std::int64_t& value) { value = std::llround(parse_number(next())); }
+  std::string_view next() {
+    auto const comma = line.find(',');
+    std::string_view const cell = line.substr(0, comma);
+    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
+    return cell;
+  }
+};
+
 }  // namespace
+
+std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::uintmax_t bytes) {
+  std::string const text = read_text_file(path, bytes);
+  std::vector<HistoryEntry> entries;
+  std::size_t number = 0;
+  for (std::size_t from = 0, end; (end = text.find('\n', from)) != std::string::npos; from = end + 1) {
+    if (++number == 1) continue;  // the header
+    Parse parse{std::string_view(text).substr(from, end - from)};
+    try {
+      HistoryEntry& entry = entries.emplace_back();
+      for_each_column(entry.row, parse);
+      if (!parse.line.empty()) for_each_energy_column(entry.energy.emplace(), parse);
+    } catch (std::invalid_argument const& problem) {
+      throw FileProblem(ExitCode::bad_input, path, fmt::format("line {}: {}", number, problem.what()));
+    }
+  }
+  return entries;
+}
 
 HistoryFile::HistoryFile(std::filesystem::path path, bool energy) : file_(std::move(path)) {
   Names names;

@@ -16,7 +16,8 @@ class OutputFolder {
   /// @param keep  a file of the folder that is not cleared (the specimen that the run reads)
   /// @throws FileProblem cannot_create (no right to write, another run is writing), or refused: the folder is a link, or holds
   /// files but no run of Clathra
-  OutputFolder(std::filesystem::path folder, std::filesystem::path const& keep);
+  /// @param resume  keeps all results
+  OutputFolder(std::filesystem::path folder, std::filesystem::path const& keep, bool resume = false);
   ~OutputFolder();
   OutputFolder(OutputFolder const&) = delete;
   OutputFolder& operator=(OutputFolder const&) = delete;

@@ -16,9 +16,10 @@ enum class ExitCode {
   internal = 70,       ///< a fault of Clathra
   cannot_create = 73,  ///< an output file or folder that cannot be made
   io_error = 74,       ///< a read or write that failed half way (full disk)
+  to_be_resumed = 75,  ///< stopped early with a checkpoint: --resume goes on
   diverged = 76,       ///< the run became unstable
   refused = 77,        ///< a guard that --force overrides, or more memory than there is
-  interrupted = 130,   ///< stopped by Ctrl-C
+  interrupted = 130,   ///< stopped by Ctrl-C, without a checkpoint
 };
 
 /// A file that cannot be read, understood, made or written. The text is "path: reason".

@@ -41,6 +41,7 @@ Json program_json(RunRecord const& record) {
 Json input_json(RunRecord const& record) {
   Json input = {{"digest_xxh3_128", text_digest(record.input.source)}, {"overrides", record.input.overrides}};
   if (!record.specimen_digest.empty()) input["specimen_digest_xxh3_128"] = record.specimen_digest;
+  if (!record.checkpoint_digest.empty()) input["checkpoint_digest_xxh3_128"] = record.checkpoint_digest;
   return input;
 }
 

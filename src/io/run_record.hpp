@@ -17,8 +17,9 @@ namespace clathra {
 struct RunRecord {
   std::string version, git_hash;
   LoadedScene input;
-  std::string specimen_digest;  ///< of the specimen file that was read, if one was
-  int threads = 0;              ///< of each rank
+  std::string specimen_digest;    ///< of the specimen file that was read, if one was
+  std::string checkpoint_digest;  ///< of the checkpoint that the run went on from, if it did
+  int threads = 0;                ///< of each rank
   int ranks = 1;
   std::map<std::string, StageRecord> stages;  ///< "generate", "prepare", "plan", "shear"
   std::vector<double> layer_void_ratios;

@@ -22,24 +22,29 @@ bool is_snapshot(std::filesystem::path const& path);
 /// The snapshots of a run's folder in the order of their steps; none where there are none.
 std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& run_folder);
 
+/// A snapshot of a run, as its index files name it.
+struct SnapshotEntry {
+  std::string file;  ///< relative to the run's folder
+  std::int64_t step;
+  double eps1;
+  std::size_t discs, pairs;
+};
+
 /// The snapshots of a run, written under RUN/snap/, with RUN/particles.xdmf and RUN/contacts.xdmf brought up to date after each.
 class SnapshotSeries {
  public:
-  explicit SnapshotSeries(std::filesystem::path run_folder, Ranks ranks = {});  ///< @throws FileProblem cannot_create
-  void write(Snapshot const& snapshot);                                         ///< @throws FileProblem
+  /// @param before  those that a resumed run has already;  @throws FileProblem cannot_create
+  explicit SnapshotSeries(std::filesystem::path run_folder, Ranks ranks = {}, std::vector<SnapshotEntry> before = {});
+  std::vector<SnapshotEntry> const& entries() const { return entries_; }
+  void write(Snapshot const& snapshot);  ///< @throws FileProblem
 
  private:
-  struct Entry {
-    std::string file;  ///< relative to the run's folder
-    double eps1;
-    std::size_t discs, pairs;
-  };
   std::string particles_index() const;
   std::string contacts_index() const;
 
   std::filesystem::path folder_;
   Ranks ranks_;
-  std::vector<Entry> entries_;
+  std::vector<SnapshotEntry> entries_;
 };
 
 }  // namespace clathra

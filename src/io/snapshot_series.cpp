@@ -69,8 +69,8 @@ std::string collection(std::string const& name, std::string const& grids) {
 
 }  // namespace
 
-SnapshotSeries::SnapshotSeries(std::filesystem::path run_folder, Ranks ranks)
-    : folder_(std::move(run_folder)), ranks_(std::move(ranks)) {
+SnapshotSeries::SnapshotSeries(std::filesystem::path run_folder, Ranks ranks, std::vector<SnapshotEntry> before)
+    : folder_(std::move(run_folder)), ranks_(std::move(ranks)), entries_(std::move(before)) {
   on_root(ranks_, [this] {
     std::error_code error;
     std::filesystem::create_directories(folder_ / "snap", error);
@@ -82,7 +82,7 @@ void SnapshotSeries::write(Snapshot const& snapshot) {
   std::string const name = fmt::format("snap/{:012d}.h5", snapshot.step);
   write_snapshot(folder_ / name, snapshot, ranks_);
   auto const total = [&](std::size_t count) { return static_cast<std::size_t>(ranks_.sum(static_cast<std::int64_t>(count))); };
-  entries_.push_back({name, snapshot.eps1, total(snapshot.id.size()), total(snapshot.a.size())});
+  entries_.push_back({name, snapshot.step, snapshot.eps1, total(snapshot.id.size()), total(snapshot.a.size())});
   on_root(ranks_, [this] {
     replace_text_file(folder_ / "particles.xdmf", particles_index());
     replace_text_file(folder_ / "contacts.xdmf", contacts_index());
@@ -91,7 +91,7 @@ void SnapshotSeries::write(Snapshot const& snapshot) {
 
 std::string SnapshotSeries::particles_index() const {
   std::string grids;
-  for (Entry const& e : entries_) {
+  for (SnapshotEntry const& e : entries_) {
     // Without the indices in the topology ParaView's Threshold finds nothing.
     std::string const topology =
         fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>", e.discs,
@@ -104,7 +104,7 @@ std::string SnapshotSeries::particles_index() const {
 
 std::string SnapshotSeries::contacts_index() const {
   std::string grids;
-  for (Entry const& e : entries_) {
+  for (SnapshotEntry const& e : entries_) {
     std::string const topology =
         fmt::format("<Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>", e.pairs,
                     data_item(e.file, "contacts/pair", e.pairs, 2, uint4));

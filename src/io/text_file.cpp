@@ -73,11 +73,31 @@ void replace_text_file(std::filesystem::path const& path, std::string_view text)
 
 RowFile::RowFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(create(path_)) {}
 
+RowFile::RowFile(std::filesystem::path path, std::uintmax_t bytes) : path_(std::move(path)), bytes_(bytes) {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor_ < 0) throw FileProblem(ExitCode::file_missing, path_, reason("cannot be opened"));
+  off_t const end = ::lseek(descriptor_, 0, SEEK_END);
+  if (end < static_cast<off_t>(bytes))
+    throw FileProblem(ExitCode::bad_input, path_, fmt::format("has {} bytes, the checkpoint knows of {}", end, bytes));
+  if (::ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0 || ::lseek(descriptor_, 0, SEEK_END) < 0)
+    throw FileProblem(ExitCode::io_error, path_, reason("cannot be cut"));
+}
+
 RowFile::~RowFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void RowFile::write(std::string_view rows) { write_all(descriptor_, rows, path_); }
+void RowFile::write(std::string_view rows) {
+  write_all(descriptor_, rows, path_);
+  bytes_ += rows.size();
+}
+
+void flush_folder(std::filesystem::path const& folder) {
+  int const descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  bool const flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!flushed) throw FileProblem(ExitCode::io_error, folder, reason("cannot be flushed"));
+}
 
 void RowFile::close() {
   int const descriptor = descriptor_;

@@ -14,10 +14,15 @@ std::string read_text_file(std::filesystem::path const& path, std::size_t limit)
 /// reader sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error
 void replace_text_file(std::filesystem::path const& path, std::string_view text);
 
+/// Makes renamed files of a folder survive a power cut. @throws FileProblem io_error
+void flush_folder(std::filesystem::path const& folder);
+
 /// A new file that grows by whole rows. What has its name before is removed (a link is never followed).
 class RowFile {
  public:
   explicit RowFile(std::filesystem::path path);  ///< @throws FileProblem cannot_create
+  /// Goes on with a file behind its first `bytes`; what comes after them is cut off. @throws FileProblem
+  RowFile(std::filesystem::path path, std::uintmax_t bytes);
   ~RowFile();
   RowFile(RowFile const&) = delete;
   RowFile& operator=(RowFile const&) = delete;
@@ -26,9 +31,11 @@ class RowFile {
   void write(std::string_view rows);
   /// @throws FileProblem io_error where the system only now reports a failed write
   void close();
+  std::uintmax_t bytes() const { return bytes_; }
 
  private:
   std::filesystem::path path_;
+  std::uintmax_t bytes_ = 0;
   int descriptor_ = -1;
 };
 

@@ -1,0 +1,13 @@
+#pragma once
+/// Times as people give them to a batch system.
+#include <string>
+
+namespace clathra {
+
+/// "3h50m", "90s", "2h", "1h5m30s" in seconds. @throws std::invalid_argument
+double duration_of(std::string const& text);
+
+/// What is wrong with such a text, or nothing.
+std::string duration_problem(std::string const& text);
+
+}  // namespace clathra

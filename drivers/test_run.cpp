@@ -1,0 +1,316 @@
+#include "test_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clathra_version.hpp"
+#include "domain/hydrate.hpp"
+#include "interrupt.hpp"
+#include "io/checkpoint.hpp"
+#include "io/digest.hpp"
+#include "io/events.hpp"
+#include "io/history.hpp"
+#include "io/output_folder.hpp"
+#include "io/report/report.hpp"
+#include "io/run_check.hpp"
+#include "io/snapshot_file.hpp"
+#include "io/specimen_file.hpp"
+#include "io/text_file.hpp"
+#include "io/together.hpp"
+#include "print.hpp"
+#include "specimen_source.hpp"
+#include "stage_progress.hpp"
+#include "summary.hpp"
+#include "threads.hpp"
+
+namespace clathra {
+
+class TestRun::Running {
+ public:
+  Running(LoadedScene input, std::optional<Specimen> specimen, Endurance const& endurance, Ranks const& ranks)
+      : ranks_(ranks), endurance_(endurance), scene_(input.scene), specimen_(std::move(specimen)) {
+    record_.version = CLATHRA_VERSION;
+    record_.git_hash = CLATHRA_GIT_HASH;
+    record_.input = std::move(input);
+    record_.threads = thread_count(scene_.run.threads);
+    record_.ranks = ranks.count();
+    on_each(ranks_, [&] {
+      if (endurance_.resume) resumed_ = find_checkpoint(scene_.output.folder);
+    });
+    on_root(ranks_, [&] {
+      lock_.emplace(scene_.output.folder, scene_.sample.file, resumed_.has_value());
+      if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
+    });
+    folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");
+    checkpoints_.emplace(folder_, ranks_, resumed_);
+    if (resumed_) {
+      record_.checkpoint_digest = resumed_->digest;
+      line_.note(fmt::format("clathra: goes on from step {} of the shear", resumed_->step));
+    } else if (endurance_.resume) {
+      line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
+    }
+  }
+
+  void warn(std::string const& text) { line_.warn(text); }
+
+  /// @throws whatever ended the run, after run.json says so
+  ExitCode run() {
+    on_root(ranks_, [&] {
+      replace_text_file(folder_ / "input.toml", record_.input.source);
+      replace_text_file(folder_ / "resolved.toml", resolved_scene(scene_, folder_));
+      write_record(ExitCode::done, "running");
+    });
+    try {
+      KokkosSession const kokkos;
+      shear();
+      remove_finished_checkpoints();
+      on_root(ranks_, [&] { record_.result_digests = result_digests(folder_); });
+    } catch (Stopped const& stop) {
+      return stopped(stop.what());
+    } catch (Diverged const& problem) {
+      return fail(ExitCode::diverged, fmt::format("diverged: {}", problem.what()));
+    } catch (Refused const& problem) {
+      return fail(ExitCode::refused, fmt::format("refused: {}", problem.what()));
+    } catch (FileProblem const& problem) {
+      return fail(problem.code, problem.what());
+    } catch (std::bad_alloc const&) {
+      return fail_here(ExitCode::refused, "refused: not enough memory");
+    } catch (std::exception const& problem) {
+      return fail_here(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
+    }
+    conclude(ExitCode::done, "finished");
+    line_.repeat_warnings();
+    print_result(summary_->text() + fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
+    return ExitCode::done;
+  }
+
+ private:
+  void make_specimen() {
+    if (specimen_) return;
+    specimen_ = generate_recorded(scene_, show_stage(line_, ranks_), record_, ranks_);
+    write_specimen(folder_ / "specimen.h5", *specimen_, ranks_);
+  }
+
+  std::unique_ptr<BiaxialTest> prepared_test() {
+    if (resumed_) {
+      auto test = std::make_unique<BiaxialTest>(scene_, read_checkpoint(*resumed_, scene_, ranks_), ranks_);
+      for (HistoryEntry const& entry : read_history(folder_ / "history.csv", resumed_->progress.history_bytes)) {
+        last_ = entry.row;
+        summary_->add(entry.row);
+        if (entry.energy) summary_->add(*entry.energy);
+      }
+      return test;
+    }
+    make_specimen();
+    auto test = std::make_unique<BiaxialTest>(scene_, *specimen_, show_stage(line_, ranks_), ranks_);
+    specimen_.reset();
+    return test;
+  }
+
+  /// Bonds, consolidates, shears and writes what comes out.
+  void shear() {
+    summary_.emplace(scene_.test.confining_stress, scene_.test.axial_strain);
+    Speedometer const preparing;
+    std::unique_ptr<BiaxialTest> const test = prepared_test();
+    record_.wall_seconds["prepare"] = preparing.seconds();
+    record_.stages["prepare"] = test->preparation();
+    record_.stages["plan"] = test->plan();
+    for (std::string const& warning : test->warnings()) warn(warning);
+    try {
+      write_curves(*test, preparing.seconds());
+    } catch (...) {
+      record_.stages["shear"] = summary_->numbers();
+      throw;
+    }
+    record_.stages["shear"] = summary_->numbers();
+    record_.state_hash = test->state_hash();
+    write_specimen(folder_ / "final.h5", test->specimen(), ranks_);
+  }
+
+  void open_files(BiaxialTest& test) {
+    std::vector<SnapshotEntry> const before = resumed_ ? resumed_->progress.snapshots : std::vector<SnapshotEntry>();
+    on_root(ranks_, [&] {
+      bool const events = scene_.output.events && has_bonds(scene_);
+      if (resumed_) {
+        history_.emplace(folder_ / "history.csv", resumed_->progress.history_bytes);
+        if (events) events_.emplace(folder_ / "events.csv", resumed_->progress.events_bytes);
+      } else {
+        history_.emplace(folder_ / "history.csv", scene_.output.energy);
+        if (events) events_.emplace(folder_ / "events.csv");
+      }
+    });
+    if (scene_.output.snapshots > 0) snapshots_.emplace(folder_, ranks_, before);
+    if (resumed_ && snapshots_) since_snapshot_ = test.events_after(before.empty() ? -1 : before.back().step);
+  }
+
+  void write_curves(BiaxialTest& test, double preparing_seconds) {
+    open_files(test);
+    Speedometer const clock(test.strain_fraction());
+    std::int64_t const steps_before = test.disc_steps();
+    if (!resumed_) write_all(test);
+    // What took long to prepare is kept at once.
+    if (!resumed_ && endurance_.checkpoint_every > 0 && ranks_.any(preparing_seconds > 0.05 * endurance_.checkpoint_every))
+      write_checkpoint(test);
+    while (!test.finished()) {
+      if (test.advance(pace_)) write_all(test);
+      record_.disc_steps = test.disc_steps() - steps_before;
+      record_.wall_seconds["shear"] = clock.seconds();
+      record_.disc_steps_per_second = static_cast<double>(record_.disc_steps) / clock.seconds();
+      show(test, clock.text(test.strain_fraction(), record_.disc_steps));
+      attend(test);
+    }
+    on_root(ranks_, [&] {
+      history_->close();
+      if (events_) events_->close();
+    });
+  }
+
+  void write_all(BiaxialTest& test) {
+    write_row(test);
+    if (snapshots_) write_snapshot_if_due(test);
+  }
+
+  /// Looks, about four times a second, whether the run is to stop or a checkpoint is due. All ranks decide alike.
+  void attend(BiaxialTest& test) {
+    constexpr double glance = 0.25;  // [s]
+    double const now = wall_.seconds();
+    bool const due = endurance_.checkpoint_every > 0 && now - last_checkpoint_ > endurance_.checkpoint_every;
+    double wish[] = {now - last_glance_, due ? 1.0 : 0.0, interrupted() ? 1.0 : 0.0,
+                     endurance_.most_seconds > 0 && now > endurance_.most_seconds ? 1.0 : 0.0};
+    ranks_.max(wish, 4);
+    last_glance_ = now;
+    pace_ = std::clamp<std::int64_t>(std::llround(static_cast<double>(pace_) * glance / std::max(wish[0], 1e-6)), 1, 4 * pace_);
+    bool const stop = wish[2] + wish[3] > 0 && !test.finished();
+    if (stop || wish[1] > 0) write_checkpoint(test);
+    if (stop) throw Stopped(wish[2] > 0 ? "by a signal" : "as its wall time is over");
+  }
+
+  void write_checkpoint(BiaxialTest& test) {
+    Speedometer const clock;
+    RunProgress progress;
+    on_root(ranks_, [&] {
+      progress.history_bytes = history_->bytes();
+      if (events_) progress.events_bytes = events_->bytes();
+    });
+    if (snapshots_) progress.snapshots = snapshots_->entries();
+    checkpoints_->write(scene_, test.state(), last_.step, progress);
+    record_.wall_seconds["checkpoints"] += clock.seconds();
+    last_checkpoint_ = wall_.seconds();
+  }
+
+  /// A finished run needs them no more.
+  void remove_finished_checkpoints() {
+    on_root(ranks_, [&] { remove_checkpoints(folder_); });
+  }
+
+  void write_row(BiaxialTest& test) {
+    last_ = test.record();
+    summary_->add(last_);
+    EnergyRow const energy = scene_.output.energy ? test.energy() : EnergyRow();
+    if (scene_.output.energy) summary_->add(energy);
+    std::vector<BreakEvent> const broken = test.take_events();
+    on_root(ranks_, [&] {
+      if (scene_.output.energy)
+        history_->write(last_, energy);
+      else
+        history_->write(last_);
+      if (events_) events_->write(broken);
+      if (scene_.output.snapshots > 0) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
+    });
+  }
+
+  void write_snapshot_if_due(BiaxialTest& test) {
+    double const next = static_cast<double>(snapshots_->entries().size()) / scene_.output.snapshots;
+    if (test.strain_fraction() < next - 1e-9) return;
+    Snapshot snapshot = test.snapshot();
+    snapshot.events = std::exchange(since_snapshot_, {});
+    snapshots_->write(snapshot);
+  }
+
+  void show(BiaxialTest const& test, std::string const& speed) {
+    std::string text = fmt::format("eps1 {:.1f}/{:g}% | {} | q {:.3g} MPa", last_.eps1 * 100, scene_.test.axial_strain * 100,
+                                   speed, last_.q_Pa * 1e-6);
+    if (last_.intact_initial_pct > 0) text += fmt::format(" | intact {:.0f}%", last_.intact_initial_pct);
+    line_.show("shear", test.strain_fraction(), text + fmt::format(" | I {:.1g}", last_.inertial_number));
+  }
+
+  void write_record(ExitCode code, std::string const& reason) {
+    record_.warnings = line_.warnings();
+    record_.exit_code = static_cast<int>(code);
+    record_.exit_reason = reason;
+    write_run_record(folder_ / "run.json", record_);
+  }
+
+  /// run.json, then the report that draws on it. That there can be no report is a warning and loses nothing else.
+  void conclude(ExitCode code, std::string const& reason) {
+    on_root(ranks_, [&] {
+      write_record(code, reason);
+      if (!summary_ || summary_->records() < 2) return;
+      try {
+        write_report({folder_}, folder_ / "report.html");
+      } catch (std::exception const& problem) {
+        warn(fmt::format("there is no report: {}", problem.what()));
+        write_record(code, reason);
+      }
+    });
+  }
+
+  /// A fault that the other ranks may not have: they would wait for this one.
+  ExitCode fail_here(ExitCode code, std::string const& reason) {
+    if (!ranks_.alone()) end_all_ranks(ranks_, FileProblem(code, reason));
+    return fail(code, reason);
+  }
+
+  ExitCode stopped(std::string const& cause) {
+    bool const kept = checkpoints_->written() > 0 || resumed_;
+    ExitCode const code = kept ? ExitCode::to_be_resumed : ExitCode::interrupted;
+    std::string const where = kept ? fmt::format("stopped {} at an axial strain of {:.3g} %", cause, last_.eps1 * 100) : cause;
+    conclude(code, where);
+    line_.repeat_warnings();
+    line_.note("clathra: " + record_.exit_reason + "; what was written so far is in " + folder_.string() +
+               (kept ? ", and --resume goes on" : ""));
+    return code;
+  }
+
+  /// The first failure counts: that the record cannot be written either (full disk) changes neither message nor code.
+  ExitCode fail(ExitCode code, std::string const& reason) {
+    line_.repeat_warnings();
+    line_.note("clathra: " + reason);
+    try {
+      conclude(code, reason);
+    } catch (FileProblem const& problem) {
+      line_.note(fmt::format("clathra: {}", problem.what()));
+    }
+    return code;
+  }
+
+  Ranks ranks_;
+  Endurance endurance_;
+  Scene scene_;
+  std::optional<Specimen> specimen_;
+  std::optional<OutputFolder> lock_;    // on rank 0
+  std::optional<HistoryFile> history_;  // on rank 0
+  std::optional<EventsFile> events_;    // on rank 0
+  std::filesystem::path folder_;
+  RunRecord record_;
+  ProgressLine line_;
+  std::optional<Summary> summary_;
+  HistoryRow last_;
+  std::vector<BreakEvent> since_snapshot_;
+  std::optional<SnapshotSeries> snapshots_;
+  std::optional<FoundCheckpoint> resumed_;
+  std::optional<CheckpointSeries> checkpoints_;
+  Speedometer wall_;
+  double last_glance_ = 0, last_checkpoint_ = 0;  // [s]
+  std::int64_t pace_ = 16;                        // steps between two glances at clock and signals
+};
+
+TestRun::TestRun(LoadedScene input, std::optional<Specimen> specimen, Endurance const& endurance, Ranks const& ranks)
+    : running_(std::make_unique<Running>(std::move(input), std::move(specimen), endurance, ranks)) {}
+TestRun::~TestRun() = default;
+void TestRun::warn(std::string const& text) { running_->warn(text); }
+ExitCode TestRun::run() { return running_->run(); }
+
+}  // namespace clathra

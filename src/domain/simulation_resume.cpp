@@ -1,0 +1,172 @@
+/// Taking a simulation apart for a checkpoint, and putting it together again.
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <type_traits>
+
+#include "domain/places.hpp"
+#include "domain/simulation.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr char const* wall_names[] = {"left", "right", "bottom", "top"};
+
+template <class Visit>
+void visit_walls(std::string const& name, Walls& walls, Visit&& visit) {
+  for (int wall = 0; wall < wall_count; ++wall) {
+    visit(name + "_" + wall_names[wall], walls.position[wall]);
+    visit(name + "_" + wall_names[wall] + "_velocity", walls.velocity[wall]);
+  }
+}
+
+template <class Visit>
+void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
+  visit(name + "_kind", drive.kind);
+  visit(name + "_strain_rate", drive.strain_rate);
+  visit(name + "_target_stress", drive.target_stress);
+  visit(name + "_one_sided", drive.one_sided);
+  visit(name + "_integral", drive.integral);
+  visit(name + "_largest_speed", drive.largest_speed);
+}
+
+}  // namespace
+
+/// Visits every number of the whole: (name, double, integer, bool or enumeration).
+template <class Visit>
+void Simulation::for_each_number(Visit&& visit) {
+  visit("step", step_);
+  visit("time", time_);
+  visit("time_step", time_step);
+  visit("rebuilds", rebuilds_);
+  visit("rebuild_pending", rebuild_pending_);
+  visit("skin", skin_);
+  visit("reach", reach_);
+  visit("discs", discs_);
+  visit("solid_area", solid_area_);
+  visit("largest_radius", largest_radius_);
+  visit("density", density_);
+  visit("d50", d50_);
+  visit("critical_thickness", critical_thickness_);
+  visit("boundary_work", boundary_work_);
+  visit("ledger", laws_.contact.ledger);
+  visit_walls("wall", walls_, visit);
+  visit_walls("reference_wall", reference_walls_, visit);
+  for (int wall = 0; wall < wall_count; ++wall) {
+    std::string const name = std::string("reaction_") + wall_names[wall];
+    visit(name, reactions_.normal[wall]);
+    visit(name + "_shear", reactions_.shear[wall]);
+    visit(name + "_contacts", reactions_.contacts[wall]);
+  }
+  visit_drive("drive_x", loading.x, visit);
+  visit_drive("drive_y", loading.y, visit);
+  visit("servo_gain", loading.servo.gain);
+  visit("servo_integral_time", loading.servo.integral_time);
+  visit("servo_contact_stiffness", loading.servo.contact_stiffness);
+}
+
+/// The companions and what is derived from the state but must not be derived anew: forces, and where the last search found the
+/// discs.
+Companions Simulation::companions_of_state(WallShear& wall_shear) {
+  Companions all = companions(wall_shear);
+  all.insert(all.end(), {{"force_x", &particles_.force_x},
+                         {"force_y", &particles_.force_y},
+                         {"torque", &particles_.torque},
+                         {"reference_x", &particles_.reference_x},
+                         {"reference_y", &particles_.reference_y}});
+  return all;
+}
+
+SimulationState Simulation::state() {
+  if (periodic()) throw std::logic_error("a periodic cell has no checkpoint");
+  if (rebuild_pending_) rebuild();  // rows as the next step would find them
+  SimulationState s;
+  for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
+  s.numbers["marked_start"] = start_x_.extent(0) > 0 ? 1 : 0;
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  Companions const with_discs = companions_of_state(wall_shear);
+  ContactRows named = rows_;
+  named.neighbour = uninitialised<int>("named", rows_.neighbour.extent(0));
+  Kokkos::deep_copy(named.neighbour, rows_.neighbour);
+  (void)take_as_old(particles_, named);
+  std::vector<int> all(static_cast<std::size_t>(particles_.owned));
+  std::iota(all.begin(), all.end(), 0);
+  s.discs = pack_discs(particles_, with_discs, named, all);
+  for_each_field(particles_, [&](std::string const& name, auto const& field) {
+    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) s.disc_columns.push_back(name);
+  });
+  for (Companion const& companion : with_discs) s.disc_columns.push_back(companion.name);
+  for_each_history(rows_, [&](char const* name, Field<Real> const&, Real) { s.history_columns.push_back(name); });
+  collect_breaks();
+  s.broken = broken_;
+  return s;
+}
+
+Simulation::Simulation(SimulationState const& state, SimulationLaws const& laws, Ranks ranks)
+    : ranks_(std::move(ranks)), sum_(ranks_.summation()), laws_(laws), faults_(make_faults()) {
+  for_each_number(
+      [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
+  rows_.features = laws_.features();
+  particles_ = allocate_particles(0);
+  if (laws_.contact.ledger) losses_ = make_energy_losses(1);
+  if (state.numbers.at("marked_start") != 0) mark_start();
+  wall_contacts_.rough = laws_.wall.friction > 0;
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  Companions const with_discs = companions_of_state(wall_shear);
+  rows_ = unpack_discs(brought_home(state.discs), laws_.features(), particles_, with_discs);
+  // Discs have moved since the rows were listed: neighbours may be a skin farther than the search reached.
+  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * skin_);
+  find_listed_neighbours();
+  prepare_rows(particles_, rows_, laws_.contact.bond);
+  make_room_for_breaks();
+  wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_shear);
+  broken_ = state.broken;
+}
+
+/// The records of the discs that belong to this rank, from wherever they were read.
+std::vector<double> Simulation::brought_home(DiscRecords const& discs) {
+  if (ranks_.alone()) return discs.numbers;
+  // Behind the id come x and y.
+  std::vector<double> x, y;
+  for (std::size_t k = 0; k < discs.size(); ++k) {
+    x.push_back(discs.numbers[discs.begin[k] + 1]);
+    y.push_back(discs.numbers[discs.begin[k] + 2]);
+  }
+  decomposition_ = Decomposition::bisect(ranks_, x, y, 1);
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks_.count()));
+  for (std::size_t k = 0; k < discs.size(); ++k) {
+    auto& part = to[static_cast<std::size_t>(decomposition_.owner(x[k], y[k]))];
+    part.insert(part.end(), discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k]),
+                discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k + 1]));
+  }
+  std::vector<double> home;
+  for (auto const& part : ranks_.exchange(to)) home.insert(home.end(), part.begin(), part.end());
+  return home;
+}
+
+/// Replaces the neighbours' ids in the rows by the indices of discs and ghosts.
+void Simulation::find_listed_neighbours() {
+  auto const id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles_.id);
+  auto const length = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.length);
+  auto const slice_start = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.slice_start);
+  auto const listed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.neighbour);
+  std::vector<int> index(listed.extent(0), particles_.padding());
+  Places const places(id, particles_.all());
+  bool lost = false;
+  for (int i = 0; i < particles_.owned; ++i) {
+    for (int k = 0; k < length(i); ++k) {
+      std::size_t const e =
+          static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
+      index[e] = places.find(listed(e));
+      lost = lost || index[e] < 0;
+    }
+  }
+  if (ranks_.any(lost)) throw std::runtime_error("a checkpoint's row names a neighbour that is not near");
+  rows_.neighbour = uninitialised<int>("rows.neighbour", index.size());
+  auto host = Kokkos::create_mirror_view(rows_.neighbour);
+  std::copy(index.begin(), index.end(), host.data());
+  Kokkos::deep_copy(rows_.neighbour, host);
+}
+
+}  // namespace clathra

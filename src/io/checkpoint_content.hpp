@@ -1,0 +1,18 @@
+#pragma once
+/// What stands in the HDF5 file of a checkpoint.
+#include <filesystem>
+
+#include "domain/experiment.hpp"
+#include "io/problems.hpp"
+
+namespace clathra {
+
+inline constexpr std::int64_t checkpoint_version = 1;
+
+/// @throws FileProblem cannot_create or io_error
+void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks);
+
+/// This rank's rows, checked: sizes, ids, finite numbers. Not collective. @throws FileProblem
+TestState read_checkpoint_content(std::filesystem::path const& path, Scene const& scene, Ranks const& ranks);
+
+}  // namespace clathra
