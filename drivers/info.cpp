@@ -10,6 +10,7 @@
 
 #include "domain/experiment.hpp"
 #include "domain/grading.hpp"
+#include "io/checkpoint.hpp"
 #include "io/export.hpp"
 #include "io/run_record.hpp"
 #include "io/snapshot_file.hpp"
@@ -136,6 +137,12 @@ ExitCode info(InfoOptions const& options) {
     if (options.state_hash)
       throw FileProblem(ExitCode::bad_input, file, "is a snapshot, whose numbers are rounded: it has no state hash");
     return print_result(snapshot_text(read_snapshot(file)));
+  }
+  if (is_checkpoint(file)) {
+    std::string const hash = checkpoint_state_hash(file);
+    return print_result(options.state_hash ? hash + "\n"
+                                           : fmt::format("{:<18} {}\n{:<18} {}\n", "checkpoint of",
+                                                         file.parent_path().parent_path().string(), "state hash", hash));
   }
   Specimen const specimen = read_specimen(file);
   if (options.state_hash) return print_result(hash_text(specimen_hash(specimen)) + "\n");

@@ -51,6 +51,7 @@ int thread_count(int wanted) {
 void settle_threads(int wanted) {
   int const threads = thread_count(wanted);
   bool changed = settle("OMP_NUM_THREADS", std::to_string(threads));
+  if (launched_ranks() > 1) ::setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // more ranks than cores is for the user to choose
   ::setenv("KOKKOS_NUM_THREADS", std::to_string(threads).c_str(), 1);
   if (!std::getenv("OMP_PROC_BIND")) {
     bool const all = threads == core_count();

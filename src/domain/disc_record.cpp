@@ -1,6 +1,7 @@
 #include "domain/disc_record.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <type_traits>
 
 namespace clathra {
@@ -79,10 +80,14 @@ std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) 
 }  // namespace
 
 DiscColumns::DiscColumns(ParticleSoA const& particles, Companions const& companions) {
+  auto const add = [this](Field<Real> const& field) {
+    if (count == most) throw std::logic_error("a disc has more numbers than a record holds");
+    column[count++] = field;
+  };
   for_each_field(particles, [&](char const*, auto const& field) {
-    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) column[count++] = field;
+    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) add(field);
   });
-  for (Companion const& companion : companions) column[count++] = *companion.field;
+  for (Companion const& companion : companions) add(*companion.field);
 }
 
 RowColumns::RowColumns(ContactRows const& rows) {

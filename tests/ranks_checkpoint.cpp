@@ -1,0 +1,63 @@
+/// A simulation that was taken apart and put together again goes on with the same bits, on any number of ranks.
+#include "golden_states.hpp"
+#include "ranks_main.hpp"
+
+namespace clathra {
+namespace {
+
+TEST(Checkpoint, TakesNothingFromTheGoldenState) {
+  for (Golden const& g : golden) {
+    Specimen const whole = bonded_patch(g.composite);
+    Specimen const nothing = [&] {
+      Specimen empty = whole;
+      for (auto* field : {&empty.x, &empty.y, &empty.angle, &empty.vx, &empty.vy, &empty.omega, &empty.radius}) field->clear();
+      empty.id.clear();
+      empty.contacts.clear();
+      return empty;
+    }();
+    auto sim = std::make_unique<Simulation>(ready(whole, g.composite, world(), world().root() ? &whole : &nothing));
+    for (int n = 0; n < 3000; ++n) {
+      if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->laws(), world());
+      sim->step();
+    }
+    EXPECT_EQ(sim->hash(), g.hash);
+    EXPECT_EQ(sim->broken_bonds(), g.broken);
+    EXPECT_GT(sim->rebuilds(), 5);
+  }
+}
+
+TEST(Checkpoint, KeepsAccountsAndDisplacements) {
+  Specimen const whole = bonded_patch(Composite::parallel);
+  Specimen empty = whole;
+  for (auto* field : {&empty.x, &empty.y, &empty.angle, &empty.vx, &empty.vy, &empty.omega, &empty.radius}) field->clear();
+  empty.id.clear();
+  empty.contacts.clear();
+  Simulation sim = ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty);
+  sim.set_ledger(true);
+  sim.mark_start();
+  for (int n = 0; n < 800; ++n) sim.step();
+  Simulation again(sim.state(), sim.laws(), world());
+  EXPECT_EQ(again.hash(), sim.hash());
+  for (int n = 0; n < 800; ++n) {
+    sim.step();
+    again.step();
+  }
+  EXPECT_EQ(again.hash(), sim.hash());
+  EXPECT_EQ(again.losses().sliding, sim.losses().sliding);
+  EXPECT_EQ(again.losses().damping, sim.losses().damping);
+  EXPECT_EQ(again.boundary_work(), sim.boundary_work());
+  EXPECT_EQ(again.time(), sim.time());
+  auto const total_way = [](Simulation const& s) {
+    double way = 0;
+    auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.particles().x);
+    auto const from = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.start_x());
+    for (int i = 0; i < s.particles().owned; ++i) way = std::max(way, std::abs(x(i) - from(i)));
+    return s.ranks().max(way);
+  };
+  EXPECT_GT(total_way(sim), 0);
+  EXPECT_EQ(total_way(again), total_way(sim));
+  EXPECT_EQ(again.break_counts().shear, sim.break_counts().shear);
+}
+
+}  // namespace
+}  // namespace clathra

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# A run that is killed and resumed, on any number of ranks, ends as one that was left alone: restart_test.sh CLATHRA SCENE [MPIEXEC]
+set -euo pipefail
+clathra=$1 scene=$2 mpiexec=${3:-}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "restart: $*"; cat log || true; exit 1; }
+
+"$clathra" generate "$scene" -o specimen.h5 >log 2>&1 || fail "no specimen"
+given=(run "$scene" --set sample.generator=file --set sample.file=specimen.h5 --set test.axial_strain=0.008
+  --set output.records=60 --set output.snapshots=3 --set output.energy=true)
+"$clathra" "${given[@]}" --output alone >log 2>&1 || fail "the run that is left alone failed"
+
+# With ranks $1 under the launcher, else alone.
+start() {
+  local ranks=$1
+  shift
+  if [ -n "$mpiexec" ] && [ "$ranks" -gt 1 ]; then
+    "$mpiexec" -n "$ranks" "$clathra" "$@"
+  else
+    "$clathra" "$@"
+  fi
+}
+
+# Killed five times at different instants; some come before the first checkpoint, some after the end.
+for round in 1 2 3 4 5; do
+  ranks=$((round % 3 + 1))
+  start "$ranks" "${given[@]}" --output killed --resume --checkpoint-every 0.2s >log 2>&1 &
+  job=$!
+  sleep "$((1 + round % 2)).$((round * 2))"
+  # The launcher goes last: it would end its ranks in order.
+  pkill -KILL -f -- "--output killed" || true
+  wait "$job" 2>/dev/null || true
+done
+start 2 "${given[@]}" --output killed --resume >log 2>&1 || fail "cannot be resumed"
+compare() {
+  cmp "alone/history.csv" "$1/history.csv" || fail "$1: another history"
+  cmp "alone/events.csv" "$1/events.csv" || fail "$1: other events"
+  [ "$("$clathra" info --state-hash alone)" = "$("$clathra" info --state-hash "$1")" ] || fail "$1: another state"
+  [ "$(ls alone/snap)" = "$(ls "$1/snap")" ] || fail "$1: other snapshots"
+  [ -z "$(find "$1" -name '*.tmp-*')" ] || [ "$1" = killed ] || fail "$1: left-over files"
+  [ ! -e "$1/ckpt" ] || fail "$1: a finished run keeps checkpoints"
+}
+compare killed
+
+# Asked to stop: the step's end, a checkpoint, 75.
+code=0
+start 3 "${given[@]}" --output stopped --max-walltime 1s --checkpoint-every 0s >log 2>&1 || code=$?
+[ "$code" = 75 ] || fail "code $code instead of 75 where the wall time is over"
+[ -f stopped/ckpt/0.json ] || fail "stopped without a checkpoint"
+grep -q -- "--resume goes on" log || fail "does not say how to go on"
+hash=$("$clathra" info --state-hash stopped/ckpt/0.h5)
+[ "${#hash}" = 18 ] || fail "a checkpoint without a state hash: '$hash'"
+code=0
+"$clathra" "${given[@]}" --output stopped --resume --set bond.moment_scale=rod_mm >log 2>&1 || code=$?
+[ "$code" = 77 ] && grep -q "bond.moment_scale was .*, is" log || fail "a checkpoint of another scene is not refused with the key ($code)"
+printf 'x' | dd of=stopped/ckpt/0.h5 bs=1 seek=5000 conv=notrunc 2>/dev/null
+code=0
+"$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || code=$?
+[ "$code" = 66 ] && grep -q "has digest" log || fail "a damaged checkpoint is not refused ($code)"
+code=0
+start 2 "${given[@]}" --output stopped --max-walltime 1s >log 2>&1 || code=$?
+[ "$code" = 75 ] || fail "code $code at the second try"
+"$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || fail "cannot be resumed on one rank"
+compare stopped
+
+# Bad use is refused with numbers.
+if [ -n "$mpiexec" ]; then
+  code=0
+  "$mpiexec" -n 3 "$clathra" "${given[@]}" --output few --set sample.generator=under_compaction --set sample.particles=120 >log 2>&1 || code=$?
+  [ "$code" = 77 ] && grep -q "120 discs cannot be cut among 3 ranks" log || fail "too many ranks are not refused ($code)"
+  code=0
+  "$mpiexec" -n 2 "$clathra" info specimen.h5 >log 2>&1 || code=$?
+  [ "$code" = 64 ] && grep -q "runs on one rank, 2 were started" log || fail "a verb of one rank on two ($code)"
+  code=0
+  "$mpiexec" -n 1 "$clathra" "${given[@]}" --output mixed : -n 1 "$clathra" "${given[@]}" --output mixed --set run.damping=0.2 >log 2>&1 || code=$?
+  [ "$code" = 77 ] && grep -q "1 of the 2 ranks have another scene" log || fail "different scenes are not refused ($code)"
+fi
