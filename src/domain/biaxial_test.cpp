@@ -180,6 +180,7 @@ BiaxialTest::BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressC
   if (scene.output.energy) t.start = energy();
 }
 
+BiaxialTest::BiaxialTest(BiaxialTest&& other) noexcept = default;
 BiaxialTest::~BiaxialTest() = default;
 
 StageRecord const& BiaxialTest::preparation() const { return state_->preparation; }

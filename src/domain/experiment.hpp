@@ -45,6 +45,7 @@ class BiaxialTest {
   /// Bonds and consolidates. @throws Refused, Diverged, Stopped
   /// @param specimen  this rank's share of it, whichever. All calls are collective.
   BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressCallback const& progress, Ranks const& ranks = {});
+  BiaxialTest(BiaxialTest&& other) noexcept;
   ~BiaxialTest();
 
   StageRecord const& preparation() const;  ///< numbers of bonding and consolidation, time step and its margin

@@ -27,15 +27,15 @@ Json manifest_json(FoundCheckpoint const& c) {
   Json snapshots = Json::array();
   for (SnapshotEntry const& e : c.progress.snapshots)
     snapshots.push_back({{"file", e.file}, {"step", e.step}, {"eps1", e.eps1}, {"discs", e.discs}, {"pairs", e.pairs}});
-  return {{"format", manifest_format},
-          {"version", checkpoint_version},
-          {"sequence", c.sequence},
-          {"step", c.step},
-          {"bytes", std::filesystem::file_size(c.file)},
-          {"digest_xxh3_128", c.digest},
-          {"history_bytes", c.progress.history_bytes},
-          {"events_bytes", c.progress.events_bytes},
-          {"snapshots", snapshots}};
+  Json const content = {{"version", checkpoint_version},
+                        {"sequence", c.sequence},
+                        {"step", c.step},
+                        {"bytes", std::filesystem::file_size(c.file)},
+                        {"digest_xxh3_128", c.digest},
+                        {"history_bytes", c.progress.history_bytes},
+                        {"events_bytes", c.progress.events_bytes},
+                        {"snapshots", snapshots}};
+  return {{"format", manifest_format}, {"content", content}, {"content_digest_xxh3_128", text_digest(content.dump())}};
 }
 
 /// The checkpoint of a manifest. @throws FileProblem with what is wrong with it
@@ -45,10 +45,12 @@ FoundCheckpoint read_manifest(std::filesystem::path const& run_folder, int gener
   c.file = file_of(run_folder, generation, "h5");
   c.generation = generation;
   auto const bad = [&](std::string const& what) -> FileProblem { return {ExitCode::bad_input, manifest, what}; };
-  Json const json = Json::parse(read_text_file(manifest, largest_manifest), nullptr, false);
+  Json const whole = Json::parse(read_text_file(manifest, largest_manifest), nullptr, false);
   std::uintmax_t bytes = 0;
   try {
-    if (json.at("format").get<std::string>() != manifest_format) throw bad("is no manifest of a checkpoint");
+    if (whole.at("format").get<std::string>() != manifest_format) throw bad("is no manifest of a checkpoint");
+    Json const& json = whole.at("content");
+    if (text_digest(json.dump()) != whole.at("content_digest_xxh3_128").get<std::string>()) throw bad("is damaged");
     if (json.at("version").get<std::int64_t>() != checkpoint_version)
       throw bad(fmt::format("has version {}, this program reads {}", json.at("version").get<std::int64_t>(), checkpoint_version));
     c.sequence = json.at("sequence").get<std::int64_t>();

@@ -1,0 +1,171 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "io/checkpoint.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/run_record.hpp"
+#include "io/scene_file.hpp"
+#include "io/text_file.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A hand-made specimen, sheared through breakage in some thousand steps.
+char const scene_text[] =
+    "[sample]\nparticles = 144\n[hydrate]\nsaturation = \"41 %\"\n[bond]\ncoefficients = \"printed\"\n[test]\naxial_strain = \"2 "
+    "%\"\n"
+    "inertial_number = 5e-3\nwall_friction = 0.2\n[output]\nrecords = 20\nenergy = true\n[run]\nforce = true\n";
+
+Scene test_scene() { return parse_scene(scene_text, "golden.toml", ".").scene; }
+
+BiaxialTest begun() {
+  Specimen s = disordered_patch(12, 12);
+  s.d50 = grain_d50;
+  return BiaxialTest(test_scene(), s, {});
+}
+
+std::string content(fs::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+void put(fs::path const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
+
+void go_on(BiaxialTest& test, int records) {
+  for (int n = 0; n < records && !test.finished(); ++n) {
+    while (!test.advance(100)) {
+    }
+    (void)test.take_events();
+  }
+}
+
+class CheckpointFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  /// Two generations of a test: after 5 records and after 10.
+  BiaxialTest two_generations() {
+    BiaxialTest test = begun();
+    CheckpointSeries series(folder, {}, {});
+    for (int step : {5, 10}) {
+      go_on(test, 5);
+      RunProgress progress;
+      progress.history_bytes = 1000u * static_cast<unsigned>(step);
+      progress.snapshots = {{"snap/000000000000.h5", 0, 0.0, 144, 300}};
+      series.write(test_scene(), test.state(), step, progress);
+    }
+    return test;
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_checkpoint_" + std::to_string(::getpid()));
+};
+
+TEST_F(CheckpointFile, GoesOnWithTheBitsOfTheTestThatWasLeftAlone) {
+  BiaxialTest alone = two_generations();
+  std::optional<FoundCheckpoint> const found = find_checkpoint(folder);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->step, 10);
+  EXPECT_EQ(found->progress.history_bytes, 10000u);
+  ASSERT_EQ(found->progress.snapshots.size(), 1u);
+  EXPECT_EQ(found->progress.snapshots[0].pairs, 300u);
+  BiaxialTest again(test_scene(), read_checkpoint(*found, test_scene(), {}), {});
+  EXPECT_EQ(again.state_hash(), alone.state_hash());
+  EXPECT_EQ(hash_text(again.state_hash()), checkpoint_state_hash(found->file));
+  EXPECT_EQ(again.preparation(), alone.preparation());
+  EXPECT_EQ(again.warnings(), alone.warnings());
+  go_on(alone, 100);
+  go_on(again, 100);
+  EXPECT_EQ(again.state_hash(), alone.state_hash());
+  HistoryRow const a = again.record(), b = alone.record();
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(a.q_Pa, b.q_Pa);
+  EXPECT_EQ(a.broken_shear, b.broken_shear);
+  EXPECT_GT(a.broken_tension + a.broken_shear + a.broken_rolling + a.broken_compression, 2);
+  EXPECT_EQ(again.energy().residual, alone.energy().residual);
+  EXPECT_EQ(again.events_after(0).size(), alone.events_after(0).size());
+}
+
+TEST_F(CheckpointFile, IsTakenFromTheOtherGenerationWhereOneIsDamaged) {
+  (void)two_generations();
+  std::string const good[] = {content(folder / "ckpt/1.h5"), content(folder / "ckpt/1.json")};
+  fs::path const files[] = {folder / "ckpt/1.h5", folder / "ckpt/1.json"};
+  int cases = 0, named = 0;
+  for (std::uint64_t n = 0; n < 1000; ++n) {
+    auto const which = static_cast<std::size_t>(n % 4 == 0 ? 1 : 0);
+    std::string bad = good[which];
+    auto const draw = [&](std::uint64_t salt, std::size_t size) {
+      return static_cast<std::size_t>(uniform_random(n, salt, 1) * static_cast<double>(size));
+    };
+    if (n % 10 == 9) {
+      bad.resize(draw(1, bad.size()));
+    } else {
+      for (std::uint64_t k = 0; k <= n % 8; ++k) bad[draw(2 + k, bad.size())] ^= static_cast<char>(1 + draw(20 + k, 255));
+    }
+    if (bad == good[which]) continue;
+    put(files[which], bad);
+    std::optional<FoundCheckpoint> const found = find_checkpoint(folder);
+    ASSERT_TRUE(found) << n;
+    // White space of a manifest means nothing: it may still be whole.
+    if (found->generation == 1) {
+      EXPECT_EQ(which, 1u) << n;
+      EXPECT_EQ(found->step, 10) << n;
+    } else {
+      ++named;
+    }
+    put(files[which], good[which]);
+    ++cases;
+  }
+  EXPECT_GT(cases, 990);
+  EXPECT_GT(named, 950);
+  put(files[0], good[0].substr(100));
+  put(folder / "ckpt/0.h5", "x");
+  try {
+    (void)find_checkpoint(folder);
+    FAIL() << "both are damaged";
+  } catch (FileProblem const& problem) {
+    EXPECT_EQ(problem.code, ExitCode::file_missing);
+    EXPECT_NE(std::string(problem.what()).find("0.json"), std::string::npos) << problem.what();
+    EXPECT_NE(std::string(problem.what()).find("1.json"), std::string::npos) << problem.what();
+  }
+}
+
+TEST_F(CheckpointFile, OfAnotherSceneOrVersionIsRefusedWithWhatDiffers) {
+  (void)two_generations();
+  FoundCheckpoint const found = *find_checkpoint(folder);
+  Scene other = test_scene();
+  other.run.damping = 0.2;
+  other.run.threads = 7;  // does not matter
+  try {
+    (void)read_checkpoint(found, other, {});
+    FAIL() << "another scene";
+  } catch (FileProblem const& problem) {
+    EXPECT_EQ(problem.code, ExitCode::refused);
+    EXPECT_NE(std::string(problem.what()).find("run.damping was 0.3, is 0.2"), std::string::npos) << problem.what();
+    EXPECT_EQ(std::string(problem.what()).find("run.threads"), std::string::npos) << problem.what();
+  }
+}
+
+// What version 1 wrote must be read by every later version. Made once by this very test with CLATHRA_KEEP=FOLDER.
+TEST_F(CheckpointFile, OfVersionOneIsOpenedForEver) {
+  if (char const* const keep = std::getenv("CLATHRA_KEEP")) {
+    (void)two_generations();
+    fs::copy(folder, keep, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  }
+  std::optional<FoundCheckpoint> const found = find_checkpoint(fs::path(CLATHRA_GOLDEN) / "checkpoint-1");
+  ASSERT_TRUE(found);
+  BiaxialTest test(test_scene(), read_checkpoint(*found, test_scene(), {}), {});
+  EXPECT_EQ(hash_text(test.state_hash()), checkpoint_state_hash(found->file));
+  go_on(test, 100);
+  EXPECT_EQ(hash_text(test.state_hash()), "0xa72a83d66782e83f");
+}
+
+}  // namespace
+}  // namespace clathra
