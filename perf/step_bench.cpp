@@ -1,6 +1,6 @@
 /// Whole-step throughput on fixed packings: particle-steps per second of Simulation::step() with walls, servo and neighbour
 /// searches.
-///   step_bench [--discs N] [--case rolling|bonded] [--seconds S] [--repeat R] [--skin S]
+///   [mpirun -n RANKS] step_bench [--discs N] [--case rolling|bonded] [--seconds S] [--repeat R] [--skin S]
 /// Threads: OMP_NUM_THREADS. Prints one row per repeat, the median, and where the time of one more run went, kernel by kernel.
 /// `clathra bench` gives a user the same numbers.
 #include <algorithm>
@@ -48,7 +48,7 @@ Options read_options(int argc, char** argv) {
 void print_phases(Simulation& simulation, double seconds) {
   Phases const listening;
   Throughput const t = measure_throughput(simulation, seconds);
-  double const disc_steps = static_cast<double>(t.steps) * simulation.discs();
+  double const disc_steps = static_cast<double>(t.steps) * simulation.particles().owned;  // of this rank
   std::vector<std::pair<double, std::string>> phases;
   double in_kernels = 0;
   for (auto const& [label, time] : Phases::seconds()) {
@@ -68,20 +68,23 @@ void print_phases(Simulation& simulation, double seconds) {
 int main(int argc, char** argv) {
   Options const options = read_options(argc, argv);
   ::setenv("OMP_PROC_BIND", "false", 0);
+  RankSession const session;
+  bool const root = session.ranks().root();
+  if (!root) std::freopen("/dev/null", "w", stdout);  // one of the ranks speaks
   Kokkos::ScopeGuard const guard(argc, argv);
-  Simulation simulation = throughput_simulation(options.setup);
+  Simulation simulation = throughput_simulation(options.setup, session.ranks());
   std::printf(
-      "case,discs,threads,lanes,particle_steps_per_s,ns_per_particle_step,contact_steps_per_s,steps,rebuilds,rebuild_share,"
+      "case,discs,ranks,threads,lanes,particle_steps_per_s,ns_per_particle_step,contact_steps_per_s,steps,rebuilds,rebuild_share,"
       "bytes_per_disc,entries_per_disc\n");
   std::vector<double> rates;
   for (int n = 0; n < options.repeat; ++n) {
     Throughput const t = measure_throughput(simulation, options.seconds);
     rates.push_back(t.particle_steps_per_s);
-    std::printf("%s,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f\n",
-                options.setup.what == ThroughputCase::bonded ? "bonded" : "rolling", simulation.discs(),
+    std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f\n",
+                options.setup.what == ThroughputCase::bonded ? "bonded" : "rolling", simulation.discs(), session.ranks().count(),
                 ExecutionSpace::concurrency(), lane_count, rates.back(), 1e9 / rates.back(), t.contact_steps_per_s,
                 static_cast<long long>(t.steps), static_cast<long long>(t.rebuilds), t.rebuild_share, t.bytes_per_disc,
-                static_cast<double>(simulation.contact_entries()) / simulation.discs());
+                static_cast<double>(simulation.contact_entries()) / std::max(simulation.particles().owned, 1));
   }
   std::sort(rates.begin(), rates.end());
   std::printf("median %.4g particle-steps/s\n", rates[rates.size() / 2]);

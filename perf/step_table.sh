@@ -13,7 +13,7 @@ for discs in "${sizes[@]}"; do
     for threads in 1 2; do
       OMP_NUM_THREADS=$threads OMP_PROC_BIND=false "$bench" --case $case --discs "$discs" --seconds 3 --repeat 3 |
         awk -F, -v OFS=' | ' '
-          $1 == "rolling" || $1 == "bonded" { n++; rate[n] = $5; row[n] = $0 }
+          $1 == "rolling" || $1 == "bonded" { n++; rate[n] = $6; row[n] = $0 }
           $1 ~ /^contact_forces/ { contact = $2 " ns" }
           $1 == "kick_and_drift" { drift = $2 " ns" }
           END {
@@ -24,7 +24,7 @@ for discs in "${sizes[@]}"; do
               if (below == int(n / 2)) middle = k
             }
             split(row[middle], f, ",")
-            printf "| %s | %d | %d | %.1f | %.1f | %.1f %% | %d | %s | %s |\n", f[1], f[2], f[3], f[5] / 1e6, f[7] / 1e6, 100 * f[10], f[11], contact, drift
+            printf "| %s | %d | %d | %.1f | %.1f | %.1f %% | %d | %s | %s |\n", f[1], f[2], f[4], f[6] / 1e6, f[8] / 1e6, 100 * f[11], f[12], contact, drift
           }'
     done
   done

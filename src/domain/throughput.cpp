@@ -18,17 +18,21 @@ namespace {
 constexpr std::int64_t cell_discs = 2000;
 
 /// The specimen under 1 MPa, with its scene's grains.
-Specimen make_specimen(Scene const& scene, std::int64_t discs) {
+Specimen make_specimen(Scene const& scene, std::int64_t discs, Ranks const& ranks) {
   PackedSpecimen const cell = pack_periodic_cell(scene, design_sample(scene), cell_discs, {});
   double const area = static_cast<double>(discs) / cell_discs * cell.specimen.width() * cell.specimen.height();
   double const width = std::sqrt(area / 2);
-  return replicate(cell.specimen, width, 2 * width);
+  return replicate(cell.specimen, width, 2 * width, ranks);
+}
+
+std::int64_t total(Simulation const& simulation, std::size_t of_this_rank) {
+  return simulation.ranks().sum(static_cast<std::int64_t>(of_this_rank));
 }
 
 /// Bytes that one step touches at the least, a disc: the contact pass reads discs and rows and writes forces and history, the
 /// drift reads and writes the discs.
 double moved_bytes(Simulation const& simulation) {
-  double const entries = static_cast<double>(simulation.contact_entries()) / simulation.discs();
+  double const entries = static_cast<double>(total(simulation, simulation.contact_entries())) / simulation.discs();
   ContactFeatures const features = simulation.rows().features;
   double const histories = 1 + (features.rolling || features.bonds ? 1 : 0) + (features.separate_bond ? 2 : 0);
   double const row = sizeof(int) + sizeof(Real) * (2 * histories + (features.bonds ? 2 : 0));
@@ -50,24 +54,24 @@ struct UpdateBlock {
 
 }  // namespace
 
-Simulation throughput_simulation(ThroughputSetup const& setup) {
+Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& ranks) {
   bool const bonded = setup.what == ThroughputCase::bonded;
   Scene scene;
   scene.sample.particles = cell_discs;
   scene.sample.void_ratio = 0.23;
   scene.bond.stress = 1e6;
   scene.hydrate.saturation = bonded ? 0.55 : 0;
-  Specimen specimen = make_specimen(scene, setup.discs);
+  Specimen specimen = make_specimen(scene, setup.discs, ranks);
   SimulationLaws laws;
   laws.contact.grain = {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor, 0};
   laws.motion.damping = scene.run.damping;
   if (bonded) {
     StageRecord record;
-    specimen = bond_specimen(scene, specimen, record);
+    specimen = bond_specimen(scene, specimen, record, ranks);
     laws.contact.bond_kind = BondKind::parallel;
     laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
   }
-  Simulation simulation(specimen, laws, setup.skin * specimen.d50);
+  Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
   // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a
   // test.
   prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.dt_safety);
@@ -84,7 +88,7 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   std::int64_t const first = simulation.steps(), first_rebuilds = simulation.rebuilds();
   double const rebuilding = simulation.rebuild_seconds();
   Kokkos::Timer const clock;
-  while (clock.seconds() < seconds) {
+  while (simulation.ranks().max(clock.seconds()) < seconds) {
     for (int n = 0; n < 20; ++n) simulation.step();
   }
   Kokkos::fence();
@@ -94,7 +98,7 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
   result.particle_steps_per_s = steps_per_s * simulation.discs();
   result.contact_steps_per_s = steps_per_s * simulation.measures().mechanical;
-  result.bytes_per_disc = static_cast<double>(simulation.bytes()) / simulation.discs();
+  result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.discs();
   result.moved_per_step = moved_bytes(simulation);
   result.rebuild_share = (simulation.rebuild_seconds() - rebuilding) / result.seconds;
   return result;

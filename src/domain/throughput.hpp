@@ -18,7 +18,7 @@ struct ThroughputSetup {
 
 /// A periodic cell of 2,000 discs packed under 1 MPa, repeated, cut by walls, bonded, and sheared at the inertial number 1e-4:
 /// ready to be timed.
-Simulation throughput_simulation(ThroughputSetup const& setup);
+Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& ranks = {});
 
 struct Throughput {
   std::int64_t steps = 0, rebuilds = 0;
@@ -30,7 +30,7 @@ struct Throughput {
   double rebuild_share = 0;        ///< of the time, spent in neighbour searches
 };
 
-/// Steps for about so many seconds. @throws Diverged
+/// Steps for about so many seconds; of several ranks the rates are those of all together. @throws Diverged
 Throughput measure_throughput(Simulation& simulation, double seconds);
 
 /// Bandwidth of reading and writing so many bytes over and over with all threads [bytes/s, both counted], the best of five: the
