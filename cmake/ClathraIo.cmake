@@ -33,7 +33,8 @@ if(CLATHRA_IO)
   target_link_libraries(
     clathra_io_libraries INTERFACE ${HDF5_C_LIBRARIES} PNG::PNG PkgConfig::TOMLPLUSPLUS PkgConfig::XXHASH fmt::fmt
                                    nlohmann_json::nlohmann_json)
-  if(CLATHRA_MPI) # the headers of an HDF5 with MPI include MPI's
+  if(HDF5_IS_PARALLEL) # its headers include those of MPI
+    find_package(MPI REQUIRED COMPONENTS CXX)
     target_link_libraries(clathra_io_libraries INTERFACE MPI::MPI_CXX)
     target_compile_definitions(clathra_io_libraries INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
   endif()

@@ -24,16 +24,17 @@ constexpr std::array exits = {
     ExitEntry{ExitCode::internal, "A fault of Clathra, or a failed check of selftest."},
     ExitEntry{ExitCode::cannot_create, "A file or folder of results cannot be made, or another run is writing there."},
     ExitEntry{ExitCode::io_error, "A read or write failed half way, as on a full disk."},
+    ExitEntry{ExitCode::to_be_resumed, "Stopped early, by a signal or the wall time, with a checkpoint: --resume goes on."},
     ExitEntry{ExitCode::diverged, "The run became unstable."},
     ExitEntry{ExitCode::refused, "Refused by a guard that --force overrides, or for want of memory."},
-    ExitEntry{ExitCode::interrupted, "Stopped by Ctrl-C or SIGTERM."},
+    ExitEntry{ExitCode::interrupted, "Stopped by Ctrl-C or a signal before there was a checkpoint."},
 };
 
 constexpr char const* description = R"(.SH DESCRIPTION
 Clathra is a two-dimensional discrete element solver for sand that is cemented by methane hydrate.
 From a scene file (TOML) it makes a specimen of discs, bonds the grains for a hydrate saturation, consolidates the specimen, shears
 it between servo walls and writes the stress-strain curve and the state of every bond.
-Results are equal to the bit for every number of threads.
+Results are equal to the bit for every number of threads and ranks, and after every restart.
 )";
 constexpr char const* environment = R"(.SH ENVIRONMENT
 .TP

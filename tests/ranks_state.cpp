@@ -1,4 +1,8 @@
 /// The same bits on any number of ranks: ctest runs this file on 1, 2, 3, 4 and 7 of them, with one thread and with two.
+#include <array>
+#include <map>
+
+#include "domain/snapshot.hpp"
 #include "golden_states.hpp"
 #include "ranks_main.hpp"
 
@@ -111,6 +115,70 @@ TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
   }
   EXPECT_EQ(sim.hash(), one.hash());
   expect_equal_measures(one, sim);
+}
+
+/// Discs by id and pairs by ids, as they stand in the snapshots of all ranks; on rank 0.
+struct Seen {
+  std::map<int, std::array<double, 8>> discs;
+  std::map<std::array<int, 2>, std::array<double, 4>> pairs;
+};
+Seen seen(Simulation const& sim, Ranks const& ranks) {
+  Snapshot const s = take_snapshot(sim);
+  std::vector<double> discs, pairs;
+  for (std::size_t i = 0; i < s.id.size(); ++i)
+    discs.insert(discs.end(), {double(s.id[i]), s.x[i], s.y[i], s.ux[i], s.stress_yy[i], double(s.coordination[i]),
+                               double(s.bonds_intact[i]), double(s.bonds_initial[i])});
+  for (std::size_t k = 0; k < s.a.size(); ++k)
+    pairs.insert(pairs.end(), {double(s.a[k]), double(s.b[k]), double(s.state[k]), s.normal_force[k], s.width[k], s.gap[k]});
+  discs = ranks.gather(discs);
+  pairs = ranks.gather(pairs);
+  Seen all;
+  std::vector<int> id;  // by number
+  for (std::size_t k = 0; k < discs.size(); k += 8) {
+    id.push_back(static_cast<int>(discs[k]));
+    std::copy_n(discs.begin() + static_cast<std::ptrdiff_t>(k), 8, all.discs[id.back()].begin());
+  }
+  for (std::size_t k = 0; k < pairs.size(); k += 6) {
+    int const a = id.at(static_cast<std::size_t>(pairs[k])), b = id.at(static_cast<std::size_t>(pairs[k + 1]));
+    EXPECT_TRUE(
+        all.pairs.insert({{std::min(a, b), std::max(a, b)}, {pairs[k + 2], pairs[k + 3], pairs[k + 4], pairs[k + 5]}}).second);
+  }
+  return all;
+}
+
+TEST(Ranks, ShowTheSameDiscsAndPairs) {
+  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
+  Simulation one = ready(whole, Composite::parallel), many = ready(whole, Composite::parallel, world(), &part);
+  one.mark_start();
+  many.mark_start();
+  for (int n = 0; n < 3000; ++n) {
+    one.step();
+    many.step();
+  }
+  Seen const expected = seen(one, {}), found = seen(many, world());
+  if (!world().root()) return;
+  EXPECT_EQ(found.discs, expected.discs);
+  EXPECT_EQ(found.pairs, expected.pairs);
+  EXPECT_GT(found.pairs.size(), 400u);
+}
+
+TEST(Ranks, OwnEqualPartsOfTheWork) {
+  Specimen const whole = bonded_patch(Composite::replace), part = dealt(whole);
+  Simulation sim = ready(whole, Composite::replace, world(), &part);
+  int const ranks = world().count();
+  double const fair = static_cast<double>(sim.discs()) / ranks;
+  EXPECT_NEAR(sim.particles().owned, fair, 2 + 0.1 * fair);
+  if (ranks == 1) return;
+  // Discs of the first rank take three times as long: the parts that they lie in become smaller.
+  int const before = sim.particles().owned;
+  sim.cut_anew(Decomposition::bisect(world(), sim.particles(), world().root() ? 3 : 1));
+  sim.step();
+  if (world().root()) {
+    EXPECT_LT(sim.particles().owned, before);
+  }
+  double const most = world().max(sim.particles().owned);
+  EXPECT_GT(most, fair);
+  EXPECT_EQ(world().sum(std::int64_t{sim.particles().owned}), sim.discs());
 }
 
 TEST(Ranks, HandOutASpecimenWhosePartsAreTheWhole) {

@@ -65,6 +65,16 @@ start 2 "${given[@]}" --output stopped --max-walltime 1s >log 2>&1 || code=$?
 "$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || fail "cannot be resumed on one rank"
 compare stopped
 
+# A full disk in a checkpoint: said so, and the one before serves.
+code=0
+"$clathra" "${given[@]}" --output full --max-walltime 1s >log 2>&1 || code=$?
+[ "$code" = 75 ] || fail "code $code at the third try"
+code=0
+(ulimit -f 300 && exec "$clathra" "${given[@]}" --output full --resume --max-walltime 1s >log 2>&1) || code=$?
+[ "$code" = 74 ] && grep -q "ckpt/1.h5: cannot" log || fail "a full disk in a checkpoint gives code $code"
+"$clathra" "${given[@]}" --output full --resume >log 2>&1 || fail "cannot be resumed after a full disk"
+compare full
+
 # Bad use is refused with numbers.
 if [ -n "$mpiexec" ]; then
   code=0

@@ -36,7 +36,7 @@ SimulationLaws test_laws(Scene const& scene, double h_max) {
 }
 
 /// The events of all ranks on rank 0, in order.
-std::vector<BreakEvent> on_root(Ranks const& ranks, std::vector<BreakEvent> events) {
+std::vector<BreakEvent> gathered(Ranks const& ranks, std::vector<BreakEvent> events) {
   if (ranks.alone()) return events;
   std::vector<double> numbers;
   for (BreakEvent const& e : events)
@@ -282,7 +282,7 @@ std::vector<BreakEvent> BiaxialTest::take_events() {
   std::vector<BreakEvent> events = state_->simulation->break_events(state_->events_taken);
   state_->events_taken += static_cast<int>(events.size());
   for (BreakEvent& event : events) event.step -= state_->first_step;
-  return on_root(state_->ranks, std::move(events));
+  return gathered(state_->ranks, std::move(events));
 }
 
 std::vector<BreakEvent> BiaxialTest::events_after(std::int64_t step) const {
@@ -294,7 +294,7 @@ std::vector<BreakEvent> BiaxialTest::events_after(std::int64_t step) const {
     event.step -= state_->first_step;
     if (event.step > step) later.push_back(event);
   }
-  return on_root(state_->ranks, std::move(later));
+  return gathered(state_->ranks, std::move(later));
 }
 
 template <class Visit>

@@ -160,6 +160,29 @@ Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double rea
   return s;
 }
 
+namespace {
+
+/// Bonds a pair, or counts why it may not be bonded.
+void decide(Scene const& scene, BondLaw const& law, double radius, double distance, SpecimenContact& contact,
+            BondingOutcome& outcome, ExactSum& area) {
+  double const gap = law.gap(-distance);
+  switch (judge(law, radius, gap)) {
+    case Verdict::no_tension:
+      ++outcome.rejected_no_tension;
+      break;
+    case Verdict::out_of_fit:
+      ++outcome.rejected_out_of_fit;
+      break;
+    case Verdict::bond:
+      ++outcome.bonds;
+      contact.equilibrium = -distance;
+      if (scene.bond.composite == Composite::replace) contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
+      area.add(bond_area(radius, law.width(radius, gap), gap, outcome.critical_thickness));
+  }
+}
+
+}  // namespace
+
 BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& ranks) {
   BondingOutcome outcome;
   outcome.critical_thickness = critical_thickness(scene, share, ranks);
@@ -178,32 +201,15 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
     while (old != share.contacts.end() && before(*old, id_a, id_b)) contacts.push_back(*old++);
     SpecimenContact contact{id_a, id_b};
     if (old != share.contacts.end() && old->id_a == id_a && old->id_b == id_b) contact = *old++;
-    double const radius = common_radius(s.radius[p.a], s.radius[p.b]), gap = law.gap(-p.gap);
-    switch (judge(law, radius, gap)) {
-      case Verdict::no_tension:
-        ++outcome.rejected_no_tension;
-        break;
-      case Verdict::out_of_fit:
-        ++outcome.rejected_out_of_fit;
-        break;
-      case Verdict::bond:
-        ++outcome.bonds;
-        contact.equilibrium = -p.gap;
-        if (scene.bond.composite == Composite::replace)
-          contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
-        area.add(bond_area(radius, law.width(radius, gap), gap, outcome.critical_thickness));
-    }
+    decide(scene, law, common_radius(s.radius[p.a], s.radius[p.b]), p.gap, contact, outcome, area);
     contacts.push_back(contact);
   }
   contacts.insert(contacts.end(), old, share.contacts.end());
   share.contacts = std::move(contacts);
   share.critical_thickness = outcome.critical_thickness;
   share.separate_bonds = scene.bond.composite == Composite::parallel;
-  std::int64_t counts[] = {outcome.bonds, outcome.rejected_no_tension, outcome.rejected_out_of_fit};
-  ranks.sum(counts, 3);
-  outcome.bonds = counts[0];
-  outcome.rejected_no_tension = counts[1];
-  outcome.rejected_out_of_fit = counts[2];
+  for (std::int64_t* const count : {&outcome.bonds, &outcome.rejected_no_tension, &outcome.rejected_out_of_fit})
+    *count = ranks.sum(*count);
   outcome.bond_area = area.over(ranks.summation());
   double const void_area = share.void_ratio / (1 + share.void_ratio) * share.width() * share.height();
   outcome.areal_saturation = outcome.bond_area / void_area;

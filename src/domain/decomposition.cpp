@@ -57,6 +57,45 @@ double best_cut(Group const& g, std::int64_t const* weights) {
   return low + edge * bin;
 }
 
+/// The weights of all ranks' discs in the bins of each group's side.
+std::vector<std::int64_t> weights_by_bin(Ranks const& ranks, std::vector<Group> const& groups, std::vector<int> const& group_of,
+                                         std::vector<double> const& x, std::vector<double> const& y, std::int64_t weight) {
+  std::vector<std::int64_t> weights(groups.size() * bins, 0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (group_of[i] < 0) continue;
+    auto const group = static_cast<std::size_t>(group_of[i]);
+    auto const [low, bin] = scale(groups[group]);
+    auto const at = static_cast<int>(((cut_upright(groups[group]) ? x[i] : y[i]) - low) / bin);
+    weights[group * bins + static_cast<std::size_t>(std::clamp(at, 0, bins - 1))] += weight;
+  }
+  ranks.sum(weights.data(), static_cast<int>(weights.size()));
+  return weights;
+}
+
+/// Cuts each group in two. @param child  on return the new groups below and above each cut, -1 for single ranks
+std::vector<Group> cut_groups(std::vector<Group> const& groups, std::vector<std::int64_t> const& weights, std::vector<Cut>& cuts,
+                              std::vector<std::array<int, 2>>& child) {
+  std::vector<Group> next;
+  child.assign(groups.size(), {-1, -1});
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    Group const& g = groups[k];
+    auto const cut = static_cast<int>(cuts.size());
+    if (g.parent >= 0) {
+      Cut& parent = cuts[static_cast<std::size_t>(g.parent)];
+      (g.above ? parent.above : parent.below) = cut;
+    }
+    cuts.push_back({cut_upright(g), best_cut(g, &weights[k * bins]), -1, -1});
+    for (bool const above : {false, true}) {
+      int const lower = g.ranks / 2, first = above ? g.first_rank + lower : g.first_rank, count = above ? g.ranks - lower : lower;
+      (above ? cuts.back().above : cuts.back().below) = -1 - first;
+      if (count == 1) continue;
+      child[k][above ? 1 : 0] = static_cast<int>(next.size());
+      next.push_back({first, count, cut, above, {}});
+    }
+  }
+  return next;
+}
+
 }  // namespace
 
 Decomposition::Decomposition(std::vector<Cut> cuts) : cuts_(std::move(cuts)) {}
@@ -76,41 +115,17 @@ Decomposition Decomposition::bisect(Ranks const& ranks, std::vector<double> cons
   std::vector<int> group_of(n, 0);
   std::vector<Group> groups{{0, ranks.count(), -1, false, {}}};
   std::vector<Cut> cuts;
+  std::vector<std::array<int, 2>> child;
   while (!groups.empty()) {
     find_extents(ranks, groups, group_of, x, y);
-    std::vector<std::int64_t> weights(groups.size() * bins, 0);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (group_of[i] < 0) continue;
-      auto const group = static_cast<std::size_t>(group_of[i]);
-      auto const [low, bin] = scale(groups[group]);
-      auto const at = static_cast<int>(((cut_upright(groups[group]) ? x[i] : y[i]) - low) / bin);
-      weights[group * bins + static_cast<std::size_t>(std::clamp(at, 0, bins - 1))] += weight;
-    }
-    ranks.sum(weights.data(), static_cast<int>(weights.size()));
-    std::vector<Group> next;
-    std::vector<std::array<int, 2>> child(groups.size());  // group of the discs below and above, -1 = a single rank
     std::size_t const first_cut = cuts.size();
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-      Group const& g = groups[k];
-      if (g.parent >= 0)
-        (g.above ? cuts[static_cast<std::size_t>(g.parent)].above : cuts[static_cast<std::size_t>(g.parent)].below) =
-            static_cast<int>(cuts.size());
-      cuts.push_back({cut_upright(g), best_cut(g, &weights[k * bins]), -1, -1});
-      int const lower = g.ranks / 2, cut = static_cast<int>(cuts.size()) - 1;
-      for (bool const above : {false, true}) {
-        int const first = above ? g.first_rank + lower : g.first_rank, count = above ? g.ranks - lower : lower;
-        (above ? cuts.back().above : cuts.back().below) = -1 - first;
-        child[k][above ? 1 : 0] = count > 1 ? static_cast<int>(next.size()) : -1;
-        if (count > 1) next.push_back({first, count, cut, above, {}});
-      }
-    }
+    groups = cut_groups(groups, weights_by_bin(ranks, groups, group_of, x, y, weight), cuts, child);
     for (std::size_t i = 0; i < n; ++i) {
       if (group_of[i] < 0) continue;
       auto const group = static_cast<std::size_t>(group_of[i]);
       Cut const& cut = cuts[first_cut + group];
       group_of[i] = child[group][(cut.upright ? x[i] : y[i]) < cut.at ? 0 : 1];
     }
-    groups = std::move(next);
   }
   return Decomposition(std::move(cuts));
 }

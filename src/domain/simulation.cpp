@@ -101,7 +101,7 @@ Companions Simulation::companions(WallShear& wall_shear) {
   if (start_x_.extent(0) > 0) with_discs.insert(with_discs.end(), {{"start_x", &start_x_}, {"start_y", &start_y_}});
   static constexpr char const* shear_names[] = {"shear_left", "shear_right", "shear_bottom", "shear_top"};
   if (wall_contacts_.rough) {
-    for (std::size_t wall = 0; wall < wall_count; ++wall) with_discs.push_back({shear_names[wall], &wall_shear[wall]});
+    for (std::size_t wall = 0; wall < wall_count; ++wall) with_discs.push_back({shear_names[wall], &wall_shear.of[wall]});
   }
   return with_discs;
 }

@@ -88,7 +88,7 @@ struct SpreadShear {
   WallContacts contacts;
   WallShear shear;
   KOKKOS_FUNCTION void operator()(int c) const {
-    for (int wall = 0; wall < wall_count; ++wall) shear[wall](contacts.disc(c)) = contacts.shear(c, wall);
+    for (int wall = 0; wall < wall_count; ++wall) shear.of[wall](contacts.disc(c)) = contacts.shear(c, wall);
   }
 };
 
@@ -96,7 +96,7 @@ struct CollectShear {
   WallContacts contacts;
   WallShear shear;
   KOKKOS_FUNCTION void operator()(int c) const {
-    for (int wall = 0; wall < wall_count; ++wall) contacts.shear(c, wall) = shear[wall](contacts.disc(c));
+    for (int wall = 0; wall < wall_count; ++wall) contacts.shear(c, wall) = shear.of[wall](contacts.disc(c));
   }
 };
 
@@ -105,7 +105,7 @@ struct CollectShear {
 WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts) {
   WallShear shear;
   if (contacts.shear.extent(0) == 0 && !contacts.rough) return shear;
-  for (auto& field : shear) field = Field<Accum>("wall_shear_of_discs", particles.x.extent(0));
+  for (auto& field : shear.of) field = Field<Accum>("wall_shear_of_discs", particles.x.extent(0));
   Kokkos::parallel_for("spread_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, contacts.size), SpreadShear{contacts, shear});
   return shear;
 }
@@ -120,7 +120,7 @@ WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls
   found.rough = friction;
   if (friction) {
     found.shear = decltype(found.shear)("wall_shear", static_cast<std::size_t>(found.size));
-    if (shear[0].extent(0) > 0) {
+    if (shear.of[0].extent(0) > 0) {
       Kokkos::parallel_for("collect_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, found.size), CollectShear{found, shear});
     }
   }

@@ -1,7 +1,5 @@
 #pragma once
 /// Four rigid walls around the specimen, with or without friction.
-#include <array>
-
 #include "kernels/contacts.hpp"
 #include "kernels/exact_sum.hpp"
 #include "kernels/grain_contact.hpp"
@@ -42,8 +40,10 @@ struct WallReactions {
   int contacts[wall_count] = {0, 0, 0, 0};
 };
 
-/// The shear of rough walls by disc, while discs change their places: [wall][owned], empty for smooth walls.
-using WallShear = std::array<Field<Accum>, wall_count>;
+/// The shear of rough walls by disc, while discs change their places: [owned] each, empty for smooth walls.
+struct WallShear {
+  Field<Accum> of[wall_count];
+};
 WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts);
 
 /// Finds the discs whose surface is within `skin` [m] of a wall; those of a rough wall have the shear history `shear`.
