@@ -31,6 +31,25 @@ std::string record_text(RunRecord const& record) {
   return text + fmt::format("\n  {:<26} {:.1f}\n", "wall seconds", record.wall_seconds.at("generate"));
 }
 
+ExitCode generate_on(Ranks const& ranks, std::string const& output, RunRecord& record) {
+  Scene const& scene = record.input.scene;
+  require_same_everywhere(ranks, record.input);
+  StageRecord const cost = predict(scene);
+  std::vector<std::string> refusals;
+  if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) refusals.push_back(refusal);
+  share_refusals(ranks, refusals);
+  if (!refusals.empty()) throw Refused(refusals.front());
+  require_enough_discs(ranks, static_cast<std::int64_t>(cost.at("particles")));
+  watch_for_interrupt();
+  ProgressLine line;
+  for (std::string const& warning : record.input.warnings) line.warn(warning);
+  KokkosSession const kokkos;
+  Specimen const specimen = generate_recorded(scene, show_stage(line, ranks), record, ranks);
+  write_specimen(output, specimen, ranks);
+  line.repeat_warnings();
+  return print_result(fmt::format("{}: {:.0f} discs\n{}", output, record.stages.at("generate").at("discs"), record_text(record)));
+}
+
 ExitCode generate(GenerateOptions const& options) {
   RunRecord record;
   record.version = CLATHRA_VERSION;
@@ -41,20 +60,7 @@ ExitCode generate(GenerateOptions const& options) {
     throw Refused("the scene reads its specimen from a file: there is nothing to generate");
   settle_threads(scene.run.threads);
   RankSession const session;
-  Ranks const& ranks = session.ranks();
-  require_same_everywhere(ranks, record.input);
-  StageRecord const cost = predict(scene);
-  if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) throw Refused(refusal);
-  require_enough_discs(ranks, static_cast<std::int64_t>(cost.at("particles")));
-  watch_for_interrupt();
-  ProgressLine line;
-  for (std::string const& warning : record.input.warnings) line.warn(warning);
-  KokkosSession const kokkos;
-  Specimen const specimen = generate_recorded(scene, show_stage(line, ranks), record, ranks);
-  write_specimen(options.output, specimen, ranks);
-  line.repeat_warnings();
-  return print_result(
-      fmt::format("{}: {:.0f} discs\n{}", options.output, record.stages.at("generate").at("discs"), record_text(record)));
+  return guarded_together(session.ranks(), [&] { return generate_on(session.ranks(), options.output, record); });
 }
 
 }  // namespace

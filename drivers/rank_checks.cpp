@@ -4,8 +4,10 @@
 
 #include "clathra_version.hpp"
 #include "domain/progress.hpp"
+#include "domain/simulation.hpp"
 #include "io/digest.hpp"
 #include "io/run_record.hpp"
+#include "io/together.hpp"
 
 namespace clathra {
 namespace {
@@ -21,6 +23,29 @@ void require_same(Ranks const& ranks, std::string const& own, std::string const&
 }
 
 }  // namespace
+
+void share_refusals(Ranks const& ranks, std::vector<std::string>& refusals) {
+  if (ranks.any(!refusals.empty()) && refusals.empty()) refusals.push_back("another rank cannot take its part");
+}
+
+ExitCode guarded_together(Ranks const& ranks, std::function<ExitCode()> const& work) {
+  if (ranks.alone()) return work();
+  try {
+    return work();
+  } catch (Refused const&) {
+    throw;
+  } catch (Stopped const&) {
+    throw;
+  } catch (Diverged const&) {
+    throw;
+  } catch (FileProblem const&) {
+    throw;
+  } catch (std::bad_alloc const&) {
+    end_all_ranks(ranks, FileProblem(ExitCode::refused, "refused: not enough memory"));
+  } catch (std::exception const& problem) {
+    end_all_ranks(ranks, FileProblem(ExitCode::internal, problem.what()));
+  }
+}
 
 void require_same_everywhere(Ranks const& ranks, LoadedScene const& input) {
   require_same(ranks, fmt::format("clathra {} {}, {}", CLATHRA_VERSION, CLATHRA_GIT_HASH, compiler_name()), "program");

@@ -25,15 +25,7 @@ struct RunOptions {
   std::string most_time, checkpoint_every = "10m";
 };
 
-ExitCode run(RunOptions const& options) {
-  Endurance const endurance{options.resume, options.most_time.empty() ? 0 : duration_of(options.most_time),
-                            duration_of(options.checkpoint_every)};
-  std::vector<std::string> more;
-  if (!options.output.empty()) more.push_back("output.folder=" + options.output);
-  LoadedScene input = options.scene.load(more);
-  if (!options.dry_run) settle_threads(input.scene.run.threads);
-  RankSession const session;
-  Ranks const& ranks = session.ranks();
+ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& endurance, LoadedScene input) {
   require_same_everywhere(ranks, input);
   std::optional<Specimen> specimen;
   Scene sized = input.scene;
@@ -41,7 +33,8 @@ ExitCode run(RunOptions const& options) {
     specimen = read_specimen(input.scene.sample.file, ranks);
     sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
   }
-  Forecast const cost = forecast(sized, 0);
+  Forecast cost = forecast(sized, 0);
+  share_refusals(ranks, cost.refusals);
   if (options.dry_run) {
     ExitCode const printed = print_result(forecast_text(sized, cost));
     refuse_if_needed(sized, cost);
@@ -57,6 +50,18 @@ ExitCode run(RunOptions const& options) {
   if (sized.run.force)
     for (std::string const& refusal : cost.refusals) now.warn("forced: " + refusal);
   return now.run();
+}
+
+ExitCode run(RunOptions const& options) {
+  Endurance const endurance{options.resume, options.most_time.empty() ? 0 : duration_of(options.most_time),
+                            duration_of(options.checkpoint_every)};
+  std::vector<std::string> more;
+  if (!options.output.empty()) more.push_back("output.folder=" + options.output);
+  LoadedScene input = options.scene.load(more);
+  if (!options.dry_run) settle_threads(input.scene.run.threads);
+  RankSession const session;
+  Ranks const& ranks = session.ranks();
+  return guarded_together(ranks, [&] { return run_on(ranks, options, endurance, std::move(input)); });
 }
 
 }  // namespace

@@ -36,19 +36,24 @@ class TestRun::Running {
     record_.input = std::move(input);
     record_.threads = thread_count(scene_.run.threads);
     record_.ranks = ranks.count();
-    on_each(ranks_, [&] {
-      if (endurance_.resume) resumed_ = find_checkpoint(scene_.output.folder);
-    });
     on_root(ranks_, [&] {
-      lock_.emplace(scene_.output.folder, scene_.sample.file, resumed_.has_value());
+      lock_.emplace(scene_.output.folder);
       if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
     });
     folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");
+    if (endurance_.resume) {
+      resumed_ = find_checkpoint(folder_, ranks_);
+      on_root(ranks_, [&] { finished_ = !resumed_ && is_finished_run(folder_, resolved_scene(scene_, folder_)); });
+      finished_ = ranks_.any(finished_);
+    }
+    on_root(ranks_, [&] {
+      if (!resumed_ && !finished_) lock_->clear(scene_.sample.file);
+    });
     checkpoints_.emplace(folder_, ranks_, resumed_);
     if (resumed_) {
       record_.checkpoint_digest = resumed_->digest;
       line_.note(fmt::format("clathra: goes on from step {} of the shear", resumed_->step));
-    } else if (endurance_.resume) {
+    } else if (endurance_.resume && !finished_) {
       line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
     }
   }
@@ -57,6 +62,7 @@ class TestRun::Running {
 
   /// @throws whatever ended the run, after run.json says so
   ExitCode run() {
+    if (finished_) return print_result(fmt::format("this run is finished: {}\n", folder_.string()));
     on_root(ranks_, [&] {
       replace_text_file(folder_ / "input.toml", record_.input.source);
       replace_text_file(folder_ / "resolved.toml", resolved_scene(scene_, folder_));
@@ -65,7 +71,6 @@ class TestRun::Running {
     try {
       KokkosSession const kokkos;
       shear();
-      remove_finished_checkpoints();
       on_root(ranks_, [&] { record_.result_digests = result_digests(folder_); });
     } catch (Stopped const& stop) {
       return stopped(stop.what());
@@ -81,6 +86,7 @@ class TestRun::Running {
       return fail_here(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
     }
     conclude(ExitCode::done, "finished");
+    on_root(ranks_, [&] { remove_checkpoints(folder_); });  // last: what is finished needs them no more
     line_.repeat_warnings();
     print_result(summary_->text() + fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
     return ExitCode::done;
@@ -96,7 +102,14 @@ class TestRun::Running {
   std::unique_ptr<BiaxialTest> prepared_test() {
     if (resumed_) {
       auto test = std::make_unique<BiaxialTest>(scene_, read_checkpoint(*resumed_, scene_, ranks_), ranks_);
-      for (HistoryEntry const& entry : read_history(folder_ / "history.csv", resumed_->progress.history_bytes)) {
+      std::string const hash = hash_text(test->state_hash());
+      std::vector<HistoryEntry> history;
+      on_each(ranks_, [&] {
+        if (hash != checkpoint_state_hash(resumed_->file))
+          throw FileProblem(ExitCode::bad_input, resumed_->file, "does not give the state that it was written with");
+        history = read_history(folder_ / "history.csv", resumed_->progress.history_bytes);
+      });
+      for (HistoryEntry const& entry : history) {
         last_ = entry.row;
         summary_->add(entry.row);
         if (entry.energy) summary_->add(*entry.energy);
@@ -181,7 +194,10 @@ class TestRun::Running {
                      endurance_.most_seconds > 0 && now > endurance_.most_seconds ? 1.0 : 0.0};
     ranks_.max(wish, 4);
     last_glance_ = now;
-    pace_ = std::clamp<std::int64_t>(std::llround(static_cast<double>(pace_) * glance / std::max(wish[0], 1e-6)), 1, 4 * pace_);
+    // A record that is due cuts a stretch short: it says little of the pace.
+    constexpr double most = 100000;
+    pace_ = std::llround(std::clamp(static_cast<double>(pace_) * glance / std::max(wish[0], 1e-6), 1.0,
+                                    std::min(4.0 * static_cast<double>(pace_), most)));
     bool const stop = wish[2] + wish[3] > 0 && !test.finished();
     if (stop || wish[1] > 0) write_checkpoint(test);
     if (stop) throw Stopped(wish[2] > 0 ? "by a signal" : "as its wall time is over");
@@ -191,18 +207,13 @@ class TestRun::Running {
     Speedometer const clock;
     RunProgress progress;
     on_root(ranks_, [&] {
-      progress.history_bytes = history_->bytes();
-      if (events_) progress.events_bytes = events_->bytes();
+      progress.history_bytes = history_->flushed_bytes();
+      if (events_) progress.events_bytes = events_->flushed_bytes();
     });
     if (snapshots_) progress.snapshots = snapshots_->entries();
     checkpoints_->write(scene_, test.state(), last_.step, progress);
     record_.wall_seconds["checkpoints"] += clock.seconds();
     last_checkpoint_ = wall_.seconds();
-  }
-
-  /// A finished run needs them no more.
-  void remove_finished_checkpoints() {
-    on_root(ranks_, [&] { remove_checkpoints(folder_); });
   }
 
   void write_row(BiaxialTest& test) {
@@ -304,6 +315,7 @@ class TestRun::Running {
   std::optional<CheckpointSeries> checkpoints_;
   Speedometer wall_;
   double last_glance_ = 0, last_checkpoint_ = 0;  // [s]
+  bool finished_ = false;                         // already, when the run was to resume
   std::int64_t pace_ = 16;                        // steps between two glances at clock and signals
 };
 

@@ -43,6 +43,13 @@ compare() {
   [ ! -e "$1/ckpt" ] || fail "$1: a finished run keeps checkpoints"
 }
 compare killed
+start 2 "${given[@]}" --output killed --resume >log 2>&1 || fail "a finished run cannot be resumed"
+grep -q "this run is finished" log || fail "does not know that the run is finished"
+compare killed
+code=0
+"$clathra" "${given[@]}" --output killed --resume --set run.damping=0.2 >log 2>&1 || code=$?
+[ "$code" = 77 ] && grep -q "finished run of another scene" log || fail "would destroy another scene's results ($code)"
+compare killed
 
 # Asked to stop: the step's end, a checkpoint, 75.
 code=0
@@ -67,10 +74,10 @@ compare stopped
 
 # A full disk in a checkpoint: said so, and the one before serves.
 code=0
-"$clathra" "${given[@]}" --output full --max-walltime 1s >log 2>&1 || code=$?
+"$clathra" "${given[@]}" --output full --max-walltime 0.1s >log 2>&1 || code=$?
 [ "$code" = 75 ] || fail "code $code at the third try"
 code=0
-(ulimit -f 300 && exec "$clathra" "${given[@]}" --output full --resume --max-walltime 1s >log 2>&1) || code=$?
+(ulimit -f 300 && exec "$clathra" "${given[@]}" --output full --resume --max-walltime 0.1s >log 2>&1) || code=$?
 [ "$code" = 74 ] && grep -q "ckpt/1.h5: cannot" log || fail "a full disk in a checkpoint gives code $code"
 "$clathra" "${given[@]}" --output full --resume >log 2>&1 || fail "cannot be resumed after a full disk"
 compare full

@@ -6,6 +6,7 @@
 #include "domain/experiment.hpp"
 #include "domain/hydrate.hpp"
 #include "domain/quasi_static.hpp"
+#include "domain/redistribution.hpp"
 #include "domain/sample_design.hpp"
 #include "domain/settling.hpp"
 
@@ -84,7 +85,7 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
   bool const bond = has_bonds(scene) && specimen.critical_thickness == 0;
   if (bond && !scene.bond.after_consolidation) {
     // Bonds reach across ranks: discs must first be where they belong.
-    if (!ranks.alone()) specimen = Simulation(specimen, test_laws(scene, 0), skin(), ranks).specimen();
+    specimen = by_place(ranks, specimen, ranks.sum(static_cast<std::int64_t>(specimen.size())));
     specimen = bond_specimen(scene, specimen, preparation, ranks);
   }
   auto const start_simulation = [&] {

@@ -34,7 +34,7 @@ GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& 
 
 /// Installs bonds on a resting, unbonded specimen by scene.bond and scene.hydrate.
 /// The record holds bonds, bonds_per_disc, h_max, geometric (areal) saturation, rejected_no_tension, rejected_out_of_fit.
-/// @param specimen  this rank's share as Simulation::specimen() gives it, spatially together
+/// @param specimen  this rank's share as Simulation::specimen() or by_place() give it
 Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record, Ranks const& ranks = {});
 
 /// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).

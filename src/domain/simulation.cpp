@@ -84,7 +84,8 @@ void Simulation::rebalance_if_it_pays() {
   double const mean = 1e-9 * static_cast<double>(ranks_.sum(std::llround(1e9 * busy_seconds_))) / ranks_.count();
   if (slowest[0] < least_imbalance * mean || slowest[0] - mean < worth * slowest[1]) return;
   double const seconds_a_disc = busy_seconds_ / std::max(particles_.owned, 1);
-  decomposition_ = Decomposition::bisect(ranks_, particles_, std::max<std::int64_t>(1, std::llround(1e12 * seconds_a_disc)));
+  double const weight = 1e6 * seconds_a_disc / std::max(ranks_.max(seconds_a_disc), 1e-300);
+  decomposition_ = Decomposition::bisect(ranks_, particles_, std::max<std::int64_t>(1, std::llround(weight)));
   busy_seconds_ = 0;
   ++rebalances_;
 }

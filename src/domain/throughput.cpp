@@ -7,6 +7,7 @@
 #include "domain/experiment.hpp"
 #include "domain/hydrate.hpp"
 #include "domain/quasi_static.hpp"
+#include "domain/redistribution.hpp"
 #include "domain/sample_design.hpp"
 #include "domain/settling.hpp"
 #include "domain/tiled.hpp"
@@ -67,6 +68,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   laws.motion.damping = scene.run.damping;
   if (bonded) {
     StageRecord record;
+    specimen = by_place(ranks, specimen, ranks.sum(static_cast<std::int64_t>(specimen.size())));
     specimen = bond_specimen(scene, specimen, record, ranks);
     laws.contact.bond_kind = BondKind::parallel;
     laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);

@@ -23,46 +23,56 @@ std::filesystem::path file_of(std::filesystem::path const& run_folder, int gener
   return run_folder / "ckpt" / fmt::format("{}.{}", generation, extension);
 }
 
-Json manifest_json(FoundCheckpoint const& c) {
+Json content_json(FoundCheckpoint const& c) {
   Json snapshots = Json::array();
   for (SnapshotEntry const& e : c.progress.snapshots)
     snapshots.push_back({{"file", e.file}, {"step", e.step}, {"eps1", e.eps1}, {"discs", e.discs}, {"pairs", e.pairs}});
-  Json const content = {{"version", checkpoint_version},
-                        {"sequence", c.sequence},
-                        {"step", c.step},
-                        {"bytes", std::filesystem::file_size(c.file)},
-                        {"digest_xxh3_128", c.digest},
-                        {"history_bytes", c.progress.history_bytes},
-                        {"events_bytes", c.progress.events_bytes},
-                        {"snapshots", snapshots}};
+  return {{"version", checkpoint_version},
+          {"sequence", c.sequence},
+          {"step", c.step},
+          {"bytes", std::filesystem::file_size(c.file)},
+          {"digest_xxh3_128", c.digest},
+          {"history_bytes", c.progress.history_bytes},
+          {"events_bytes", c.progress.events_bytes},
+          {"snapshots", snapshots}};
+}
+
+Json manifest_json(FoundCheckpoint const& c) {
+  Json const content = content_json(c);
   return {{"format", manifest_format}, {"content", content}, {"content_digest_xxh3_128", text_digest(content.dump())}};
+}
+
+/// @throws Json::exception
+FoundCheckpoint checkpoint_of(Json const& content, std::filesystem::path const& run_folder, int generation) {
+  FoundCheckpoint c;
+  c.file = file_of(run_folder, generation, "h5");
+  c.generation = generation;
+  c.sequence = content.at("sequence").get<std::int64_t>();
+  c.step = content.at("step").get<std::int64_t>();
+  c.digest = content.at("digest_xxh3_128").get<std::string>();
+  c.progress.history_bytes = content.at("history_bytes").get<std::uintmax_t>();
+  c.progress.events_bytes = content.at("events_bytes").get<std::uintmax_t>();
+  for (Json const& e : content.at("snapshots"))
+    c.progress.snapshots.push_back({e.at("file").get<std::string>(), e.at("step").get<std::int64_t>(), e.at("eps1").get<double>(),
+                                    e.at("discs").get<std::size_t>(), e.at("pairs").get<std::size_t>()});
+  return c;
 }
 
 /// The checkpoint of a manifest. @throws FileProblem with what is wrong with it
 FoundCheckpoint read_manifest(std::filesystem::path const& run_folder, int generation) {
   std::filesystem::path const manifest = file_of(run_folder, generation, "json");
-  FoundCheckpoint c;
-  c.file = file_of(run_folder, generation, "h5");
-  c.generation = generation;
   auto const bad = [&](std::string const& what) -> FileProblem { return {ExitCode::bad_input, manifest, what}; };
   Json const whole = Json::parse(read_text_file(manifest, largest_manifest), nullptr, false);
   std::uintmax_t bytes = 0;
+  FoundCheckpoint c;
   try {
     if (whole.at("format").get<std::string>() != manifest_format) throw bad("is no manifest of a checkpoint");
-    Json const& json = whole.at("content");
-    if (text_digest(json.dump()) != whole.at("content_digest_xxh3_128").get<std::string>()) throw bad("is damaged");
-    if (json.at("version").get<std::int64_t>() != checkpoint_version)
-      throw bad(fmt::format("has version {}, this program reads {}", json.at("version").get<std::int64_t>(), checkpoint_version));
-    c.sequence = json.at("sequence").get<std::int64_t>();
-    c.step = json.at("step").get<std::int64_t>();
-    c.digest = json.at("digest_xxh3_128").get<std::string>();
-    bytes = json.at("bytes").get<std::uintmax_t>();
-    c.progress.history_bytes = json.at("history_bytes").get<std::uintmax_t>();
-    c.progress.events_bytes = json.at("events_bytes").get<std::uintmax_t>();
-    for (Json const& e : json.at("snapshots"))
-      c.progress.snapshots.push_back({e.at("file").get<std::string>(), e.at("step").get<std::int64_t>(),
-                                      e.at("eps1").get<double>(), e.at("discs").get<std::size_t>(),
-                                      e.at("pairs").get<std::size_t>()});
+    Json const& content = whole.at("content");
+    if (text_digest(content.dump()) != whole.at("content_digest_xxh3_128").get<std::string>()) throw bad("is damaged");
+    if (auto const version = content.at("version").get<std::int64_t>(); version != checkpoint_version)
+      throw bad(fmt::format("has version {}, this program reads {}", version, checkpoint_version));
+    bytes = content.at("bytes").get<std::uintmax_t>();
+    c = checkpoint_of(content, run_folder, generation);
   } catch (Json::exception const&) {
     throw bad("is damaged");
   }
@@ -104,7 +114,9 @@ void CheckpointSeries::write(Scene const& scene, TestState const& state, std::in
   ++written_;
 }
 
-std::optional<FoundCheckpoint> find_checkpoint(std::filesystem::path const& run_folder) {
+namespace {
+
+std::optional<FoundCheckpoint> newest_checkpoint(std::filesystem::path const& run_folder) {
   std::optional<FoundCheckpoint> newest;
   std::string problems;
   for (int generation : {0, 1}) {
@@ -120,6 +132,30 @@ std::optional<FoundCheckpoint> find_checkpoint(std::filesystem::path const& run_
   if (!newest && !problems.empty())
     throw FileProblem(ExitCode::file_missing, run_folder / "ckpt", "holds no checkpoint that can be used: " + problems);
   return newest;
+}
+
+}  // namespace
+
+std::optional<FoundCheckpoint> find_checkpoint(std::filesystem::path const& run_folder, Ranks const& ranks) {
+  std::optional<FoundCheckpoint> found;
+  on_root(ranks, [&] { found = newest_checkpoint(run_folder); });
+  if (ranks.alone()) return found;
+  std::string const text = ranks.from_root(found ? content_json(*found).dump() : "");
+  if (text.empty()) return std::nullopt;
+  int const generation = static_cast<int>(ranks.max(found ? found->generation : 0));
+  return checkpoint_of(Json::parse(text), run_folder, generation);
+}
+
+bool is_finished_run(std::filesystem::path const& run_folder, std::string const& resolved) {
+  std::error_code ignored;
+  std::filesystem::path const record = run_folder / "run.json";
+  if (!std::filesystem::exists(record, ignored)) return false;
+  Json const json = Json::parse(read_text_file(record, largest_manifest), nullptr, false);
+  if (!json.is_object() || !json.contains("exit") || json["exit"].value("reason", "") != "finished") return false;
+  if (read_text_file(run_folder / "resolved.toml", largest_manifest) != resolved)
+    throw FileProblem(ExitCode::refused, run_folder,
+                      "holds the finished run of another scene; --resume would destroy it, choose another folder");
+  return true;
 }
 
 TestState read_checkpoint(FoundCheckpoint const& checkpoint, Scene const& scene, Ranks const& ranks) {

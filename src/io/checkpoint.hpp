@@ -44,7 +44,12 @@ class CheckpointSeries {
 
 /// The newest checkpoint of a run's folder whose size and digest are those of its manifest; nothing where there is none at all.
 /// @throws FileProblem file_missing where there are some, but none that can be used, with what is wrong with each
-std::optional<FoundCheckpoint> find_checkpoint(std::filesystem::path const& run_folder);
+/// Rank 0 looks; all learn of what it finds.
+std::optional<FoundCheckpoint> find_checkpoint(std::filesystem::path const& run_folder, Ranks const& ranks = {});
+
+/// Whether a folder holds the results of a finished run of this scene.
+/// @param resolved  what its resolved.toml must hold;  @throws FileProblem refused where it is a finished run of another scene
+bool is_finished_run(std::filesystem::path const& run_folder, std::string const& resolved);
 
 /// This rank's part of a checkpoint.
 /// @throws FileProblem bad_input where the content is no checkpoint of this version, or refused where it is one of another scene,

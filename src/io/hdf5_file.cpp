@@ -129,7 +129,8 @@ Hdf5File::Hdf5File(Hdf5File&& other) noexcept
     : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), writing_(other.writing_), ranks_(other.ranks_) {}
 
 Hdf5File::~Hdf5File() {
-  if (file_ >= 0) H5Fclose(file_);
+  // Only where something went wrong is it still open; closing is collective, and the other ranks may be elsewhere.
+  if (file_ >= 0 && ranks_.alone()) H5Fclose(file_);
 }
 
 void Hdf5File::fail(ExitCode code, std::string const& what) const { throw FileProblem(code, path_, what); }

@@ -20,7 +20,7 @@ class HistoryFile {
   void write(HistoryRow const& row);
   void write(HistoryRow const& row, EnergyRow const& energy);
   void close() { file_.close(); }
-  std::uintmax_t bytes() const { return file_.bytes(); }
+  std::uintmax_t flushed_bytes() const { return file_.flushed_bytes(); }
 
  private:
   RowFile file_;

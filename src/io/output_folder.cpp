@@ -58,12 +58,13 @@ int lock_folder(std::filesystem::path const& folder) {
 
 std::span<std::string_view const> result_files() { return results; }
 
-OutputFolder::OutputFolder(std::filesystem::path folder, std::filesystem::path const& keep, bool resume)
-    : folder_(std::move(folder)) {
+OutputFolder::OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/": a link would not be seen behind the slash
   make_folder(folder_);
   lock_ = lock_folder(folder_);
-  if (resume) return;
+}
+
+void OutputFolder::clear(std::filesystem::path const& keep) const {
   std::error_code error;
   for (std::string_view const name : results)
     if (keep.empty() || !std::filesystem::equivalent(folder_ / name, keep, error)) std::filesystem::remove(folder_ / name, error);

@@ -10,18 +10,18 @@ namespace clathra {
 /// Names of the files that a run leaves in its folder, besides its snapshots.
 std::span<std::string_view const> result_files();
 
-/// Makes the folder, locks it against a second run, and clears it of the results of an earlier one.
+/// Makes the folder and locks it against a second run.
 class OutputFolder {
  public:
-  /// @param keep  a file of the folder that is not cleared (the specimen that the run reads)
   /// @throws FileProblem cannot_create (no right to write, another run is writing), or refused: the folder is a link, or holds
   /// files but no run of Clathra
-  /// @param resume  keeps all results
-  OutputFolder(std::filesystem::path folder, std::filesystem::path const& keep, bool resume = false);
+  explicit OutputFolder(std::filesystem::path folder);
   ~OutputFolder();
   OutputFolder(OutputFolder const&) = delete;
   OutputFolder& operator=(OutputFolder const&) = delete;
 
+  /// Removes the results of an earlier run. @param keep  a file that stays (the specimen that the run reads)
+  void clear(std::filesystem::path const& keep) const;
   std::filesystem::path operator/(std::string const& name) const { return folder_ / name; }
   std::filesystem::path const& path() const { return folder_; }
 

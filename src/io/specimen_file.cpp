@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/id_blocks.hpp"
+#include "domain/redistribution.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/together.hpp"
 

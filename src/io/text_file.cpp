@@ -92,6 +92,11 @@ void RowFile::write(std::string_view rows) {
   bytes_ += rows.size();
 }
 
+std::uintmax_t RowFile::flushed_bytes() const {
+  if (::fsync(descriptor_) != 0) throw FileProblem(ExitCode::io_error, path_, reason("cannot be written"));
+  return bytes_;
+}
+
 void flush_folder(std::filesystem::path const& folder) {
   int const descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   bool const flushed = descriptor >= 0 && ::fsync(descriptor) == 0;

@@ -31,7 +31,8 @@ class RowFile {
   void write(std::string_view rows);
   /// @throws FileProblem io_error where the system only now reports a failed write
   void close();
-  std::uintmax_t bytes() const { return bytes_; }
+  /// Its length, after everything has reached the disk. @throws FileProblem io_error
+  std::uintmax_t flushed_bytes() const;
 
  private:
   std::filesystem::path path_;

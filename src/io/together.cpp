@@ -1,6 +1,7 @@
 #include "io/together.hpp"
 
 #include <cstdio>
+#include <new>
 #include <optional>
 
 namespace clathra {
@@ -18,6 +19,10 @@ void on_each(Ranks const& ranks, std::function<void()> const& action) {
     action();
   } catch (FileProblem const& caught) {
     problem = caught;
+  } catch (std::bad_alloc const&) {
+    problem.emplace(ExitCode::refused, "refused: not enough memory");
+  } catch (std::exception const& caught) {
+    problem.emplace(ExitCode::internal, caught.what());
   }
   // The problem of the first rank that has one.
   int const teller = static_cast<int>(ranks.min(problem ? ranks.rank() : ranks.count()));
