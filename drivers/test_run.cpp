@@ -63,11 +63,7 @@ class TestRun::Running {
   /// @throws whatever ended the run, after run.json says so
   ExitCode run() {
     if (finished_) return print_result(fmt::format("this run is finished: {}\n", folder_.string()));
-    on_root(ranks_, [&] {
-      replace_text_file(folder_ / "input.toml", record_.input.source);
-      replace_text_file(folder_ / "resolved.toml", resolved_scene(scene_, folder_));
-      write_record(ExitCode::done, "running");
-    });
+    if (!resumed_) begin_record();
     try {
       KokkosSession const kokkos;
       shear();
@@ -93,6 +89,16 @@ class TestRun::Running {
   }
 
  private:
+  /// From here on the folder is that of this run. A run that is resumed must first have understood its checkpoint.
+  void begin_record() {
+    on_root(ranks_, [&] {
+      replace_text_file(folder_ / "input.toml", record_.input.source);
+      replace_text_file(folder_ / "resolved.toml", resolved_scene(scene_, folder_));
+      write_record(ExitCode::done, "running");
+    });
+    begun_ = true;
+  }
+
   void make_specimen() {
     if (specimen_) return;
     specimen_ = generate_recorded(scene_, show_stage(line_, ranks_), record_, ranks_);
@@ -114,6 +120,7 @@ class TestRun::Running {
         summary_->add(entry.row);
         if (entry.energy) summary_->add(*entry.energy);
       }
+      begin_record();
       return test;
     }
     make_specimen();
@@ -256,6 +263,7 @@ class TestRun::Running {
 
   /// run.json, then the report that draws on it. That there can be no report is a warning and loses nothing else.
   void conclude(ExitCode code, std::string const& reason) {
+    if (!begun_) return;
     on_root(ranks_, [&] {
       write_record(code, reason);
       if (!summary_ || summary_->records() < 2) return;
@@ -315,8 +323,9 @@ class TestRun::Running {
   std::optional<CheckpointSeries> checkpoints_;
   Speedometer wall_;
   double last_glance_ = 0, last_checkpoint_ = 0;  // [s]
-  bool finished_ = false;                         // already, when the run was to resume
-  std::int64_t pace_ = 16;                        // steps between two glances at clock and signals
+  bool begun_ = false;
+  bool finished_ = false;   // already, when the run was to resume
+  std::int64_t pace_ = 16;  // steps between two glances at clock and signals
 };
 
 TestRun::TestRun(LoadedScene input, std::optional<Specimen> specimen, Endurance const& endurance, Ranks const& ranks)

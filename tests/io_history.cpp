@@ -182,38 +182,43 @@ TEST_F(Events, AreOneRowEach) {
   EXPECT_EQ(content(folder / "events.csv"), "step,id_a,id_b,mode,x_m,y_m\n12,3,4,tension,0.5,0.001\n13,1,2,rolling,0,0\n");
 }
 
+/// A folder as a new run takes it.
+struct ClearedFolder : OutputFolder {
+  ClearedFolder(fs::path const& folder, fs::path const& keep) : OutputFolder(folder) { clear(keep); }
+};
+
 TEST_F(Folder, IsMadeLockedAndClearedOfAnEarlierRun) {
   fs::path const out = folder / "a" / "b";
   {
-    OutputFolder const first(out, {});
+    ClearedFolder const first(out, {});
     std::ofstream(out / "run.json") << "{}";
     std::ofstream(out / "notes.txt") << "mine";
-    EXPECT_EQ(code_of([&] { OutputFolder(out, {}); }), ExitCode::cannot_create) << "two runs in one folder";
+    EXPECT_EQ(code_of([&] { ClearedFolder(out, {}); }), ExitCode::cannot_create) << "two runs in one folder";
   }
-  OutputFolder const second(out, {});
+  ClearedFolder const second(out, {});
   EXPECT_FALSE(fs::exists(out / "run.json"));
   EXPECT_TRUE(fs::exists(out / "notes.txt"));
 }
 
 TEST_F(Folder, KeepsTheSpecimenThatTheRunReads) {
   fs::path const out = folder / "a";
-  { OutputFolder const first(out, {}); }
+  { ClearedFolder const first(out, {}); }
   std::ofstream(out / "specimen.h5") << "x";
-  { OutputFolder const second(out, out / "specimen.h5"); }
+  { ClearedFolder const second(out, out / "specimen.h5"); }
   EXPECT_TRUE(fs::exists(out / "specimen.h5"));
-  { OutputFolder const third(out, {}); }
+  { ClearedFolder const third(out, {}); }
   EXPECT_FALSE(fs::exists(out / "specimen.h5"));
 }
 
 TEST_F(Folder, ThatBelongsToOthersIsRefused) {
   std::ofstream(folder / "thesis.tex") << "x";
-  EXPECT_EQ(code_of([&] { OutputFolder(folder, {}); }), ExitCode::refused);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder, {}); }), ExitCode::refused);
   fs::create_directories(folder / "empty");
   fs::create_directory_symlink(folder / "empty", folder / "link");
-  EXPECT_EQ(code_of([&] { OutputFolder(folder / "link", {}); }), ExitCode::refused);
-  EXPECT_EQ(code_of([&] { OutputFolder(folder / "link/", {}); }), ExitCode::refused);
-  EXPECT_EQ(code_of([&] { OutputFolder(folder / "thesis.tex", {}); }), ExitCode::cannot_create);
-  EXPECT_EQ(code_of([&] { OutputFolder(folder / "empty", {}); }), ExitCode::done);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "link", {}); }), ExitCode::refused);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "link/", {}); }), ExitCode::refused);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "thesis.tex", {}); }), ExitCode::cannot_create);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "empty", {}); }), ExitCode::done);
 }
 
 TEST_F(Record, HoldsWhatARunNeedsToBeRepeated) {

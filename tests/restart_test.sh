@@ -62,6 +62,7 @@ hash=$("$clathra" info --state-hash stopped/ckpt/0.h5)
 code=0
 "$clathra" "${given[@]}" --output stopped --resume --set bond.moment_scale=rod_mm >log 2>&1 || code=$?
 [ "$code" = 77 ] && grep -q "bond.moment_scale was .*, is" log || fail "a checkpoint of another scene is not refused with the key ($code)"
+grep -q "rod_mm" stopped/run.json && fail "a refused scene left its record in the folder"
 printf 'x' | dd of=stopped/ckpt/0.h5 bs=1 seek=5000 conv=notrunc 2>/dev/null
 code=0
 "$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || code=$?

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# A biaxial test of 200,000 bonded discs to 3 % strain, killed with -9 at random instants and resumed on another number of ranks each time,
+# against one that is left alone on 2 ranks: same history, events and state?
+#   perf/kill_and_resume.sh [DISCS [KILLS]]        about ten minutes on 2 free cores
+set -euo pipefail
+clathra="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/drivers/clathra"
+discs=${1:-200000} kills=${2:-10}
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1 OMP_PROC_BIND=false
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+cat >scene.toml <<TOML
+[sample]
+generator = "tiled"
+particles = $discs
+tile_particles = 5000
+void_ratio = 0.23
+[hydrate]
+saturation = "55 %"
+[bond]
+stress = "1 MPa"
+[test]
+axial_strain = "3 %"
+inertial_number = 1e-3
+[output]
+records = 100
+snapshots = 2
+TOML
+mpirun -n 2 "$clathra" generate scene.toml -o specimen.h5 2>log >/dev/null
+given=(run scene.toml --set sample.generator=file --set sample.file=specimen.h5)
+begin=$SECONDS
+mpirun -n 2 "$clathra" "${given[@]}" --output alone >log 2>&1
+echo "left alone on 2 ranks: $((SECONDS - begin)) s, $(tail -n 1 alone/history.csv | cut -d, -f15-18 | tr , +) = $(($(wc -l <alone/events.csv) - 1)) bonds broken"
+killed=0
+while ((killed < kills)); do
+  for ranks in 1 2 3 4 7; do
+    ((killed < kills)) || break
+    mpirun -n "$ranks" "$clathra" "${given[@]}" --output killed --resume --checkpoint-every 4s >log 2>&1 &
+    job=$!
+    sleep $((5 + RANDOM % 25)).$((RANDOM % 10))
+    pkill -KILL -f -- "--output killed" || true
+    if wait "$job" 2>/dev/null; then break 2; fi # it came to its end before
+    killed=$((killed + 1))
+    echo "kill $killed on $ranks ranks: $(tail -n 1 killed/history.csv 2>/dev/null | cut -d, -f1,3)"
+  done
+done
+mpirun -n 2 "$clathra" "${given[@]}" --output killed --resume >log 2>&1
+cmp alone/history.csv killed/history.csv
+cmp alone/events.csv killed/events.csv
+[ "$("$clathra" info --state-hash alone)" = "$("$clathra" info --state-hash killed)" ]
+echo "after $killed kills: the same history.csv, events.csv and state hash $("$clathra" info --state-hash killed)"
