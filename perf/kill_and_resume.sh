@@ -38,7 +38,9 @@ while ((killed < kills)); do
     ((killed < kills)) || break
     mpirun -n "$ranks" "$clathra" "${given[@]}" --output killed --resume --checkpoint-every 4s >log 2>&1 &
     job=$!
-    sleep $((5 + RANDOM % 25)).$((RANDOM % 10))
+    # The first one must reach the shear: before it there is nothing to go on from.
+    while [ ! -e killed/ckpt/0.json ] && kill -0 "$job" 2>/dev/null; do sleep 1; done
+    sleep $((3 + RANDOM % 10)).$((RANDOM % 10))
     pkill -KILL -f -- "--output killed" || true
     if wait "$job" 2>/dev/null; then break 2; fi # it came to its end before
     killed=$((killed + 1))
