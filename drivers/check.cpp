@@ -15,6 +15,7 @@ namespace {
 struct CheckOptions {
   SceneOptions scene;
   double rate = 0;
+  int ranks = 1;
 };
 
 ExitCode check(CheckOptions const& options) {
@@ -24,7 +25,7 @@ ExitCode check(CheckOptions const& options) {
     Specimen const specimen = read_specimen(scene.sample.file);
     scene = sized_by(scene, specimen, static_cast<std::int64_t>(specimen.size()));
   }
-  Forecast const result = forecast(scene, options.rate);
+  Forecast const result = forecast(scene, options.rate, options.ranks);
   std::string text = fmt::format("{}: the scene is right\n{}", options.scene.file, forecast_text(scene, result));
   for (std::string const& warning : input.warnings) text += "warning: " + warning + "\n";
   for (std::string const& warning : result.warnings) text += "warning: " + warning + "\n";
@@ -41,6 +42,8 @@ void add_check(CLI::App& program, Verb& chosen) {
   options->scene.add_to(*verb);
   verb->add_option("--disc-steps-per-second", options->rate, "speed to assume (default: 15 million a thread)")
       ->check(CLI::PositiveNumber);
+  verb->add_option("--ranks", options->ranks, "ranks that will share the run on this machine (mpirun -n N)")
+      ->check(CLI::Range(1, 1000000));
   verb->footer("Example: clathra check examples/quick.toml --set test.strain_rate=\"5 %/min\"");
   verb->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
 }

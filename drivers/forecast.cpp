@@ -41,11 +41,11 @@ std::string bonds_text(HydrateScene const& hydrate) {
 
 }  // namespace
 
-Forecast forecast(Scene const& scene, double disc_steps_per_second) {
+Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks) {
   Forecast result;
-  result.numbers = predict(scene);
+  result.numbers = predict(scene, ranks);
   result.disc_steps_per_second =
-      disc_steps_per_second > 0 ? disc_steps_per_second : assumed_rate * thread_count(scene.run.threads) * launched_ranks();
+      disc_steps_per_second > 0 ? disc_steps_per_second : assumed_rate * thread_count(scene.run.threads) * ranks;
   RateNumbers const rate{result.numbers["strain_rate_per_s"], result.numbers["inertial_number"], result.numbers["wave_number"]};
   Scene forced = scene;
   forced.run.force = true;

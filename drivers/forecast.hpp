@@ -15,7 +15,8 @@ struct Forecast {
 };
 
 /// @param disc_steps_per_second  0 = 15 million a thread, the floor that the program is held to
-Forecast forecast(Scene const& scene, double disc_steps_per_second);
+/// @param ranks  that will share the run
+Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks);
 
 /// Why there is not enough memory for a scene of these numbers, or nothing.
 std::string memory_refusal(StageRecord const& numbers);

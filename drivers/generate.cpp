@@ -34,7 +34,7 @@ std::string record_text(RunRecord const& record) {
 ExitCode generate_on(Ranks const& ranks, std::string const& output, RunRecord& record) {
   Scene const& scene = record.input.scene;
   require_same_everywhere(ranks, record.input);
-  StageRecord const cost = predict(scene);
+  StageRecord const cost = predict(scene, launched_ranks());
   std::vector<std::string> refusals;
   if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) refusals.push_back(refusal);
   share_refusals(ranks, refusals);

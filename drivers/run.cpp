@@ -33,7 +33,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& 
     specimen = read_specimen(input.scene.sample.file, ranks);
     sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
   }
-  Forecast cost = forecast(sized, 0);
+  Forecast cost = forecast(sized, 0, launched_ranks());
   share_refusals(ranks, cost.refusals);
   if (options.dry_run) {
     ExitCode const printed = print_result(forecast_text(sized, cost));

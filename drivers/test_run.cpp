@@ -124,7 +124,7 @@ class TestRun::Running {
       return test;
     }
     make_specimen();
-    auto test = std::make_unique<BiaxialTest>(scene_, *specimen_, show_stage(line_, ranks_), ranks_);
+    auto test = std::make_unique<BiaxialTest>(scene_, std::move(*specimen_), show_stage(line_, ranks_), ranks_);
     specimen_.reset();
     return test;
   }

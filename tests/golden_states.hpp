@@ -15,6 +15,14 @@ inline Specimen bonded_patch(Composite composite) {
   return s;
 }
 
+/// The box alone: the share of a rank that has no disc.
+inline Specimen without_discs(Specimen s) {
+  for (auto* field : {&s.x, &s.y, &s.angle, &s.vx, &s.vy, &s.omega, &s.radius}) field->clear();
+  s.id.clear();
+  s.contacts.clear();
+  return s;
+}
+
 /// About to be sheared through breakage.
 /// @param share  this rank's part of the specimen, if there are ranks
 inline Simulation ready(Specimen const& s, Composite composite, Ranks const& ranks = {}, Specimen const* share = nullptr) {
@@ -32,6 +40,33 @@ inline Simulation sheared(Specimen const& s, Composite composite, int steps = 30
   Simulation sim = ready(s, composite);
   for (int n = 0; n < steps; ++n) sim.step();
   return sim;
+}
+
+/// Every sum over discs, contacts and walls, to the bit.
+inline void expect_equal_measures(Simulation const& one, Simulation const& many) {
+  Measures const a = one.measures(), b = many.measures();
+  EXPECT_EQ(a.kinetic, b.kinetic);
+  EXPECT_EQ(a.grain_energy, b.grain_energy);
+  EXPECT_EQ(a.bond_energy, b.bond_energy);
+  EXPECT_EQ(a.wall_energy, b.wall_energy);
+  EXPECT_EQ(a.stress_area_xy, b.stress_area_xy);
+  EXPECT_EQ(a.stress_area_yy, b.stress_area_yy);
+  EXPECT_EQ(a.bond_area, b.bond_area);
+  EXPECT_EQ(a.mechanical, b.mechanical);
+  EXPECT_EQ(one.stress().x, many.stress().x);
+  EXPECT_EQ(one.stress().y, many.stress().y);
+  EXPECT_EQ(one.boundary_work(), many.boundary_work());
+  EXPECT_EQ(one.void_ratio(), many.void_ratio());
+  EXPECT_EQ(one.losses().sliding, many.losses().sliding);
+  EXPECT_EQ(one.losses().breakage, many.losses().breakage);
+  EXPECT_EQ(one.losses().damping, many.losses().damping);
+  EXPECT_EQ(one.stable_time_step(), many.stable_time_step());
+  EXPECT_EQ(one.largest_frequency(), many.largest_frequency());
+  EXPECT_EQ(one.rebuilds(), many.rebuilds());
+  BreakCounts const p = one.break_counts(), q = many.break_counts();
+  EXPECT_EQ(p.tension, q.tension);
+  EXPECT_EQ(p.shear, q.shear);
+  EXPECT_EQ(p.rolling, q.rolling);
 }
 
 struct Golden {

@@ -100,5 +100,21 @@ TEST(Determinism, AChangedBitChangesTheHash) {
   EXPECT_NE(Simulation(other, laws, 1e-5).hash(), Simulation(small_specimen(), laws, 1e-5).hash());
 }
 
+TEST(Consolidation, ThatIsCutShortIsSaidAndNeverCalledQuasiStatic) {
+  Scene scene = small_test();
+  BiaxialTest const whole(scene, small_specimen(), {});
+  EXPECT_EQ(whole.preparation().at("quasi_static"), 1);
+  EXPECT_TRUE(whole.warnings().empty());
+  EXPECT_GT(whole.preparation().at("consolidation_steps"), 400);
+  for (int const steps : {0, 350}) {
+    scene.test.consolidation_steps = steps;
+    BiaxialTest const cut(scene, small_specimen(), {});
+    EXPECT_EQ(cut.preparation().at("consolidation_steps"), steps);
+    EXPECT_EQ(cut.preparation().at("quasi_static"), 0);
+    ASSERT_EQ(cut.warnings().size(), 1u);
+    EXPECT_NE(cut.warnings()[0].find("within " + std::to_string(steps) + " steps"), std::string::npos) << cut.warnings()[0];
+  }
+}
+
 }  // namespace
 }  // namespace clathra

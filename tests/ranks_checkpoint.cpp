@@ -7,15 +7,8 @@ namespace {
 
 TEST(Checkpoint, TakesNothingFromTheGoldenState) {
   for (Golden const& g : golden) {
-    Specimen const whole = bonded_patch(g.composite);
-    Specimen const nothing = [&] {
-      Specimen empty = whole;
-      for (auto* field : {&empty.x, &empty.y, &empty.angle, &empty.vx, &empty.vy, &empty.omega, &empty.radius}) field->clear();
-      empty.id.clear();
-      empty.contacts.clear();
-      return empty;
-    }();
-    auto sim = std::make_unique<Simulation>(ready(whole, g.composite, world(), world().root() ? &whole : &nothing));
+    Specimen const whole = bonded_patch(g.composite), empty = without_discs(whole);
+    auto sim = std::make_unique<Simulation>(ready(whole, g.composite, world(), world().root() ? &whole : &empty));
     for (int n = 0; n < 3000; ++n) {
       if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->laws(), world());
       sim->step();
@@ -27,11 +20,7 @@ TEST(Checkpoint, TakesNothingFromTheGoldenState) {
 }
 
 TEST(Checkpoint, KeepsAccountsAndDisplacements) {
-  Specimen const whole = bonded_patch(Composite::parallel);
-  Specimen empty = whole;
-  for (auto* field : {&empty.x, &empty.y, &empty.angle, &empty.vx, &empty.vy, &empty.omega, &empty.radius}) field->clear();
-  empty.id.clear();
-  empty.contacts.clear();
+  Specimen const whole = bonded_patch(Composite::parallel), empty = without_discs(whole);
   Simulation sim = ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty);
   sim.set_ledger(true);
   sim.mark_start();

@@ -11,10 +11,7 @@ namespace {
 
 /// This rank's part of a specimen, discs and contacts dealt out like cards: nothing lies where it will belong.
 Specimen dealt(Specimen const& whole) {
-  Specimen part = whole;
-  for (auto* field : {&part.x, &part.y, &part.angle, &part.vx, &part.vy, &part.omega, &part.radius}) field->clear();
-  part.id.clear();
-  part.contacts.clear();
+  Specimen part = without_discs(whole);
   auto const mine = [](std::size_t k) {
     return static_cast<int>(k % static_cast<std::size_t>(world().count())) == world().rank();
   };
@@ -39,32 +36,6 @@ Decomposition lopsided(Specimen const& s) {
     cuts.push_back({rank % 2 == 0, rank == 0 ? s.left + 0.3 * s.width() : 1.0 + rank, -1 - rank, last ? -2 - rank : rank + 1});
   }
   return Decomposition(cuts);
-}
-
-void expect_equal_measures(Simulation const& one, Simulation const& many) {
-  Measures const a = one.measures(), b = many.measures();
-  EXPECT_EQ(a.kinetic, b.kinetic);
-  EXPECT_EQ(a.grain_energy, b.grain_energy);
-  EXPECT_EQ(a.bond_energy, b.bond_energy);
-  EXPECT_EQ(a.wall_energy, b.wall_energy);
-  EXPECT_EQ(a.stress_area_xy, b.stress_area_xy);
-  EXPECT_EQ(a.stress_area_yy, b.stress_area_yy);
-  EXPECT_EQ(a.bond_area, b.bond_area);
-  EXPECT_EQ(a.mechanical, b.mechanical);
-  EXPECT_EQ(one.stress().x, many.stress().x);
-  EXPECT_EQ(one.stress().y, many.stress().y);
-  EXPECT_EQ(one.boundary_work(), many.boundary_work());
-  EXPECT_EQ(one.void_ratio(), many.void_ratio());
-  EXPECT_EQ(one.losses().sliding, many.losses().sliding);
-  EXPECT_EQ(one.losses().breakage, many.losses().breakage);
-  EXPECT_EQ(one.losses().damping, many.losses().damping);
-  EXPECT_EQ(one.stable_time_step(), many.stable_time_step());
-  EXPECT_EQ(one.largest_frequency(), many.largest_frequency());
-  EXPECT_EQ(one.rebuilds(), many.rebuilds());
-  BreakCounts const p = one.break_counts(), q = many.break_counts();
-  EXPECT_EQ(p.tension, q.tension);
-  EXPECT_EQ(p.shear, q.shear);
-  EXPECT_EQ(p.rolling, q.rolling);
 }
 
 TEST(Ranks, ReachTheGoldenStateThroughBreakage) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "domain/hydrate.hpp"
 
@@ -125,9 +126,12 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
 }
 
 Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double reach) {
-  Specimen s = share;
+  Specimen s;
+  s.id = share.id;
+  s.x = share.x;
+  s.y = share.y;
+  s.radius = share.radius;
   if (ranks.alone()) return s;
-  s.contacts.clear();
   double box[4] = {1e300, -1e300, 1e300, -1e300}, widest = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
     box[0] = std::min(box[0], s.x[i]);
@@ -149,7 +153,7 @@ Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double rea
       if (near) to[r].insert(to[r].end(), {double(s.id[i]), s.x[i], s.y[i], s.radius[i]});
     }
   }
-  for (auto const& part : ranks.exchange(to)) {
+  for (auto const& part : ranks.exchange(std::move(to))) {
     for (std::size_t k = 0; k < part.size(); k += 4) {
       s.id.push_back(static_cast<int>(part[k]));
       s.x.push_back(part[k + 1]);
@@ -196,7 +200,9 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   auto old = share.contacts.begin();
   // Both lists are sorted by ids: one walk merges the bonds into the contacts with history.
   auto const before = [](SpecimenContact const& c, int id_a, int id_b) { return c.id_a != id_a ? c.id_a < id_a : c.id_b < id_b; };
-  for (NearPair const& p : near_pairs(s, outcome.critical_thickness, share.size())) {
+  auto const pairs = near_pairs(s, outcome.critical_thickness, share.size());
+  contacts.reserve(pairs.size() + share.contacts.size());
+  for (NearPair const& p : pairs) {
     int const id_a = s.id[p.a], id_b = s.id[p.b];
     while (old != share.contacts.end() && before(*old, id_a, id_b)) contacts.push_back(*old++);
     SpecimenContact contact{id_a, id_b};
@@ -216,9 +222,8 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   return outcome;
 }
 
-Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record, Ranks const& ranks) {
-  Specimen bonded = specimen;
-  BondingOutcome const outcome = install_bonds(scene, bonded, ranks);
+void bond_specimen(Scene const& scene, Specimen& specimen, StageRecord& record, Ranks const& ranks) {
+  BondingOutcome const outcome = install_bonds(scene, specimen, ranks);
   record["h_max_m"] = outcome.critical_thickness;
   record["bonds"] = static_cast<double>(outcome.bonds);
   record["bonds_per_disc"] =
@@ -228,7 +233,6 @@ Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord
   record["bond_area_m2"] = outcome.bond_area;
   record["areal_saturation"] = outcome.areal_saturation;
   record["areal_saturation_demanded"] = std::max(0.0, scene.hydrate.saturation - 0.2);
-  return bonded;
 }
 
 }  // namespace clathra

@@ -15,7 +15,7 @@ struct NearPair {
 std::vector<NearPair> near_pairs(Specimen const& specimen, double reach, std::size_t own);
 
 /// This rank's share of a specimen with the discs of other ranks behind it that lie within `reach` [m] (surface to surface) of
-/// any of its own. The share must be spatially together, or everything comes.
+/// any of its own: ids, positions and radii alone. The share must be spatially together, or everything comes.
 Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double reach);
 
 /// What bonding did.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace clathra {
 
@@ -24,7 +25,7 @@ Directory::Directory(Ranks const& ranks, std::int64_t total, std::vector<int> co
   constexpr double missing = std::numeric_limits<double>::infinity();
   values_.assign(static_cast<std::size_t>(end - begin) * columns_, missing);
   std::vector<bool> seen(static_cast<std::size_t>(end - begin), false);
-  for (auto const& part : ranks.exchange(to)) {
+  for (auto const& part : ranks.exchange(std::move(to))) {
     for (std::size_t at = 0; at < part.size(); at += 1 + columns_) {
       auto const place = static_cast<std::size_t>(static_cast<std::int64_t>(part[at]) - begin);
       wrong = wrong || seen[place];
@@ -40,7 +41,7 @@ Directory::Directory(Ranks const& ranks, std::int64_t total, std::vector<int> co
 std::vector<double> Directory::find(std::vector<int> const& ids) const {
   std::vector<std::vector<double>> asked(static_cast<std::size_t>(ranks_.count()));
   for (int const id : ids) asked[keeper(id)].push_back(id);
-  std::vector<std::vector<double>> answers = ranks_.exchange(asked);
+  std::vector<std::vector<double>> answers = ranks_.exchange(std::move(asked));
   std::int64_t const begin = block_ * ranks_.rank();
   for (auto& part : answers) {
     std::vector<double> numbers;
@@ -51,7 +52,7 @@ std::vector<double> Directory::find(std::vector<int> const& ids) const {
     }
     part = std::move(numbers);
   }
-  answers = ranks_.exchange(answers);
+  answers = ranks_.exchange(std::move(answers));
   std::vector<double> found;
   found.reserve(ids.size() * columns_);
   std::vector<std::size_t> next(answers.size(), 0);

@@ -15,13 +15,27 @@ struct RowLengths {
   KOKKOS_FUNCTION void operator()(int k) const { length(k) = row_length(which(k)); }
 };
 
+/// A vector as a field on the host, without a copy.
+template <class Vector>
+auto on_host_view(Vector& numbers) {
+  using Number = std::remove_pointer_t<decltype(numbers.data())>;
+  return Kokkos::View<Number*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(numbers.data(), numbers.size());
+}
+
+/// The same where kernels reach it: that itself, or a copy on the device.
+template <class Vector>
+auto reachable(Vector& numbers) {
+  return Kokkos::create_mirror_view_and_copy(ExecutionSpace::memory_space(), on_host_view(numbers));
+}
+
+template <class Numbers>
 struct Pack {
   Field<int> which, id;
   DiscColumns discs;
   ContactRows rows;
   RowColumns history;
   Offsets begin;
-  Field<double> numbers;
+  Numbers numbers;
 
   KOKKOS_FUNCTION void operator()(int k) const {
     int const i = which(k), length = rows.length(i);
@@ -37,8 +51,9 @@ struct Pack {
   }
 };
 
+template <class Numbers>
 struct Unpack {
-  Field<double> numbers;
+  Numbers numbers;
   Offsets begin;
   int first;  // where the new discs go
   Field<int> id;
@@ -107,11 +122,13 @@ DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companion
   for (int const entries : on_host(length)) {
     records.begin.push_back(records.begin.back() + static_cast<std::size_t>(2 + discs.count + entries * (1 + history.count)));
   }
-  Field<double> const numbers = uninitialised<double>("disc_records", records.begin.back());
-  Kokkos::parallel_for(
-      "pack_discs", each,
-      Pack{indices, particles.id, discs, rows, history, on_device("record_offsets", signed_offsets(records.begin)), numbers});
-  records.numbers = on_host(numbers);
+  records.numbers.resize(records.begin.back());
+  auto const numbers = reachable(records.numbers);
+  Kokkos::parallel_for("pack_discs", each,
+                       Pack<decltype(numbers)>{indices, particles.id, discs, rows, history,
+                                               on_device("record_offsets", signed_offsets(records.begin)), numbers});
+  Kokkos::fence();
+  if (numbers.data() != records.numbers.data()) Kokkos::deep_copy(on_host_view(records.numbers), numbers);
   return records;
 }
 
@@ -146,9 +163,11 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   rows.length = uninitialised<int>("rows.length", begin.size());
   rows.neighbour = uninitialised<int>("rows.neighbour", static_cast<std::size_t>(slice_start.back()) * lane_count);
   allocate_history(rows, rows.neighbour.extent(0));
+  auto const reached = reachable(numbers);
   Kokkos::parallel_for("unpack_discs", Kokkos::RangePolicy<ExecutionSpace>(0, came),
-                       Unpack{on_device("disc_records", numbers), on_device("record_offsets", begin), first, particles.id,
-                              DiscColumns(particles, companions), rows, RowColumns(rows)});
+                       Unpack<decltype(reached)>{reached, on_device("record_offsets", begin), first, particles.id,
+                                                 DiscColumns(particles, companions), rows, RowColumns(rows)});
+  Kokkos::fence();  // the numbers are the caller's
   return rows;
 }
 

@@ -34,8 +34,8 @@ GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& 
 
 /// Installs bonds on a resting, unbonded specimen by scene.bond and scene.hydrate.
 /// The record holds bonds, bonds_per_disc, h_max, geometric (areal) saturation, rejected_no_tension, rejected_out_of_fit.
-/// @param specimen  this rank's share as Simulation::specimen() or by_place() give it
-Specimen bond_specimen(Scene const& scene, Specimen const& specimen, StageRecord& record, Ranks const& ranks = {});
+/// @param specimen  this rank's share as Simulation::specimen() or by_place() give it; gains the bonds
+void bond_specimen(Scene const& scene, Specimen& specimen, StageRecord& record, Ranks const& ranks = {});
 
 /// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).
 struct TestState;
@@ -44,7 +44,7 @@ class BiaxialTest {
  public:
   /// Bonds and consolidates. @throws Refused, Diverged, Stopped
   /// @param specimen  this rank's share of it, whichever. All calls are collective.
-  BiaxialTest(Scene const& scene, Specimen const& specimen, ProgressCallback const& progress, Ranks const& ranks = {});
+  BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback const& progress, Ranks const& ranks = {});
   BiaxialTest(BiaxialTest&& other) noexcept;
   ~BiaxialTest();
 
@@ -52,7 +52,7 @@ class BiaxialTest {
   std::vector<std::string> const& warnings() const;
 
   /// Goes on from a state, on any number of ranks, with the bits of the test that gave it.
-  BiaxialTest(Scene const& scene, TestState const& state, Ranks const& ranks);
+  BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks);
   TestState state() const;
 
   bool finished() const;
@@ -86,6 +86,6 @@ struct TestState {
 
 /// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,
 /// wave_number, memory_bytes, disk_bytes, disc_steps.
-StageRecord predict(Scene const& scene);
+StageRecord predict(Scene const& scene, int ranks = 1);
 
 }  // namespace clathra

@@ -1,6 +1,7 @@
 #include "domain/halo.hpp"
 
 #include <type_traits>
+#include <utility>
 
 namespace clathra {
 
@@ -36,7 +37,6 @@ struct UnpackColumn {
 struct CopyIds {
   Field<int> id;
   Field<Real> as_number;
-  int count;
   bool to_ids;
   KOKKOS_FUNCTION void operator()(int i) const {
     if (to_ids)
@@ -93,7 +93,7 @@ void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, Parti
     Kokkos::deep_copy(Kokkos::subview(source_, std::pair(s.begin, s.begin + s.size)),
                       Kokkos::subview(near[static_cast<std::size_t>(s.rank)], std::pair<std::size_t, std::size_t>(0, s.size)));
   }
-  auto const from = ranks.exchange(to);
+  auto const from = ranks.exchange(std::move(to));
   for (std::size_t r = 0; r < count; ++r) sizes[r] = from[r].empty() ? 0 : static_cast<std::size_t>(from[r][0]);
   received_ = stretches_of(sizes);
   auto const ghosts = static_cast<int>(total(received_));
@@ -102,13 +102,13 @@ void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, Parti
   fill_padding(particles);
   Field<Real> const id = uninitialised<Real>("id_as_number", particles.x.extent(0));
   Kokkos::RangePolicy<ExecutionSpace> const all(0, particles.all());
-  Kokkos::parallel_for("ids_to_numbers", all, CopyIds{particles.id, id, particles.all(), false});
+  Kokkos::parallel_for("ids_to_numbers", all, CopyIds{particles.id, id, false});
   std::vector<Field<Real>> columns{id};
   for_each_field(particles, [&](char const*, auto const& field) {
     if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) columns.push_back(field);
   });
   trade(ranks, particles, columns);
-  Kokkos::parallel_for("numbers_to_ids", all, CopyIds{particles.id, id, particles.all(), true});
+  Kokkos::parallel_for("numbers_to_ids", all, CopyIds{particles.id, id, true});
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
@@ -129,7 +129,9 @@ void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<F
   auto const host_out = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
   auto host_in = Kokkos::create_mirror_view(in);
   Kokkos::fence();
+  Kokkos::Profiling::pushRegion("halo_trade");
   ranks.trade(host_out.data(), times(sent_, columns.size()), host_in.data(), times(received_, columns.size()));
+  Kokkos::Profiling::popRegion();
   Kokkos::deep_copy(in, host_in);
   for (int c = 0; c < width; ++c)
     Kokkos::parallel_for("unpack_halo", each_ghost,

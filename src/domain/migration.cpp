@@ -60,8 +60,7 @@ void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA
   }
   if (static_cast<int>(staying.size()) < particles.owned) keep_only(staying, particles, companions, slot);
   std::vector<double> came;
-  for (std::vector<double> const& part : ranks.exchange(to)) came.insert(came.end(), part.begin(), part.end());
-  to.clear();
+  for (std::vector<double> const& part : ranks.exchange(std::move(to))) came.insert(came.end(), part.begin(), part.end());
   int const first = particles.owned;
   old.arrived = unpack_discs(came, old.here.features, particles, companions);
   Kokkos::resize(slot, static_cast<std::size_t>(particles.owned));

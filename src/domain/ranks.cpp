@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
+#include <utility>
 
 namespace clathra {
 
@@ -15,8 +16,8 @@ std::int64_t Ranks::sum_before(std::int64_t value) const {
   return before;
 }
 
-std::vector<std::vector<double>> Ranks::exchange(std::vector<std::vector<double>> const& to) const {
-  return communicator_ ? communicator_->exchange(to) : to;
+std::vector<std::vector<double>> Ranks::exchange(std::vector<std::vector<double>> to) const {
+  return communicator_ ? communicator_->exchange(std::move(to)) : std::move(to);
 }
 
 std::vector<double> Ranks::gather(std::vector<double> const& values) const {
@@ -24,7 +25,7 @@ std::vector<double> Ranks::gather(std::vector<double> const& values) const {
   std::vector<std::vector<double>> to(static_cast<std::size_t>(count()));
   to[0] = values;
   std::vector<double> all;
-  for (std::vector<double> const& part : exchange(to)) all.insert(all.end(), part.begin(), part.end());
+  for (std::vector<double> const& part : exchange(std::move(to))) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
@@ -59,7 +60,7 @@ std::vector<double> Ranks::sorted_part(std::vector<double> const& values) const 
     std::vector<std::vector<double>> to(static_cast<std::size_t>(count()));
     for (double const v : values) to[owner[bin_of(v)]].push_back(v);
     part.clear();
-    for (auto const& from : exchange(to)) part.insert(part.end(), from.begin(), from.end());
+    for (auto const& from : exchange(std::move(to))) part.insert(part.end(), from.begin(), from.end());
   }
   std::sort(part.begin(), part.end());
   return part;

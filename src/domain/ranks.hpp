@@ -26,7 +26,7 @@ class Communicator {
   virtual void sum(std::int64_t* values, int size) const = 0;
   virtual void max(double* values, int size) const = 0;
   virtual void broadcast(void* bytes, std::size_t size, int from) const = 0;
-  virtual std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> const& to) const = 0;
+  virtual std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> to) const = 0;
   virtual void trade(double const* send, std::vector<Stretch> const& to, double* receive,
                      std::vector<Stretch> const& from) const = 0;
   [[noreturn]] virtual void abort(int code) const = 0;
@@ -66,7 +66,7 @@ class Ranks {
   /// The sum of the values of the ranks before this one.
   std::int64_t sum_before(std::int64_t value) const;
   /// to[r] goes to rank r; @return what came from each rank
-  std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> const& to) const;
+  std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> to) const;
   /// Numbers of agreed sizes between neighbours.
   void trade(double const* send, std::vector<Stretch> const& to, double* receive, std::vector<Stretch> const& from) const {
     if (communicator_) communicator_->trade(send, to, receive, from);

@@ -123,7 +123,8 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
   int calm = 0;
   while (simulation.steps() - first < most_steps && calm < 3) {
     if (simulation.periodic()) steer_cell(simulation, stress, largest_rate);
-    for (int n = 0; n < chunk; ++n) simulation.step();
+    std::int64_t const steps = std::min<std::int64_t>(chunk, first + most_steps - simulation.steps());
+    for (std::int64_t n = 0; n < steps; ++n) simulation.step();
     Measures const m = simulation.measures();
     calm = holds_stress(simulation, m, stress) && m.unbalanced_ratio(simulation.discs()) < rest ? calm + 1 : 0;
     report(progress,

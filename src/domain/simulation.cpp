@@ -87,7 +87,6 @@ void Simulation::rebalance_if_it_pays() {
   double const weight = 1e6 * seconds_a_disc / std::max(ranks_.max(seconds_a_disc), 1e-300);
   decomposition_ = Decomposition::bisect(ranks_, particles_, std::max<std::int64_t>(1, std::llround(weight)));
   busy_seconds_ = 0;
-  ++rebalances_;
 }
 
 Companions Simulation::companions(WallShear& wall_shear) {

@@ -50,7 +50,7 @@ class Simulation {
 
   /// Goes on from a state, on any number of ranks, with the bits of the simulation that gave it.
   /// @param laws  those of that simulation
-  Simulation(SimulationState const& state, SimulationLaws const& laws, Ranks ranks);
+  Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks);
   /// All that is needed to go on; not of a periodic cell.
   SimulationState state();
 
@@ -88,7 +88,6 @@ class Simulation {
   int discs() const { return discs_; }
   Ranks const& ranks() const { return ranks_; }
   Decomposition const& decomposition() const { return decomposition_; }
-  std::int64_t rebalances() const { return rebalances_; }
   Walls const& walls() const { return walls_; }
   PeriodicCell const& cell() const { return cell_; }
   bool periodic() const { return cell_.exists(); }
@@ -133,7 +132,7 @@ class Simulation {
   void rebalance_if_it_pays();
   Companions companions(WallShear& wall_shear);
   Companions companions_of_state(WallShear& wall_shear);
-  std::vector<double> brought_home(DiscRecords const& discs);
+  std::vector<double> brought_home(DiscRecords discs);
   void find_listed_neighbours();
   template <class Visit>
   void for_each_number(Visit&& visit);
@@ -165,7 +164,6 @@ class Simulation {
   int discs_ = 0;
   Field<Accum> start_x_, start_y_;
   double busy_seconds_ = 0;  // of this rank since the cuts were made
-  std::int64_t rebalances_ = 0;
   bool rebuild_pending_ = true;
 };
 

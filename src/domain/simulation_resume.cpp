@@ -3,6 +3,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "domain/places.hpp"
 #include "domain/simulation.hpp"
@@ -103,7 +104,7 @@ SimulationState Simulation::state() {
   return s;
 }
 
-Simulation::Simulation(SimulationState const& state, SimulationLaws const& laws, Ranks ranks)
+Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks)
     : ranks_(std::move(ranks)), sum_(ranks_.summation()), laws_(laws), faults_(make_faults()) {
   for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
@@ -114,19 +115,19 @@ Simulation::Simulation(SimulationState const& state, SimulationLaws const& laws,
   wall_contacts_.rough = laws_.wall.friction > 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
   Companions const with_discs = companions_of_state(wall_shear);
-  rows_ = unpack_discs(brought_home(state.discs), laws_.features(), particles_, with_discs);
+  rows_ = unpack_discs(brought_home(std::move(state.discs)), laws_.features(), particles_, with_discs);
   // Discs have moved since the rows were listed: neighbours may be a skin farther than the search reached.
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * skin_);
   find_listed_neighbours();
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
   wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_shear);
-  broken_ = state.broken;
+  broken_ = std::move(state.broken);
 }
 
 /// The records of the discs that belong to this rank, from wherever they were read.
-std::vector<double> Simulation::brought_home(DiscRecords const& discs) {
-  if (ranks_.alone()) return discs.numbers;
+std::vector<double> Simulation::brought_home(DiscRecords discs) {
+  if (ranks_.alone()) return std::move(discs.numbers);
   // Behind the id come x and y.
   std::vector<double> x, y;
   for (std::size_t k = 0; k < discs.size(); ++k) {
@@ -140,8 +141,12 @@ std::vector<double> Simulation::brought_home(DiscRecords const& discs) {
     part.insert(part.end(), discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k]),
                 discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k + 1]));
   }
+  discs = {};
   std::vector<double> home;
-  for (auto const& part : ranks_.exchange(to)) home.insert(home.end(), part.begin(), part.end());
+  for (auto& part : ranks_.exchange(std::move(to))) {
+    home.insert(home.end(), part.begin(), part.end());
+    part = {};
+  }
   return home;
 }
 

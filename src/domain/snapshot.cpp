@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "domain/directory.hpp"
 #include "kernels/pair_list.hpp"
@@ -132,11 +133,11 @@ BrokenHere broken_here(Ranks const& ranks, Snapshot const& s, int discs, std::ve
     to_second[static_cast<std::size_t>(b[0])].push_back(b[1]);
   }
   BrokenHere here;
-  for (auto const& part : ranks.exchange(to_first)) {
+  for (auto const& part : ranks.exchange(std::move(to_first))) {
     for (std::size_t k = 0; k < part.size(); k += width)
       here.first.push_back({part[k], part[k + 1], part[k + 2], part[k + 3], part[k + 4], part[k + 5]});
   }
-  for (auto const& part : ranks.exchange(to_second)) {
+  for (auto const& part : ranks.exchange(std::move(to_second))) {
     for (double const n : part) here.second.push_back(static_cast<std::size_t>(n));
   }
   return here;

@@ -16,11 +16,12 @@ struct SpecimenContact {
 };
 
 /// Contacts as rows of numbers, to send them to other ranks.
+inline constexpr std::size_t numbers_of_contact = 7;
 inline void append_numbers(std::vector<double>& numbers, SpecimenContact const& c) {
   numbers.insert(numbers.end(), {double(c.id_a), double(c.id_b), c.shear, c.moment, c.equilibrium, c.bond_shear, c.bond_moment});
 }
 inline void append_contacts(std::vector<SpecimenContact>& contacts, std::vector<double> const& numbers) {
-  for (auto n = numbers.begin(); n != numbers.end(); n += 7)
+  for (auto n = numbers.begin(); n != numbers.end(); n += numbers_of_contact)
     contacts.push_back({static_cast<int>(n[0]), static_cast<int>(n[1]), n[2], n[3], n[4], n[5], n[6]});
 }
 inline bool by_ids(SpecimenContact const& a, SpecimenContact const& b) {

@@ -68,27 +68,27 @@ void require_finite(Ranks const& ranks, Specimen const& s) {
                  " has a position, velocity or radius that is not finite");
 }
 
-/// The contacts with a disc of this rank, from whichever rank holds them in its share of the specimen.
-std::vector<SpecimenContact> contacts_here(Ranks const& ranks, Specimen const& s, std::int64_t discs,
-                                           std::vector<int> const& ids) {
-  if (ranks.alone()) return s.contacts;
-  Directory const owners(ranks, discs, ids, {std::vector<double>(ids.size(), ranks.rank())});
-  std::vector<int> first, second;
-  for (SpecimenContact const& c : s.contacts) {
-    first.push_back(c.id_a);
-    second.push_back(c.id_b);
-  }
-  std::vector<double> const a = owners.find(first), b = owners.find(second);
-  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
+/// The contacts with a disc of this rank that stand in another rank's share of the specimen.
+std::vector<SpecimenContact> contacts_from_others(Ranks const& ranks, Specimen const& s, std::int64_t discs, Places const& here,
+                                                  std::vector<int> const& ids) {
+  if (ranks.alone()) return {};
+  std::vector<int> elsewhere;
+  std::vector<std::size_t> of_contact;
   for (std::size_t k = 0; k < s.contacts.size(); ++k) {
-    SpecimenContact const& c = s.contacts[k];
-    for (double const owner : {a[k], b[k]}) {
-      append_numbers(to[static_cast<std::size_t>(owner)], c);
-      if (a[k] == b[k]) break;
+    for (int const id : {s.contacts[k].id_a, s.contacts[k].id_b}) {
+      if (here.find(id) >= 0) continue;
+      elsewhere.push_back(id);
+      of_contact.push_back(k);
     }
   }
+  std::vector<double> const owner = Directory(ranks, discs, ids, {std::vector<double>(ids.size(), ranks.rank())}).find(elsewhere);
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
+  for (std::size_t n = 0; n < elsewhere.size(); ++n) {
+    bool const sent = n > 0 && of_contact[n - 1] == of_contact[n] && owner[n - 1] == owner[n];
+    if (!sent) append_numbers(to[static_cast<std::size_t>(owner[n])], s.contacts[of_contact[n]]);
+  }
   std::vector<SpecimenContact> contacts;
-  for (auto const& part : ranks.exchange(to)) append_contacts(contacts, part);
+  for (auto const& part : ranks.exchange(std::move(to))) append_contacts(contacts, part);
   return contacts;
 }
 
@@ -156,9 +156,7 @@ void Simulation::inject(Specimen const& s) {
   auto const set = [](auto& field, std::size_t e, Real value) {
     if (field.extent(0) > 0) field(e) = value;
   };
-  std::vector<int> ids;
-  for (int i = 0; i < particles_.owned; ++i) ids.push_back(id(i));
-  for (SpecimenContact const& c : contacts_here(ranks_, s, discs_, ids)) {
+  auto const write = [&](SpecimenContact const& c) {
     for (auto const& [mine, other, sign] : {std::tuple{c.id_a, c.id_b, 1.0}, std::tuple{c.id_b, c.id_a, -1.0}}) {
       int const i = at.find(mine);
       if (i < 0) continue;
@@ -173,7 +171,11 @@ void Simulation::inject(Specimen const& s) {
         set(bond_moment, e, sign * c.bond_moment);
       }
     }
-  }
+  };
+  std::for_each(s.contacts.begin(), s.contacts.end(), write);
+  auto const others =
+      contacts_from_others(ranks_, s, discs_, at, {id.data(), id.data() + static_cast<std::size_t>(particles_.owned)});
+  std::for_each(others.begin(), others.end(), write);
   for (auto const& [field, host] :
        {std::pair{&rows_.shear, &shear}, std::pair{&rows_.moment, &moment}, std::pair{&rows_.equilibrium, &equilibrium},
         std::pair{&rows_.bond_shear, &bond_shear}, std::pair{&rows_.bond_moment, &bond_moment}}) {

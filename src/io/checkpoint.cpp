@@ -8,6 +8,7 @@
 #include "io/checkpoint_content.hpp"
 #include "io/digest.hpp"
 #include "io/problems.hpp"
+#include "io/scene_file.hpp"
 #include "io/text_file.hpp"
 #include "io/together.hpp"
 
@@ -152,7 +153,10 @@ bool is_finished_run(std::filesystem::path const& run_folder, std::string const&
   if (!std::filesystem::exists(record, ignored)) return false;
   Json const json = Json::parse(read_text_file(record, largest_manifest), nullptr, false);
   if (!json.is_object() || !json.contains("exit") || json["exit"].value("reason", "") != "finished") return false;
-  if (read_text_file(run_folder / "resolved.toml", largest_manifest) != resolved)
+  // Read and written again: what wrote it may not have known all keys.
+  std::filesystem::path const file = run_folder / "resolved.toml";
+  Scene const then = parse_scene(read_text_file(file, largest_manifest), file, run_folder).scene;
+  if (resolved_scene(then, run_folder) != resolved)
     throw FileProblem(ExitCode::refused, run_folder,
                       "holds the finished run of another scene; --resume would destroy it, choose another folder");
   return true;

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/checkpoint.hpp"
-#include "io/hdf5_file.hpp"
+#include "io/event_columns.hpp"
 #include "io/run_record.hpp"
 #include "io/scene_value.hpp"
 #include "io/schema.hpp"
@@ -33,140 +33,140 @@ Json scene_text(Scene const& scene) {
   return text;
 }
 
-/// The discs' records as columns: one for each number of a disc, and one for each number of an entry of all their rows.
-struct Columns {
-  std::vector<std::int32_t> id, length, neighbour;
-  std::vector<std::vector<double>> discs, history;
+/// Where the numbers stand in the records of a state: id, the disc's columns, the length of its row, and then entry by entry the
+/// neighbour's id and the history. A file holds them as columns, one at a time in memory.
+struct RecordLayout {
+  std::size_t length, entries, entry_width;
+  explicit RecordLayout(SimulationState const& s)
+      : length(1 + s.disc_columns.size()), entries(length + 1), entry_width(1 + s.history_columns.size()) {}
+
+  /// Visits the number at a place of every disc's record.
+  template <class Records, class Visit>
+  static void for_each_disc(Records& records, std::size_t place, Visit&& visit) {
+    for (std::size_t k = 0; k < records.size(); ++k) visit(records.numbers[records.begin[k] + place]);
+  }
+  /// Visits the number at a place of every entry of every disc's row.
+  template <class Records, class Visit>
+  void for_each_entry(Records& records, std::size_t place, Visit&& visit) const {
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      for (std::size_t at = records.begin[k] + entries + place; at < records.begin[k + 1]; at += entry_width)
+        visit(records.numbers[at]);
+    }
+  }
 };
 
-Columns columns_of(SimulationState const& s) {
-  Columns c;
-  c.discs.resize(s.disc_columns.size());
-  c.history.resize(s.history_columns.size());
-  for (std::size_t k = 0; k < s.discs.size(); ++k) {
-    double const* n = &s.discs.numbers[s.discs.begin[k]];
-    c.id.push_back(static_cast<std::int32_t>(*n++));
-    for (auto& column : c.discs) column.push_back(*n++);
-    c.length.push_back(static_cast<std::int32_t>(*n++));
-    for (int entry = 0; entry < c.length.back(); ++entry) {
-      c.neighbour.push_back(static_cast<std::int32_t>(*n++));
-      for (auto& column : c.history) column.push_back(*n++);
-    }
-  }
-  return c;
+void write_records(Hdf5File& file, SimulationState const& s) {
+  RecordLayout const layout(s);
+  auto const write = [&]<class T>(std::string const& name, std::vector<T> column, char const* unit, auto&& visit_all) {
+    visit_all([&](double number) { column.push_back(static_cast<T>(number)); });
+    file.write(name, column, unit);
+  };
+  auto const of_discs = [&](std::size_t place) {
+    return [&, place](auto&& visit) { layout.for_each_disc(s.discs, place, visit); };
+  };
+  auto const of_entries = [&](std::size_t place) {
+    return [&, place](auto&& visit) { layout.for_each_entry(s.discs, place, visit); };
+  };
+  using Integers = std::vector<std::int32_t>;
+  using Numbers = std::vector<double>;
+  write("particles/id", Integers(), "", of_discs(0));
+  for (std::size_t c = 0; c < s.disc_columns.size(); ++c) write("particles/" + s.disc_columns[c], Numbers(), "", of_discs(1 + c));
+  write("rows/length", Integers(), "", of_discs(layout.length));
+  write("rows/neighbour", Integers(), "id", of_entries(0));
+  for (std::size_t c = 0; c < s.history_columns.size(); ++c)
+    write("rows/" + s.history_columns[c], Numbers(), "", of_entries(1 + c));
 }
 
-DiscRecords records_of(Columns const& c) {
-  DiscRecords records;
-  std::size_t entry = 0;
-  for (std::size_t k = 0; k < c.id.size(); ++k) {
-    records.numbers.push_back(c.id[k]);
-    for (auto const& column : c.discs) records.numbers.push_back(column[k]);
-    records.numbers.push_back(c.length[k]);
-    for (int n = 0; n < c.length[k]; ++n, ++entry) {
-      records.numbers.push_back(c.neighbour[entry]);
-      for (auto const& column : c.history) records.numbers.push_back(column[entry]);
-    }
-    records.begin.push_back(records.numbers.size());
-  }
-  return records;
-}
-
-std::uint64_t total(Ranks const& ranks, std::size_t count) {
-  return static_cast<std::uint64_t>(ranks.sum(static_cast<std::int64_t>(count)));
+std::size_t entries_of(SimulationState const& s) {
+  std::size_t const discs = s.discs.size() * RecordLayout(s).entries;
+  return (s.discs.numbers.size() - discs) / RecordLayout(s).entry_width;
 }
 
 void write_events(Hdf5File& file, TestState const& state) {
-  std::vector<double> step, position;
-  std::vector<std::int32_t> id_a, id_b;
-  std::vector<std::uint8_t> mode, taken;
-  for (BreakEvent const& e : state.simulation.broken) {
-    taken.push_back(step.size() < state.events_taken ? 1 : 0);
-    step.push_back(static_cast<double>(e.step));
-    id_a.push_back(e.id_a);
-    id_b.push_back(e.id_b);
-    mode.push_back(static_cast<std::uint8_t>(e.mode));
-    position.insert(position.end(), {e.x, e.y});
+  std::vector<BreakEvent> const& events = state.simulation.broken;
+  write_event_columns(file, events);
+  std::vector<std::uint8_t> taken(events.size());
+  std::vector<double> x(events.size()), y(events.size());
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    taken[k] = k < state.events_taken ? 1 : 0;
+    x[k] = events[k].x;
+    y[k] = events[k].y;
   }
-  file.write("events/step", step, "");
-  file.write("events/id_a", id_a, "");
-  file.write("events/id_b", id_b, "");
-  file.write("events/mode", mode, "1 tension, 2 compression, 3 shear, 4 rolling");
   file.write("events/taken", taken, "1 = stands in events.csv");
-  std::vector<double> x, y;
-  for (std::size_t k = 0; k < position.size(); k += 2) x.push_back(position[k]), y.push_back(position[k + 1]);
   file.write("events/x", x, "m");
   file.write("events/y", y, "m");
 }
 
-/// A part of a table of so many rows.
-struct Part {
-  std::size_t size, begin, end;
-  template <class T>
-  std::vector<T> of(Hdf5File const& file, std::string const& name) const {
-    return file.read_rows<T>(name, size, begin, end);
-  }
-};
-
-Part share(std::int64_t size, Ranks const& ranks) {
-  return {static_cast<std::size_t>(size), static_cast<std::size_t>(size * ranks.rank() / ranks.count()),
-          static_cast<std::size_t>(size * (ranks.rank() + 1) / ranks.count())};
-}
-
 void read_events(Hdf5File const& file, TestState& state, Ranks const& ranks) {
-  Part const part = share(file.integer_attribute("events"), ranks);
-  auto const step = part.of<double>(file, "events/step"), x = part.of<double>(file, "events/x"),
-             y = part.of<double>(file, "events/y");
-  auto const id_a = part.of<std::int32_t>(file, "events/id_a"), id_b = part.of<std::int32_t>(file, "events/id_b");
-  auto const mode = part.of<std::uint8_t>(file, "events/mode"), taken = part.of<std::uint8_t>(file, "events/taken");
+  std::int64_t const count = file.integer_attribute("events");
+  if (count < 0) file.fail(ExitCode::bad_input, fmt::format("claims {} events", count));
+  RowRange const rows = rows_of_rank(count, ranks);
+  std::vector<BreakEvent> const events = read_event_columns(file, rows);
+  auto const taken = file.read<std::uint8_t>("events/taken", rows);
+  auto const x = file.read<double>("events/x", rows), y = file.read<double>("events/y", rows);
   for (bool const wanted : {true, false}) {  // those that were taken come first
-    for (std::size_t k = 0; k < step.size(); ++k) {
+    for (std::size_t k = 0; k < events.size(); ++k) {
       if ((taken[k] != 0) != wanted) continue;
-      if (mode[k] < 1 || mode[k] >= break_mode_count) file.fail(ExitCode::bad_input, "an event names no mode of breakage");
-      state.simulation.broken.push_back({std::llround(step[k]), id_a[k], id_b[k], mode[k], x[k], y[k]});
+      state.simulation.broken.push_back(events[k]);
+      state.simulation.broken.back().x = x[k];
+      state.simulation.broken.back().y = y[k];
     }
     if (wanted) state.events_taken = state.simulation.broken.size();
   }
 }
 
-/// Rows of the discs [begin, end): lengths must be read first, as rows follow one another.
-Columns read_columns(Hdf5File const& file, SimulationState const& s, Ranks const& ranks) {
+/// Lengths of this rank's rows, and which of all entries are theirs.
+RowRange read_lengths(Hdf5File const& file, RowRange const& discs, std::int64_t entries, std::vector<std::int32_t>& lengths) {
+  constexpr std::size_t piece = 1 << 20;
+  std::int64_t before = 0, own = 0;
+  for (std::size_t at = 0; at < discs.begin; at += piece) {
+    for (int const n : file.read<std::int32_t>("rows/length", {discs.size, at, std::min(at + piece, discs.begin)})) before += n;
+  }
+  lengths = file.read<std::int32_t>("rows/length", discs);
+  for (int const n : lengths) {
+    if (n < 0 || n > longest_row) file.fail(ExitCode::bad_input, fmt::format("a row of {} neighbours", n));
+    own += n;
+  }
+  if (before + own > entries) file.fail(ExitCode::bad_input, "rows are longer than all neighbours together");
+  return {static_cast<std::size_t>(entries), static_cast<std::size_t>(before), static_cast<std::size_t>(before + own)};
+}
+
+void read_records(Hdf5File const& file, SimulationState& s, Ranks const& ranks) {
   std::int64_t const discs = file.integer_attribute("particles"), entries = file.integer_attribute("entries");
   if (discs < 1 || discs > 1'000'000'000 || entries < 0 || entries > discs * longest_row)
     file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} neighbours", discs, entries));
-  Part const part = share(discs, ranks);
-  std::int64_t before = 0, own = 0;
-  std::size_t constexpr piece = 1 << 20;
-  for (std::size_t at = 0; at < part.begin; at += piece) {
-    for (int const n : file.read_rows<std::int32_t>("rows/length", part.size, at, std::min(at + piece, part.begin))) before += n;
+  RecordLayout const layout(s);
+  RowRange const rows = rows_of_rank(discs, ranks);
+  std::vector<std::int32_t> lengths;
+  RowRange const row_entries = read_lengths(file, rows, entries, lengths);
+  for (int const n : lengths)
+    s.discs.begin.push_back(s.discs.begin.back() + layout.entries + static_cast<std::size_t>(n) * layout.entry_width);
+  s.discs.numbers.resize(s.discs.begin.back());
+  // Takes the numbers of a column one by one.
+  auto const next_of = [](auto const& column) { return [at = column.begin()](double& number) mutable { number = *at++; }; };
+  auto const ids = file.read<std::int32_t>("particles/id", rows);
+  for (int const id : ids) {
+    if (id < 0 || id >= discs) file.fail(ExitCode::bad_input, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
   }
-  Columns c;
-  c.id = part.of<std::int32_t>(file, "particles/id");
-  c.length = part.of<std::int32_t>(file, "rows/length");
-  for (std::size_t k = 0; k < c.id.size(); ++k) {
-    if (c.id[k] < 0 || c.id[k] >= discs)
-      file.fail(ExitCode::bad_input, fmt::format("disc id {} is outside 0..{}", c.id[k], discs - 1));
-    if (c.length[k] < 0 || c.length[k] > longest_row)
-      file.fail(ExitCode::bad_input, fmt::format("a row of {} neighbours", c.length[k]));
-    own += c.length[k];
+  layout.for_each_disc(s.discs, 0, next_of(ids));
+  layout.for_each_disc(s.discs, layout.length, next_of(lengths));
+  for (std::size_t c = 0; c < s.disc_columns.size(); ++c) {
+    auto const column = file.read<double>("particles/" + s.disc_columns[c], rows);
+    if (!std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); }))
+      file.fail(ExitCode::bad_input, fmt::format("particles/{} holds a number that is not finite", s.disc_columns[c]));
+    layout.for_each_disc(s.discs, 1 + c, next_of(column));
   }
-  if (before + own > entries) file.fail(ExitCode::bad_input, "rows are longer than all neighbours together");
-  Part const rows{static_cast<std::size_t>(entries), static_cast<std::size_t>(before), static_cast<std::size_t>(before + own)};
-  for (std::string const& name : s.disc_columns) {
-    c.discs.push_back(part.of<double>(file, "particles/" + name));
-    if (!std::all_of(c.discs.back().begin(), c.discs.back().end(), [](double v) { return std::isfinite(v); }))
-      file.fail(ExitCode::bad_input, fmt::format("particles/{} holds a number that is not finite", name));
-  }
-  c.neighbour = rows.of<std::int32_t>(file, "rows/neighbour");
-  for (std::string const& name : s.history_columns) c.history.push_back(rows.of<double>(file, "rows/" + name));
-  return c;
+  layout.for_each_entry(s.discs, 0, next_of(file.read<std::int32_t>("rows/neighbour", row_entries)));
+  for (std::size_t c = 0; c < s.history_columns.size(); ++c)
+    layout.for_each_entry(s.discs, 1 + c, next_of(file.read<double>("rows/" + s.history_columns[c], row_entries)));
 }
 
 void require_same_scene(Hdf5File const& file, Json const& then, Scene const& scene) {
-  Json const now = scene_text(scene);
+  Json const now = scene_text(scene), defaults = scene_text({});
   std::string different;
   for (auto const& [name, value] : now.items()) {
-    std::string const before = then.contains(name) ? then.at(name).get<std::string>() : "nothing";
+    // What wrote the checkpoint may not have known a key yet: then it did what is the default.
+    std::string const before = (then.contains(name) ? then : defaults).at(name).get<std::string>();
     if (before != value.get<std::string>())
       different += fmt::format("; {} was {}, is {}", name, before, value.get<std::string>());
   }
@@ -177,7 +177,7 @@ void require_same_scene(Hdf5File const& file, Json const& then, Scene const& sce
 
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks) {
   SimulationState const& s = state.simulation;
-  Columns const c = columns_of(s);
+  auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
   Json const about = {{"scene", scene_text(scene)},          {"test", state.numbers},   {"preparation", state.preparation},
                       {"warnings", state.warnings},          {"simulation", s.numbers}, {"disc_columns", s.disc_columns},
                       {"history_columns", s.history_columns}};
@@ -185,16 +185,12 @@ void write_checkpoint_content(std::filesystem::path const& path, Scene const& sc
     file.set_attribute("format", std::string(format_name));
     file.set_attribute("version", checkpoint_version);
     file.set_attribute("precision", std::string("double"));
-    file.set_attribute("particles", static_cast<std::int64_t>(total(ranks, c.id.size())));
-    file.set_attribute("entries", static_cast<std::int64_t>(total(ranks, c.neighbour.size())));
-    file.set_attribute("events", static_cast<std::int64_t>(total(ranks, s.broken.size())));
+    file.set_attribute("particles", total(s.discs.size()));
+    file.set_attribute("entries", total(entries_of(s)));
+    file.set_attribute("events", total(s.broken.size()));
     file.set_attribute("state_hash", hash_text(state.hash));
     file.write_text("about", about.dump());
-    file.write("particles/id", c.id, "");
-    for (std::size_t k = 0; k < c.discs.size(); ++k) file.write("particles/" + s.disc_columns[k], c.discs[k], "");
-    file.write("rows/length", c.length, "");
-    file.write("rows/neighbour", c.neighbour, "id");
-    for (std::size_t k = 0; k < c.history.size(); ++k) file.write("rows/" + s.history_columns[k], c.history[k], "");
+    write_records(file, s);
     write_events(file, state);
   };
   replace_hdf5_file(path, write_content, ranks);
@@ -220,7 +216,7 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   } catch (Json::exception const& problem) {
     file.fail(ExitCode::bad_input, fmt::format("about: {}", problem.what()));
   }
-  state.simulation.discs = records_of(read_columns(file, state.simulation, ranks));
+  read_records(file, state.simulation, ranks);
   read_events(file, state, ranks);
   return state;
 }

@@ -25,6 +25,7 @@ constexpr hsize_t longest_text = 16 << 20;    // [bytes]
 class Id {
  public:
   Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Id(Id const&) = delete;
   Id& operator=(Id const&) = delete;
   ~Id() {
@@ -102,6 +103,11 @@ void write_together(hid_t) {}
 #endif
 
 }  // namespace
+
+RowRange rows_of_rank(std::int64_t size, Ranks const& ranks) {
+  auto const first_of = [&](int rank) { return static_cast<std::size_t>(size * rank / ranks.count()); };
+  return {static_cast<std::size_t>(size), first_of(ranks.rank()), first_of(ranks.rank() + 1)};
+}
 
 Hdf5File Hdf5File::create(std::filesystem::path const& path, Ranks const& ranks) {
   start_hdf5();
@@ -209,53 +215,55 @@ void Hdf5File::set_column_attribute(std::string const& column, std::string const
     fail(ExitCode::io_error, fmt::format("cannot write {} of {}: {}", name, column, hdf5_reason()));
 }
 
-template <class T>
-std::vector<T> Hdf5File::read(std::string const& name, std::size_t size, std::size_t width) const {
+/// A column that is there and has the shape that it should have.
+struct Hdf5File::OpenColumn {
+  Id column, space;
+  std::size_t rows;
+};
+
+Hdf5File::OpenColumn Hdf5File::open_column(std::string const& name, std::size_t size, std::size_t width) const {
   auto const damaged = [&](std::string const& what) { fail(ExitCode::bad_input, fmt::format("{} {}", name, what)); };
   if (auto const end = slash(name); end != std::string::npos)
     if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
   if (H5Lexists(file_, name.c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
-  Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  Id const space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
+  Id column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  Id space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
   if (space < 0) damaged("cannot be opened: " + hdf5_reason());
   hsize_t shape[2] = {0, 1};
   int const rank = width == 1 ? 1 : 2;
   if (H5Sget_simple_extent_ndims(space) != rank || H5Sget_simple_extent_dims(space, shape, nullptr) < 0 || shape[1] != width)
     damaged(fmt::format("is no table of {} columns", width));
-  if (shape[0] > most_rows) damaged(fmt::format("claims {} rows", shape[0]));
+  if (size == any_size && shape[0] > most_rows) damaged(fmt::format("claims {} rows", shape[0]));
   if (size != any_size && shape[0] != size) damaged(fmt::format("has {} rows instead of {}", shape[0], size));
-  std::vector<T> values(shape[0] * width);
-  if (!values.empty() && H5Dread(column, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    damaged("cannot be read: " + hdf5_reason());
+  return {std::move(column), std::move(space), shape[0]};
+}
+
+template <class T>
+std::vector<T> Hdf5File::read(std::string const& name, std::size_t size, std::size_t width) const {
+  OpenColumn const open = open_column(name, size, width);
+  std::vector<T> values(open.rows * width);
+  if (!values.empty() && H5Dread(open.column, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(ExitCode::bad_input, fmt::format("{} cannot be read: {}", name, hdf5_reason()));
   return values;
 }
 
 template <class T>
-std::vector<T> Hdf5File::read_rows(std::string const& name, std::size_t size, std::size_t begin, std::size_t end) const {
-  auto const damaged = [&](std::string const& what) { fail(ExitCode::bad_input, fmt::format("{} {}", name, what)); };
-  if (auto const slash_at = slash(name); slash_at != std::string::npos)
-    if (H5Lexists(file_, name.substr(0, slash_at).c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
-  if (H5Lexists(file_, name.c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
-  Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  Id const space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
-  if (space < 0) damaged("cannot be opened: " + hdf5_reason());
-  hsize_t rows = 0;
-  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &rows, nullptr) < 0) damaged("is no column");
-  if (rows != size) damaged(fmt::format("has {} rows instead of {}", rows, size));
-  hsize_t const first = begin, count = end - begin;
-  std::vector<T> values(end - begin);
+std::vector<T> Hdf5File::read(std::string const& name, RowRange const& rows) const {
+  OpenColumn const open = open_column(name, rows.size, 1);
+  hsize_t const first = rows.begin, count = rows.end - rows.begin;
+  std::vector<T> values(count);
   if (values.empty()) return values;
   Id const part(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  if (H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &count, nullptr) < 0 ||
-      H5Dread(column, type_of<T>(), part, space, H5P_DEFAULT, values.data()) < 0)
-    damaged("cannot be read: " + hdf5_reason());
+  if (H5Sselect_hyperslab(open.space, H5S_SELECT_SET, &first, nullptr, &count, nullptr) < 0 ||
+      H5Dread(open.column, type_of<T>(), part, open.space, H5P_DEFAULT, values.data()) < 0)
+    fail(ExitCode::bad_input, fmt::format("{} cannot be read: {}", name, hdf5_reason()));
   return values;
 }
 
 #define CLATHRA_COLUMN(T)                                                                                    \
   template void Hdf5File::write(std::string const&, std::vector<T> const&, std::string const&, std::size_t); \
   template std::vector<T> Hdf5File::read(std::string const&, std::size_t, std::size_t) const;                \
-  template std::vector<T> Hdf5File::read_rows(std::string const&, std::size_t, std::size_t, std::size_t) const;
+  template std::vector<T> Hdf5File::read(std::string const&, RowRange const&) const;
 CLATHRA_COLUMN(double)
 CLATHRA_COLUMN(float)
 CLATHRA_COLUMN(std::int32_t)

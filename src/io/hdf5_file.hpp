@@ -13,6 +13,13 @@
 
 namespace clathra {
 
+/// The rows [begin, end) of a table of `size` rows.
+struct RowRange {
+  std::size_t size, begin, end;
+};
+/// The part of this rank where all ranks share the rows of a table evenly, in their order.
+RowRange rows_of_rank(std::int64_t size, Ranks const& ranks);
+
 /// An open HDF5 file. Groups are made as paths are written ("particles/radius").
 class Hdf5File {
  public:
@@ -39,9 +46,9 @@ class Hdf5File {
   static constexpr std::size_t any_size = static_cast<std::size_t>(-1);
   template <class T>
   std::vector<T> read(std::string const& name, std::size_t size, std::size_t width = 1) const;
-  /// The rows [begin, end) of a column that must have `size` rows.
+  /// Some rows of a column.
   template <class T>
-  std::vector<T> read_rows(std::string const& name, std::size_t size, std::size_t begin, std::size_t end) const;
+  std::vector<T> read(std::string const& name, RowRange const& rows) const;
   std::string read_text(std::string const& name) const;
   double double_attribute(std::string const& name) const;
   std::int64_t integer_attribute(std::string const& name) const;
@@ -57,6 +64,8 @@ class Hdf5File {
   Hdf5File(std::filesystem::path path, hid_t file, bool writing, Ranks ranks = {})
       : path_(std::move(path)), file_(file), writing_(writing), ranks_(std::move(ranks)) {}
   void make_group(std::string const& name);
+  struct OpenColumn;
+  OpenColumn open_column(std::string const& name, std::size_t size, std::size_t width) const;
   void write_column(std::string const& name, void const* values, std::size_t rows, std::size_t width, hid_t type,
                     std::string const& unit);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/hdf5_file.hpp"
+#include "io/event_columns.hpp"
 
 namespace clathra {
 namespace {
@@ -100,20 +100,9 @@ void write_pairs(Hdf5File& file, Snapshot const& s, Ranks const& ranks) {
 }
 
 void write_events(Hdf5File& file, Snapshot const& s) {
-  std::vector<std::int32_t> id_a, id_b;
-  std::vector<std::uint8_t> mode;
-  std::vector<double> step, position;
-  for (BreakEvent const& e : s.events) {
-    step.push_back(static_cast<double>(e.step));
-    id_a.push_back(e.id_a);
-    id_b.push_back(e.id_b);
-    mode.push_back(static_cast<std::uint8_t>(e.mode));
-    position.insert(position.end(), {e.x, e.y});
-  }
-  file.write("events/step", step, "");
-  file.write("events/id_a", id_a, "");
-  file.write("events/id_b", id_b, "");
-  file.write("events/mode", mode, "1 tension, 2 compression, 3 shear, 4 rolling");
+  write_event_columns(file, s.events);
+  std::vector<double> position;
+  for (BreakEvent const& e : s.events) position.insert(position.end(), {e.x, e.y});
   file.write("events/position", position, "m", 2);
 }
 
@@ -164,13 +153,13 @@ void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
 }
 
 void read_events(Hdf5File const& file, Snapshot& s) {
-  std::vector<double> const step = file.read<double>("events/step", Hdf5File::any_size);
-  std::size_t const count = step.size();
-  auto const id_a = file.read<std::int32_t>("events/id_a", count), id_b = file.read<std::int32_t>("events/id_b", count);
-  auto const mode = file.read<std::uint8_t>("events/mode", count);
-  auto const position = file.read<double>("events/position", count, 2);
-  for (std::size_t k = 0; k < count; ++k)
-    s.events.push_back({std::llround(step[k]), id_a[k], id_b[k], mode[k], position[2 * k], position[2 * k + 1]});
+  std::size_t const count = file.read<double>("events/step", Hdf5File::any_size).size();
+  s.events = read_event_columns(file, {count, 0, count});
+  std::vector<double> const position = file.read<double>("events/position", count, 2);
+  for (std::size_t k = 0; k < count; ++k) {
+    s.events[k].x = position[2 * k];
+    s.events[k].y = position[2 * k + 1];
+  }
 }
 
 }  // namespace

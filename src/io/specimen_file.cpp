@@ -133,29 +133,20 @@ void check_contacts(std::filesystem::path const& path, Specimen const& specimen,
   }
 }
 
-/// The rows of this rank.
-struct Rows {
-  std::size_t size, begin, end;
-  Rows(std::int64_t total, Ranks const& ranks)
-      : size(static_cast<std::size_t>(total)),
-        begin(static_cast<std::size_t>(total * ranks.rank() / ranks.count())),
-        end(static_cast<std::size_t>(total * (ranks.rank() + 1) / ranks.count())) {}
-};
-
-void read_discs(Hdf5File const& file, Specimen& part, Rows const& rows) {
-  part.id = file.read_rows<std::int32_t>("particles/id", rows.size, rows.begin, rows.end);
+void read_discs(Hdf5File const& file, Specimen& part, RowRange const& rows) {
+  part.id = file.read<std::int32_t>("particles/id", rows);
   for_each_particle_column(part, [&](std::string const& name, std::vector<double>& column, char const*) {
-    column = file.read_rows<double>("particles/" + name, rows.size, rows.begin, rows.end);
+    column = file.read<double>("particles/" + name, rows);
   });
 }
 
-void read_contacts(Hdf5File const& file, Specimen& part, Rows const& rows) {
-  std::vector<std::int32_t> const id_a = file.read_rows<std::int32_t>("contacts/id_a", rows.size, rows.begin, rows.end);
-  std::vector<std::int32_t> const id_b = file.read_rows<std::int32_t>("contacts/id_b", rows.size, rows.begin, rows.end);
+void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
+  std::vector<std::int32_t> const id_a = file.read<std::int32_t>("contacts/id_a", rows);
+  std::vector<std::int32_t> const id_b = file.read<std::int32_t>("contacts/id_b", rows);
   part.contacts.resize(id_a.size());
   for (std::size_t i = 0; i < id_a.size(); ++i) part.contacts[i].id_a = id_a[i], part.contacts[i].id_b = id_b[i];
   for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const*) {
-    std::vector<double> const column = file.read_rows<double>("contacts/" + name, rows.size, rows.begin, rows.end);
+    std::vector<double> const column = file.read<double>("contacts/" + name, rows);
     for (std::size_t i = 0; i < column.size(); ++i) part.contacts[i].*member = column[i];
   });
 }
@@ -176,8 +167,8 @@ Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std
   if (discs < 0 || discs > 1'000'000'000 || contacts < 0 || contacts > 10'000'000'000)
     file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", discs, contacts));
   if (discs == 0) damaged(path, "there are no discs");
-  read_discs(file, part, {discs, ranks});
-  read_contacts(file, part, {contacts, ranks});
+  read_discs(file, part, rows_of_rank(discs, ranks));
+  read_contacts(file, part, rows_of_rank(contacts, ranks));
   check_box(path, part);
   check_particles(path, part, discs);
   check_contacts(path, part, discs);
@@ -186,18 +177,17 @@ Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std
 
 }  // namespace
 
-void write_specimen(std::filesystem::path const& path, Specimen const& share, Ranks const& ranks) {
-  std::int64_t const discs = ranks.sum(static_cast<std::int64_t>(share.size()));
-  Specimen const& part = ranks.alone() ? share : by_id_blocks(ranks, share, discs);
+void write_specimen(std::filesystem::path const& path, Specimen share, Ranks const& ranks) {
+  if (!ranks.alone()) share = by_id_blocks(ranks, std::move(share));
   replace_hdf5_file(
-      path, [&](Hdf5File& file) { write_content(file, part, ranks); }, ranks);
+      path, [&](Hdf5File& file) { write_content(file, share, ranks); }, ranks);
 }
 
 Specimen read_specimen(std::filesystem::path const& path, Ranks const& ranks) {
   Specimen part;
   std::int64_t discs = 0;
   on_each(ranks, [&] { part = read_rows_of(path, ranks, discs); });
-  if (!ranks.alone()) part = by_id_blocks(ranks, part, discs);
+  if (!ranks.alone()) part = by_id_blocks(ranks, std::move(part));
   on_each(ranks, [&] {
     check_ids_once(path, part.id);
     check_pairs_once(path, part);

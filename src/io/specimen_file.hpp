@@ -12,7 +12,7 @@ namespace clathra {
 /// Writes a specimen under a temporary name, flushes it to the disk and renames it: the name never holds a part of a file.
 /// @param share  this rank's part; the file is the same for any number of ranks
 /// @throws FileProblem cannot_create or io_error
-void write_specimen(std::filesystem::path const& path, Specimen const& share, Ranks const& ranks = {});
+void write_specimen(std::filesystem::path const& path, Specimen share, Ranks const& ranks = {});
 
 /// Reads a specimen and checks it: sizes, ids 0..N-1 once each, finite numbers, radii > 0, contacts between discs of the file.
 /// @return this rank's part: a block of ids

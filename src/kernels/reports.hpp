@@ -26,12 +26,12 @@ struct BreakLog {
 inline BreakLog make_break_log(std::size_t bonds) {
   BreakLog log;
   log.count = Field<int>("breaks.count", 1);
-  log.step = Field<std::int64_t>("breaks.step", bonds);
-  log.id_a = Field<int>("breaks.id_a", bonds);
-  log.id_b = Field<int>("breaks.id_b", bonds);
-  log.mode = Field<std::int8_t>("breaks.mode", bonds);
-  log.x = Field<Coord>("breaks.x", bonds);
-  log.y = Field<Coord>("breaks.y", bonds);
+  log.step = uninitialised<std::int64_t>("breaks.step", bonds);  // pages that nothing is written to cost nothing on a host
+  log.id_a = uninitialised<int>("breaks.id_a", bonds);
+  log.id_b = uninitialised<int>("breaks.id_b", bonds);
+  log.mode = uninitialised<std::int8_t>("breaks.mode", bonds);
+  log.x = uninitialised<Coord>("breaks.x", bonds);
+  log.y = uninitialised<Coord>("breaks.y", bonds);
   return log;
 }
 

@@ -35,7 +35,7 @@ class World : public Communicator {
     MPI_Bcast(bytes, as_count(size), MPI_BYTE, from, MPI_COMM_WORLD);
   }
 
-  std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> const& to) const override {
+  std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> to) const override {
     auto const ranks = static_cast<std::size_t>(count_);
     std::vector<int> sent(ranks), received(ranks);
     for (std::size_t r = 0; r < ranks; ++r) sent[r] = as_count(to[r].size());
@@ -53,7 +53,7 @@ class World : public Communicator {
       if (sent[at] == 0 || r == rank_) continue;
       MPI_Isend(to[at].data(), sent[at], MPI_DOUBLE, r, 1, MPI_COMM_WORLD, &requests.emplace_back());
     }
-    from[static_cast<std::size_t>(rank_)] = to[static_cast<std::size_t>(rank_)];
+    from[static_cast<std::size_t>(rank_)] = std::move(to[static_cast<std::size_t>(rank_)]);
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
     return from;
   }
