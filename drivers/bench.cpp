@@ -1,6 +1,8 @@
 /// `clathra bench`: how fast this machine runs whole time steps.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +23,8 @@ struct BenchOptions {
   bool json = false;
 };
 
-nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simulation, Throughput const& t, double bandwidth) {
+nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simulation, Throughput const& t, double bandwidth,
+                            double arithmetic) {
   double const moved = t.particle_steps_per_s * t.moved_per_step;
   return {{"case", options.what},
           {"discs", simulation.discs()},
@@ -33,6 +36,9 @@ nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simul
           {"bytes_moved_per_disc_and_step", t.moved_per_step},
           {"bandwidth_bytes_per_s", bandwidth},
           {"bandwidth_share", bandwidth > 0 ? moved / bandwidth : 0},
+          {"flops_per_s", t.flops_per_s},
+          {"arithmetic_limit_flops_per_s", arithmetic},
+          {"flop_share", arithmetic > 0 ? t.flops_per_s / arithmetic : 0},
           {"rebuild_share", t.rebuild_share},
           {"steps", t.steps},
           {"rebuilds", t.rebuilds},
@@ -51,22 +57,25 @@ std::string card_text(nlohmann::ordered_json const& c) {
       "memory            {:.0f} bytes a disc\n"
       "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a disc and step at the "
       "least)\n"
+      "arithmetic        {:.3g} % of the {:.3g} GFLOP/s that products and sums reach\n"
       "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
       c.at("discs").dump(), c.at("case").get<std::string>(), c.at("threads").dump(), c.at("lanes").dump(),
       c.at("backend").get<std::string>(), number("particle_steps_per_s") * 1e-6, number("contact_steps_per_s") * 1e-6,
       number("bytes_per_disc"), number("bandwidth_share") * 100, number("bandwidth_bytes_per_s") * 1e-9,
-      number("bytes_moved_per_disc_and_step"), number("rebuild_share") * 100,
-      number("steps") / std::max(1.0, number("rebuilds")));
+      number("bytes_moved_per_disc_and_step"), number("flop_share") * 100, number("arithmetic_limit_flops_per_s") * 1e-9,
+      number("rebuild_share") * 100, number("steps") / std::max(1.0, number("rebuilds")));
 }
 
 ExitCode bench(BenchOptions options) {
   settle_threads(options.threads);
-  options.setup.what = options.what == "bonded" ? ThroughputCase::bonded : ThroughputCase::rolling;
+  auto const named = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), options.what);
+  options.setup.what = static_cast<ThroughputCase>(named - std::begin(throughput_case_names));
   KokkosSession const kokkos;
   Simulation simulation = throughput_simulation(options.setup);
   measure_throughput(simulation, 0.2 * options.seconds);  // caches and clock speed settle
   Throughput const measured = measure_throughput(simulation, options.seconds);
-  nlohmann::ordered_json const result = card(options, simulation, measured, update_bandwidth(simulation.bytes()));
+  nlohmann::ordered_json const result =
+      card(options, simulation, measured, update_bandwidth(simulation.bytes()), arithmetic_rate());
   return print_result(options.json ? result.dump(2) + "\n" : card_text(result));
 }
 
@@ -75,8 +84,9 @@ ExitCode bench(BenchOptions options) {
 void add_bench(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<BenchOptions>();
   CLI::App* const verb = program.add_subcommand("bench", "Measure how fast this machine runs whole time steps");
-  verb->add_option("--case", options->what, "grains with rolling resistance, or bonded with 55 % hydrate")
-      ->check(CLI::IsMember({"rolling", "bonded"}))
+  verb->add_option("--case", options->what,
+                   "grains with rolling resistance, bonded with 55 % hydrate, or sheared until bonds break")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(throughput_case_names), std::end(throughput_case_names))))
       ->capture_default_str();
   verb->add_option("--discs", options->setup.discs, "number of discs, about")
       ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))

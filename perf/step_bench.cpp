@@ -1,11 +1,13 @@
 /// Whole-step throughput on fixed packings: particle-steps per second of Simulation::step() with walls, servo and neighbour
 /// searches.
-///   [mpirun -n RANKS] step_bench [--discs N] [--case rolling|bonded] [--seconds S] [--repeat R] [--skin S]
+///   [mpirun -n RANKS] step_bench [--discs N] [--case rolling|bonded|breaking] [--seconds S] [--repeat R] [--skin S] [--settle
+///   STEPS]
 /// Threads: OMP_NUM_THREADS. Prints one row per repeat, the median, and where the time of one more run went, kernel by kernel.
 /// `clathra bench` gives a user the same numbers.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,11 @@ Options read_options(int argc, char** argv) {
     std::string const name = argv[k], value = argv[k + 1];
     if (name == "--discs")
       options.setup.discs = std::atoll(value.c_str());
-    else if (name == "--case" && (value == "rolling" || value == "bonded"))
-      options.setup.what = value == "bonded" ? ThroughputCase::bonded : ThroughputCase::rolling;
+    else if (auto const at = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), value);
+             name == "--case" && at != std::end(throughput_case_names))
+      options.setup.what = static_cast<ThroughputCase>(at - std::begin(throughput_case_names));
+    else if (name == "--settle")
+      options.setup.settle_steps = std::atoi(value.c_str());
     else if (name == "--seconds")
       options.seconds = std::atof(value.c_str());
     else if (name == "--skin")
@@ -75,16 +80,20 @@ int main(int argc, char** argv) {
   Simulation simulation = throughput_simulation(options.setup, session.ranks());
   std::printf(
       "case,discs,ranks,threads,lanes,particle_steps_per_s,ns_per_particle_step,contact_steps_per_s,steps,rebuilds,rebuild_share,"
-      "bytes_per_disc,entries_per_disc\n");
+      "bytes_per_disc,entries_per_disc,bandwidth_share,flop_share,broken\n");
+  double const bandwidth = update_bandwidth(simulation.bytes()), arithmetic = arithmetic_rate();  // of this rank
   std::vector<double> rates;
   for (int n = 0; n < options.repeat; ++n) {
     Throughput const t = measure_throughput(simulation, options.seconds);
     rates.push_back(t.particle_steps_per_s);
-    std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f\n",
-                options.setup.what == ThroughputCase::bonded ? "bonded" : "rolling", simulation.discs(), session.ranks().count(),
+    int const ranks = session.ranks().count();
+    std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f,%.3f,%.3f,%lld\n",
+                throughput_case_names[static_cast<int>(options.setup.what)], simulation.discs(), ranks,
                 ExecutionSpace::concurrency(), lane_count, rates.back(), 1e9 / rates.back(), t.contact_steps_per_s,
                 static_cast<long long>(t.steps), static_cast<long long>(t.rebuilds), t.rebuild_share, t.bytes_per_disc,
-                static_cast<double>(simulation.contact_entries()) / std::max(simulation.particles().owned, 1));
+                static_cast<double>(simulation.contact_entries()) / std::max(simulation.particles().owned, 1),
+                rates.back() * t.moved_per_step / (bandwidth * ranks), t.flops_per_s / (arithmetic * ranks),
+                static_cast<long long>(t.broken));
   }
   std::sort(rates.begin(), rates.end());
   std::printf("median %.4g particle-steps/s\n", rates[rates.size() / 2]);

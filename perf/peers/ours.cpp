@@ -48,7 +48,7 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
   laws.motion.damping = 0;
   if (what == "bonded") {
     StageRecord record;
-    specimen = bond_specimen(scene, specimen, record);
+    bond_specimen(scene, specimen, record);
     laws.contact.bond_kind = BondKind::parallel;
     laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
   }

@@ -41,6 +41,15 @@ double moved_bytes(Simulation const& simulation) {
   return entries * row + sizeof(Real) * (contact_pass + drift);
 }
 
+/// Double precision operations of the laws, counted in their machine code: a pair in touch or bonded, once from either side, and
+/// the drift of a disc.
+constexpr double flops_of_contact = 61, flops_of_bonded_pair = 142, flops_of_drift = 45;
+
+double flops_per_step(Simulation const& simulation, Measures const& m) {
+  double const pairs = flops_of_bonded_pair * m.bonded + flops_of_contact * (m.mechanical - m.bonded);
+  return 2 * pairs + flops_of_drift * simulation.discs();
+}
+
 constexpr int block = 64 * lane_count;  // numbers that one call updates
 
 struct UpdateBlock {
@@ -53,10 +62,29 @@ struct UpdateBlock {
   }
 };
 
+constexpr int chains = 12;              // independent ones: more than the latency of a product or a sum
+constexpr int links = 20000;            // of a chain
+constexpr int strands_of_a_thread = 4;  // for an even load
+
+/// Chains of products and sums that nothing but the arithmetic units holds up.
+struct Arithmetic {
+  Field<Real> result;
+  KOKKOS_FUNCTION void operator()(int strand) const {
+    Lanes values[chains];
+    for (int c = 0; c < chains; ++c) values[c] = Lanes(1 + 0.001 * c);
+    for (int n = 0; n < links; ++n) {
+      for (int c = 0; c < chains; ++c) values[c] = values[c] * Lanes(0.999) + Lanes(0.001);
+    }
+    Lanes sum(0);
+    for (int c = 0; c < chains; ++c) sum += values[c];
+    result(static_cast<std::size_t>(strand)) = lane(sum, 0);
+  }
+};
+
 }  // namespace
 
 Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& ranks) {
-  bool const bonded = setup.what == ThroughputCase::bonded;
+  bool const bonded = setup.what != ThroughputCase::rolling, breaking = setup.what == ThroughputCase::breaking;
   Scene scene;
   scene.sample.particles = cell_discs;
   scene.sample.void_ratio = 0.23;
@@ -68,8 +96,8 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   laws.motion.damping = scene.run.damping;
   if (bonded) {
     StageRecord record;
-    specimen = by_place(ranks, specimen, ranks.sum(static_cast<std::int64_t>(specimen.size())));
-    specimen = bond_specimen(scene, specimen, record, ranks);
+    specimen = by_place(ranks, std::move(specimen));
+    bond_specimen(scene, specimen, record, ranks);
     laws.contact.bond_kind = BondKind::parallel;
     laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
   }
@@ -77,17 +105,27 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a
   // test.
   prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.dt_safety);
-  for (int n = 0; n < 3000; ++n) simulation.step();
-  prepare_servo(simulation, scene.bond.stress, 1e-4, specimen.d50, scene.run.dt_safety);
+  for (int n = 0; n < setup.settle_steps; ++n) simulation.step();
+  scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
+  prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.dt_safety);
   RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
   simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
   simulation.add_uniform_strain_rate(-0.25 * rate.strain_rate, rate.strain_rate);
+  if (breaking) {
+    // Ten times as fast to where bonds break.
+    constexpr double strain = 0.05, hurry = 10;
+    simulation.loading.y = AxisDrive::at_rate(hurry * rate.strain_rate);
+    auto const steps = static_cast<int>(strain / (hurry * rate.strain_rate * simulation.time_step));
+    for (int n = 0; n < steps; ++n) simulation.step();
+    simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
+  }
   return simulation;
 }
 
 Throughput measure_throughput(Simulation& simulation, double seconds) {
   Throughput result;
   std::int64_t const first = simulation.steps(), first_rebuilds = simulation.rebuilds();
+  int const broken = simulation.broken_bonds();
   double const rebuilding = simulation.rebuild_seconds();
   Kokkos::Timer const clock;
   while (simulation.ranks().max(clock.seconds()) < seconds) {
@@ -99,7 +137,10 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   result.rebuilds = simulation.rebuilds() - first_rebuilds;
   double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
   result.particle_steps_per_s = steps_per_s * simulation.discs();
-  result.contact_steps_per_s = steps_per_s * simulation.measures().mechanical;
+  Measures const m = simulation.measures();
+  result.contact_steps_per_s = steps_per_s * m.mechanical;
+  result.flops_per_s = steps_per_s * flops_per_step(simulation, m);
+  result.broken = simulation.broken_bonds() - broken;
   result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.discs();
   result.moved_per_step = moved_bytes(simulation);
   result.rebuild_share = (simulation.rebuild_seconds() - rebuilding) / result.seconds;
@@ -119,6 +160,20 @@ double update_bandwidth(std::size_t bytes) {
     }
     Kokkos::fence();
     best = std::max(best, passes * moved / clock.seconds());
+  }
+  return best;
+}
+
+double arithmetic_rate() {
+  int const strands = strands_of_a_thread * ExecutionSpace::concurrency();
+  Field<Real> const result("arithmetic", static_cast<std::size_t>(strands));
+  double const operations = 2.0 * links * chains * lane_count * strands;
+  double best = 0;
+  for (int n = 0; n < 5; ++n) {
+    Kokkos::Timer const clock;
+    Kokkos::parallel_for("arithmetic", Kokkos::RangePolicy<ExecutionSpace>(0, strands), Arithmetic{result});
+    Kokkos::fence();
+    best = std::max(best, operations / clock.seconds());
   }
   return best;
 }

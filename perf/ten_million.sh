@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Ten million bonded discs on two ranks: generated, bonded, some 200 steps of shear, a snapshot, a checkpoint in the middle, resumed on two
+# ranks and compared with the run that was left alone.
+#   perf/ten_million.sh [DISCS]        about half an hour on 2 free cores and 16 GiB of memory
+set -euo pipefail
+clathra="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/drivers/clathra"
+discs=${1:-10000000}
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1 OMP_PROC_BIND=false
+folder=$(mktemp -d)
+job=
+trap 'kill $job 2>/dev/null || true; rm -rf "$folder"' EXIT
+cd "$folder"
+# Bonded under the confining stress of the test, and sheared without the consolidation, which would take hours.
+cat >scene.toml <<TOML
+[sample]
+generator = "tiled"
+particles = $discs
+void_ratio = 0.23
+[hydrate]
+saturation = "55 %"
+[bond]
+stress = "1 MPa"
+[test]
+confining_stress = "1 MPa"
+consolidation_steps = 0
+axial_strain = "0.13 %"
+inertial_number = 1e-3
+[output]
+records = 20
+snapshots = 1
+TOML
+# Leaves the sum of the greatest resident memories of the ranks, in MB, in a file: watched FILE COMMAND...
+watched() {
+  local file=$1 peak=0 now
+  shift
+  "$@" &
+  job=$!
+  while kill -0 "$job" 2>/dev/null; do
+    now=$(for rank in $(pgrep -x clathra); do cat "/proc/$rank/status" 2>/dev/null || true; done |
+      awk '$1 == "VmHWM:" { sum += $2 } END { print int(sum / 1000) }')
+    ((now <= peak)) || peak=$now
+    sleep 1
+  done
+  echo "$peak" >"$file"
+  wait "$job" && job= || { local code=$?; job= && return $code; }
+}
+timed() { # timed WHAT COMMAND...: the command with its wall time and memory
+  local what=$1 begin=$SECONDS code=0
+  shift
+  watched memory "$@" >>log 2>&1 || code=$?
+  echo "$what: $((SECONDS - begin)) s, $(cat memory) MB in all ranks, exit code $code"
+  [ "$code" = 0 ] || [ "$code" = 75 ] || { tail -n 5 log && exit 1; }
+}
+
+"$clathra" check scene.toml --ranks 2 | grep -E "memory|disk|steps"
+timed "generated" mpirun -n 2 "$clathra" generate scene.toml -o specimen.h5
+given=(run scene.toml --set sample.generator=file --set sample.file=specimen.h5)
+timed "bonded and sheared, left alone" mpirun -n 2 "$clathra" "${given[@]}" --output alone
+ls -l specimen.h5 alone/*.h5 alone/snap/*.h5 | awk '{ print $9 ": " int($5 / 1e6) " MB" }'
+timed "told to stop at its first checkpoint" mpirun -n 2 "$clathra" "${given[@]}" --output resumed --max-walltime 1s
+timed "resumed" mpirun -n 2 "$clathra" "${given[@]}" --output resumed --resume
+cmp alone/history.csv resumed/history.csv
+cmp alone/events.csv resumed/events.csv
+[ "$("$clathra" info --state-hash alone)" = "$("$clathra" info --state-hash resumed)" ]
+echo "the same history.csv, events.csv and state hash $("$clathra" info --state-hash alone) after $(tail -n 1 alone/history.csv | cut -d, -f1) steps"
