@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +30,18 @@
 #include "threads.hpp"
 
 namespace clathra {
+
+namespace {
+
+/// Gives the system back what earlier stages have freed: an allocator keeps it in pieces that the next stage's arrays do not fit
+/// in.
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
+}  // namespace
 
 class TestRun::Running {
  public:
@@ -126,6 +142,7 @@ class TestRun::Running {
     make_specimen();
     auto test = std::make_unique<BiaxialTest>(scene_, std::move(*specimen_), show_stage(line_, ranks_), ranks_);
     specimen_.reset();
+    return_free_memory();
     return test;
   }
 
@@ -146,6 +163,7 @@ class TestRun::Running {
     }
     record_.stages["shear"] = summary_->numbers();
     record_.state_hash = test->state_hash();
+    return_free_memory();
     write_specimen(folder_ / "final.h5", test->specimen(), ranks_);
   }
 
@@ -218,6 +236,7 @@ class TestRun::Running {
       if (events_) progress.events_bytes = events_->flushed_bytes();
     });
     if (snapshots_) progress.snapshots = snapshots_->entries();
+    return_free_memory();
     checkpoints_->write(scene_, test.state(), last_.step, progress);
     record_.wall_seconds["checkpoints"] += clock.seconds();
     last_checkpoint_ = wall_.seconds();

@@ -5,8 +5,7 @@
 set -euo pipefail
 clathra="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/drivers/clathra"
 discs=${1:-200000} kills=${2:-10}
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1 OMP_PROC_BIND=false
+source "$(dirname "${BASH_SOURCE[0]}")/ranks_environment.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"

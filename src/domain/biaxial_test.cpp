@@ -1,7 +1,3 @@
-#if __has_include(<malloc.h>)
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -60,13 +56,6 @@ std::vector<BreakEvent> gathered(Ranks const& ranks, std::vector<BreakEvent> eve
 
 double height_of(Simulation const& s) { return s.walls().height(); }
 
-/// Gives the system back what stages have freed: an allocator keeps it in pieces that the next stage's arrays do not fit in.
-void return_free_memory() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-}
-
 }  // namespace
 
 /// Everything a running test knows.
@@ -104,7 +93,6 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
   auto const start_simulation = [&] {
     SimulationLaws const laws = test_laws(scene, specimen.critical_thickness);
     simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin(), ranks);
-    return_free_memory();
   };
   start_simulation();
   preparation["void_ratio_before_consolidation"] = simulation->void_ratio();
@@ -215,7 +203,6 @@ std::int64_t BiaxialTest::disc_steps() const {
 std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->hash(); }
 
 Specimen BiaxialTest::specimen() const {
-  return_free_memory();
   Specimen specimen = state_->simulation->specimen();
   specimen.stress = state_->scene.test.confining_stress;
   return specimen;
@@ -335,7 +322,6 @@ void BiaxialTest::State::for_each_number(Visit&& visit) {
 }
 
 TestState BiaxialTest::state() const {
-  return_free_memory();
   State& t = *state_;
   TestState s;
   s.simulation = t.simulation->state();

@@ -106,14 +106,24 @@ struct Search {
   }
 };
 
+/// What a count has found, so that filling the rows need not search again: neighbours of a disc that has no more than `most`.
+struct Found {
+  static constexpr int most = 12;
+  Kokkos::View<int**, MemorySpace> neighbour;  // [discs][most] twice the index, plus one in touch
+};
+
 struct CountNeighbours {
   Search search;
+  Found found;
   Field<int> length;
   Faults faults;
   KOKKOS_FUNCTION void operator()(int i) const {
     int count = 0;
     OldRow before(search.old, search.slot, i);
-    search.for_each_neighbour(i, before, [&](int, bool) { ++count; });
+    search.for_each_neighbour(i, before, [&](int j, bool in_touch) {
+      if (count < Found::most) found.neighbour(i, count) = 2 * j + (in_touch ? 1 : 0);
+      ++count;
+    });
     if (count > longest_row) {
       faults.report(Fault::row_overflow, search.p.id(i));
       count = longest_row;
@@ -140,6 +150,7 @@ struct ScanSlices {
 /// Fills the row of one disc: entries in touch or bonded first, each part by id.
 struct FillRows {
   Search search;
+  Found found;
   ContactRows rows;
   Field<int> source;  // [entries] the old entry with the history of each new one, -1 for none
 
@@ -160,7 +171,7 @@ struct FillRows {
     std::int64_t key[longest_row];
     int count = 0;
     OldRow before(search.old, search.slot, i);
-    search.for_each_neighbour(i, before, [&](int j, bool in_touch) {
+    auto const insert = [&](int j, bool in_touch) {
       if (count == longest_row) return;
       int const id = search.p.id(j);
       std::int64_t const rank = (in_touch || before.was_bonded(id) ? std::int64_t(0) : std::int64_t(1) << 32) + id;
@@ -171,7 +182,12 @@ struct FillRows {
       }
       key[at] = rank;
       disc[at] = j;
-    });
+    };
+    if (rows.length(i) <= Found::most) {
+      for (int k = 0; k < rows.length(i); ++k) insert(found.neighbour(i, k) / 2, found.neighbour(i, k) % 2 == 1);
+    } else {
+      search.for_each_neighbour(i, before, insert);
+    }
     for (int k = 0; k < count; ++k) {
       std::size_t const e = rows.entry(i, k);
       rows.neighbour(e) = disc[k];
@@ -299,11 +315,13 @@ void find_neighbours(ParticleSoA const& particles, Real skin, OldRows const& old
   Real const bonded_reach = lane_max(skin, bonded_gap * (1 + 1e-9));
   Real const cell = 2 * largest_radius(particles, particles.all()) + bonded_reach;
   Search const search{particles, bin_particles(particles, particles.all(), cell), skin, bonded_reach, old, slot};
+  Found near;
+  near.neighbour = Kokkos::View<int**, MemorySpace>(Kokkos::view_alloc("found", Kokkos::WithoutInitializing), owned, Found::most);
   ContactRows found;
   found.length = uninitialised<int>("rows.length", owned);
   found.slice_start = uninitialised<int>("rows.slice_start", slices + 1);
   Kokkos::parallel_for("count_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                       CountNeighbours{search, found.length, faults});
+                       CountNeighbours{search, near, found.length, faults});
   int total = 0;
   Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices)),
                         ScanSlices{found.length, found.slice_start, particles.owned}, total);
@@ -314,7 +332,8 @@ void find_neighbours(ParticleSoA const& particles, Real skin, OldRows const& old
   found.neighbour = uninitialised<int>("rows.neighbour", size);
   Field<int> const source = uninitialised<int>("rows.source", size);
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
-                       FillRows{search, found, source});
+                       FillRows{search, near, found, source});
+  near = Found();
   carry_history(old, found, source, entries);
   rows = found;
 }
