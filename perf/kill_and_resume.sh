@@ -3,31 +3,16 @@
 # against one that is left alone on 2 ranks: same history, events and state?
 #   perf/kill_and_resume.sh [DISCS [KILLS]]        about ten minutes on 2 free cores
 set -euo pipefail
-clathra="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/drivers/clathra"
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+clathra="$root/build/release/drivers/clathra" scene=("$root/perf/tiled_bonded.toml")
 discs=${1:-200000} kills=${2:-10}
-source "$(dirname "${BASH_SOURCE[0]}")/ranks_environment.sh"
+source "$root/perf/ranks_environment.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-cat >scene.toml <<TOML
-[sample]
-generator = "tiled"
-particles = $discs
-tile_particles = 5000
-void_ratio = 0.23
-[hydrate]
-saturation = "55 %"
-[bond]
-stress = "1 MPa"
-[test]
-axial_strain = "3 %"
-inertial_number = 1e-3
-[output]
-records = 100
-snapshots = 2
-TOML
-mpirun -n 2 "$clathra" generate scene.toml -o specimen.h5 2>log >/dev/null
-given=(run scene.toml --set sample.generator=file --set sample.file=specimen.h5)
+for key in sample.particles=$discs sample.tile_particles=5000 test.axial_strain=0.03 output.records=100 output.snapshots=2; do scene+=(--set "$key"); done
+mpirun -n 2 "$clathra" generate "${scene[@]}" -o specimen.h5 2>log >/dev/null
+given=(run "${scene[@]}" --set sample.generator=file --set sample.file=specimen.h5)
 begin=$SECONDS
 mpirun -n 2 "$clathra" "${given[@]}" --output alone >log 2>&1
 echo "left alone on 2 ranks: $((SECONDS - begin)) s, $(tail -n 1 alone/history.csv | cut -d, -f15-18 | tr , +) = $(($(wc -l <alone/events.csv) - 1)) bonds broken"

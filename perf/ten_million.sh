@@ -3,32 +3,16 @@
 # ranks and compared with the run that was left alone.
 #   perf/ten_million.sh [DISCS]        about half an hour on 2 free cores and 16 GiB of memory
 set -euo pipefail
-clathra="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/drivers/clathra"
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+clathra="$root/build/release/drivers/clathra" scene=("$root/perf/tiled_bonded.toml")
 discs=${1:-10000000}
-source "$(dirname "${BASH_SOURCE[0]}")/ranks_environment.sh"
+source "$root/perf/ranks_environment.sh"
 folder=$(mktemp -d)
 job=
 trap 'kill $job 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
 # Bonded under the confining stress of the test, and sheared without the consolidation, which would take hours.
-cat >scene.toml <<TOML
-[sample]
-generator = "tiled"
-particles = $discs
-void_ratio = 0.23
-[hydrate]
-saturation = "55 %"
-[bond]
-stress = "1 MPa"
-[test]
-confining_stress = "1 MPa"
-consolidation_steps = 0
-axial_strain = "0.13 %"
-inertial_number = 1e-3
-[output]
-records = 20
-snapshots = 1
-TOML
+for key in sample.particles=$discs test.consolidation_steps=0 test.axial_strain=0.0013 output.records=20 output.snapshots=1; do scene+=(--set "$key"); done
 # Leaves the sum of the greatest resident memories of the ranks, in MB, in a file: watched FILE COMMAND...
 watched() {
   local file=$1 peak=0 now
@@ -52,9 +36,9 @@ timed() { # timed WHAT COMMAND...: the command with its wall time and memory
   [ "$code" = 0 ] || [ "$code" = 75 ] || { tail -n 5 log && exit 1; }
 }
 
-"$clathra" check scene.toml --ranks 2 | grep -E "memory|disk|steps"
-timed "generated" mpirun -n 2 "$clathra" generate scene.toml -o specimen.h5
-given=(run scene.toml --set sample.generator=file --set sample.file=specimen.h5)
+"$clathra" check "${scene[@]}" --ranks 2 | grep -E "memory|disk|steps"
+timed "generated" mpirun -n 2 "$clathra" generate "${scene[@]}" -o specimen.h5
+given=(run "${scene[@]}" --set sample.generator=file --set sample.file=specimen.h5)
 timed "bonded and sheared, left alone" mpirun -n 2 "$clathra" "${given[@]}" --output alone
 ls -l specimen.h5 alone/*.h5 alone/snap/*.h5 | awk '{ print $9 ": " int($5 / 1e6) " MB" }'
 timed "told to stop at its first checkpoint" mpirun -n 2 "$clathra" "${given[@]}" --output resumed --max-walltime 1s

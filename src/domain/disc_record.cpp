@@ -22,12 +22,6 @@ auto on_host_view(Vector& numbers) {
   return Kokkos::View<Number*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(numbers.data(), numbers.size());
 }
 
-/// The same where kernels reach it: that itself, or a copy on the device.
-template <class Vector>
-auto reachable(Vector& numbers) {
-  return Kokkos::create_mirror_view_and_copy(ExecutionSpace::memory_space(), on_host_view(numbers));
-}
-
 template <class Numbers>
 struct Pack {
   Field<int> which, id;
@@ -123,12 +117,13 @@ DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companion
     records.begin.push_back(records.begin.back() + static_cast<std::size_t>(2 + discs.count + entries * (1 + history.count)));
   }
   records.numbers.resize(records.begin.back());
-  auto const numbers = reachable(records.numbers);
+  auto const home = on_host_view(records.numbers);
+  auto const numbers = Kokkos::create_mirror_view(ExecutionSpace::memory_space(), home);  // itself where kernels reach the host
   Kokkos::parallel_for("pack_discs", each,
                        Pack<decltype(numbers)>{indices, particles.id, discs, rows, history,
                                                on_device("record_offsets", signed_offsets(records.begin)), numbers});
   Kokkos::fence();
-  if (numbers.data() != records.numbers.data()) Kokkos::deep_copy(on_host_view(records.numbers), numbers);
+  Kokkos::deep_copy(home, numbers);
   return records;
 }
 
@@ -163,7 +158,7 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   rows.length = uninitialised<int>("rows.length", begin.size());
   rows.neighbour = uninitialised<int>("rows.neighbour", static_cast<std::size_t>(slice_start.back()) * lane_count);
   allocate_history(rows, rows.neighbour.extent(0));
-  auto const reached = reachable(numbers);
+  auto const reached = Kokkos::create_mirror_view_and_copy(ExecutionSpace::memory_space(), on_host_view(numbers));
   Kokkos::parallel_for("unpack_discs", Kokkos::RangePolicy<ExecutionSpace>(0, came),
                        Unpack<decltype(reached)>{reached, on_device("record_offsets", begin), first, particles.id,
                                                  DiscColumns(particles, companions), rows, RowColumns(rows)});

@@ -37,9 +37,9 @@ GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& 
 /// @param specimen  this rank's share as Simulation::specimen() or by_place() give it; gains the bonds
 void bond_specimen(Scene const& scene, Specimen& specimen, StageRecord& record, Ranks const& ranks = {});
 
-/// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).
 struct TestState;
 
+/// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).
 class BiaxialTest {
  public:
   /// Bonds and consolidates. @throws Refused, Diverged, Stopped
@@ -85,7 +85,8 @@ struct TestState {
 };
 
 /// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,
-/// wave_number, memory_bytes, disk_bytes, disc_steps.
+/// wave_number, memory_bytes (of all ranks at their peak), disk_bytes, disc_steps.
+/// @param ranks  that will share it
 StageRecord predict(Scene const& scene, int ranks = 1);
 
 }  // namespace clathra

@@ -5,7 +5,7 @@
 
 namespace clathra {
 
-/// The order of a file (of one rank alone too): discs to the rank that keeps their block of ids, contacts to that of their
+/// The order of a file: discs to the rank that keeps their block of ids, contacts to that of their
 /// smaller id, both sorted by id.
 Specimen by_id_blocks(Ranks const& ranks, Specimen share);
 

@@ -238,6 +238,8 @@ Hdf5File::OpenColumn Hdf5File::open_column(std::string const& name, std::size_t 
   return {std::move(column), std::move(space), shape[0]};
 }
 
+std::size_t Hdf5File::rows_of(std::string const& name) const { return open_column(name, any_size, 1).rows; }
+
 template <class T>
 std::vector<T> Hdf5File::read(std::string const& name, std::size_t size, std::size_t width) const {
   OpenColumn const open = open_column(name, size, width);

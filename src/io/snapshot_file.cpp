@@ -153,7 +153,7 @@ void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
 }
 
 void read_events(Hdf5File const& file, Snapshot& s) {
-  std::size_t const count = file.read<double>("events/step", Hdf5File::any_size).size();
+  std::size_t const count = file.rows_of("events/step");
   s.events = read_event_columns(file, {count, 0, count});
   std::vector<double> const position = file.read<double>("events/position", count, 2);
   for (std::size_t k = 0; k < count; ++k) {
