@@ -187,6 +187,7 @@ class TestRun::Running {
     open_files(test);
     Speedometer const clock(test.strain_fraction());
     std::int64_t const steps_before = test.disc_steps();
+    double const searching_before = test.search_seconds();
     if (!resumed_) write_all(test);
     // What took long to prepare is kept at once.
     if (!resumed_ && endurance_.checkpoint_every > 0 && ranks_.any(preparing_seconds > 0.05 * endurance_.checkpoint_every))
@@ -195,6 +196,7 @@ class TestRun::Running {
       if (test.advance(pace_)) write_all(test);
       record_.disc_steps = test.disc_steps() - steps_before;
       record_.wall_seconds["shear"] = clock.seconds();
+      record_.wall_seconds["neighbour_searches"] = test.search_seconds() - searching_before;
       record_.disc_steps_per_second = static_cast<double>(record_.disc_steps) / clock.seconds();
       show(test, clock.text(test.strain_fraction(), record_.disc_steps));
       attend(test);

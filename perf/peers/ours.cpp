@@ -23,7 +23,7 @@ namespace {
 
 using namespace clathra;
 
-double const skin_in_d50 = ThroughputSetup().skin;
+double const skin_in_d50 = chosen_skin;
 
 Specimen read_at_rest(char const* path) {
   Specimen specimen = read_specimen(path);

@@ -15,8 +15,6 @@ namespace clathra {
 
 namespace {
 
-constexpr double skin_in_d50 =
-    0.1;  // 0.03, 0.05, 0.1, 0.15 gave 11, 16, 19, 16 M disc-steps/s (step_bench, bonded, 20,000 discs)
 constexpr double elastic_lateral_ratio = 0.25;  // lateral expansion per axial compression at the start: the servo's first guess
 
 BondKind bond_kind(Scene const& scene) {
@@ -76,7 +74,7 @@ struct BiaxialTest::State {
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   void consolidate(double stress, ProgressCallback const& progress);
   void begin_shear();
-  double skin() const { return scene.run.skin > 0 ? scene.run.skin : skin_in_d50 * d50; }
+  double skin() const { return scene.run.skin > 0 ? scene.run.skin : chosen_skin * d50; }
   template <class Visit>
   void for_each_number(Visit&& visit);
   void count_disc_steps() { disc_steps += simulation->steps() * simulation->discs(); }
@@ -200,6 +198,7 @@ double BiaxialTest::strain_fraction() const {
 std::int64_t BiaxialTest::disc_steps() const {
   return state_->disc_steps + state_->simulation->steps() * state_->simulation->discs();
 }
+double BiaxialTest::search_seconds() const { return state_->simulation->rebuild_seconds(); }
 std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->hash(); }
 
 Specimen BiaxialTest::specimen() const {

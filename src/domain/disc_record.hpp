@@ -16,7 +16,7 @@ using Companions = std::vector<Companion>;
 
 /// The fields of a disc as columns of numbers: those of ParticleSoA but the id, and the companions.
 struct DiscColumns {
-  static constexpr int most = 25;  // 9 of the state, 5 accounts, 2 of the start, 4 of rough walls, 5 derived ones
+  static constexpr int most = 26;  // 9 of the state, 5 accounts, 2 of the start, 4 of rough walls, 6 derived ones
   int count = 0;
   Field<Real> column[most];
   DiscColumns(ParticleSoA const& particles, Companions const& companions);

@@ -64,6 +64,7 @@ class BiaxialTest {
   double strain_fraction() const;         ///< eps_1 / target
   std::vector<BreakEvent> events_after(std::int64_t step) const;  ///< those already taken that came later; on rank 0 only
   std::int64_t disc_steps() const;
+  double search_seconds() const;  ///< wall time of the neighbour searches since the bonds were installed, or since resuming
   std::uint64_t state_hash() const;
   Specimen specimen() const;  ///< the present state, to go on from
   Snapshot snapshot() const;  ///< the present state, to look at, without events; only with scene.output.snapshots

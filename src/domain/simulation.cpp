@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "domain/migration.hpp"
+#include "kernels/leeway.hpp"
 #include "kernels/stability.hpp"
 
 namespace clathra {
@@ -19,10 +20,10 @@ Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
 void Simulation::step() {
   loading.move(walls_, time_step);
   Kokkos::Timer const moving;
-  Real const farthest2 = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
+  Real const strayed2 = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
   busy_seconds_ += moving.seconds();
   if (periodic()) stretch_homogeneously();
-  if (rebuild_pending_ || outdated(ranks_.max(farthest2))) {
+  if (rebuild_pending_ || outdated(ranks_.max(strayed2))) {
     rebuild();
   } else if (periodic()) {
     images_.refresh(particles_, cell_);
@@ -60,13 +61,15 @@ void Simulation::rebuild() {
   }
   Field<int> const order = sort_in_space(particles_, old, slot, skin_);
   for (Companion const& with : with_discs) *with.field = permuted(*with.field, order, particles_.x.extent(0));
-  reach_ = 2 * largest_radius_ + std::max(skin_, bonded_gap);
+  Real const widest_leeway = ranks_.max(give_leeway(particles_, frame(), skin_ / 2, sum_));
+  reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);
   if (periodic()) images_.rebuild(particles_, cell_, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
-  find_neighbours(particles_, skin_, old, slot, rows_, faults_, bonded_gap);
+  refresh_ghosts(particles_.leeway);
+  find_neighbours(particles_, widest_leeway, old, slot, rows_, faults_, bonded_gap);
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
-  if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_shear);
+  if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
   mark_reference(particles_);
   reference_walls_ = walls_;
   reference_cell_ = cell_;
@@ -129,12 +132,12 @@ AffineFrame Simulation::frame() const {
   return f;
 }
 
-/// Whether two discs that are not in each other's rows could touch: twice the farthest disc's way off the homogeneous motion,
-/// plus what the homogeneous motion itself brings two discs nearer.
-bool Simulation::outdated(Real farthest2) const {
+/// Whether two discs that are not in each other's rows could touch: the greatest share of its leeway that a disc has strayed off
+/// the homogeneous motion, plus what the homogeneous motion itself brings two discs nearer, as a share of the least leeway.
+bool Simulation::outdated(Real strayed2) const {
   AffineFrame const f = frame();
   Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
-  return 2 * std::sqrt(farthest2) + closing * (2 * largest_radius_ + skin_) >= skin_;
+  return std::sqrt(strayed2) + closing * (2 * largest_radius_ / skin_ + 1) >= 1;
 }
 
 void Simulation::account_boundary_work(WallReactions const& before) {

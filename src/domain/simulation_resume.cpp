@@ -32,6 +32,16 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
   visit(name + "_largest_speed", drive.largest_speed);
 }
 
+/// The numbers of a record between its id and the length of its row.
+std::vector<std::string> names_of(ParticleSoA const& particles, Companions const& companions) {
+  std::vector<std::string> names;
+  for_each_field(particles, [&](std::string const& name, auto const& field) {
+    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) names.push_back(name);
+  });
+  for (Companion const& companion : companions) names.push_back(companion.name);
+  return names;
+}
+
 }  // namespace
 
 /// Visits every number of the whole: (name, double, integer, bool or enumeration).
@@ -75,7 +85,8 @@ Companions Simulation::companions_of_state(WallShear& wall_shear) {
                          {"force_y", &particles_.force_y},
                          {"torque", &particles_.torque},
                          {"reference_x", &particles_.reference_x},
-                         {"reference_y", &particles_.reference_y}});
+                         {"reference_y", &particles_.reference_y},
+                         {"leeway", &particles_.leeway}});
   return all;
 }
 
@@ -94,10 +105,7 @@ SimulationState Simulation::state() {
   std::vector<int> all(static_cast<std::size_t>(particles_.owned));
   std::iota(all.begin(), all.end(), 0);
   s.discs = pack_discs(particles_, with_discs, named, all);
-  for_each_field(particles_, [&](std::string const& name, auto const& field) {
-    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) s.disc_columns.push_back(name);
-  });
-  for (Companion const& companion : with_discs) s.disc_columns.push_back(companion.name);
+  s.disc_columns = names_of(particles_, with_discs);
   for_each_history(rows_, [&](char const* name, Field<Real> const&, Real) { s.history_columns.push_back(name); });
   collect_breaks();
   s.broken = broken_;
@@ -114,14 +122,19 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   if (state.numbers.at("marked_start") != 0) mark_start();
   wall_contacts_.rough = laws_.wall.friction > 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  Companions const with_discs = companions_of_state(wall_shear);
+  Companions with_discs = companions_of_state(wall_shear);
+  bool const one_leeway = state.disc_columns != names_of(particles_, with_discs);
+  if (one_leeway) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
+  if (state.disc_columns != names_of(particles_, with_discs))
+    throw std::runtime_error("a checkpoint holds other numbers of its discs than this program asks for");
   rows_ = unpack_discs(brought_home(std::move(state.discs)), laws_.features(), particles_, with_discs);
-  // Discs have moved since the rows were listed: neighbours may be a skin farther than the search reached.
-  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * skin_);
+  if (one_leeway) Kokkos::deep_copy(particles_.leeway, skin_ / 2);
+  // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their leeways.
+  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * (reach_ - 2 * largest_radius_));
   find_listed_neighbours();
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
-  wall_contacts_ = find_wall_contacts(particles_, walls_, skin_, laws_.wall.friction > 0, wall_shear);
+  wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
   broken_ = std::move(state.broken);
 }
 

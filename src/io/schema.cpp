@@ -91,7 +91,7 @@ Key const table[] = {
   {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
   {"run.dt_safety", quantity, CLATHRA_FIELD(run, dt_safety), "time step over its stable limit", ratio, 0.001, 1},
   {"run.damping", quantity, CLATHRA_FIELD(run, damping), "local damping while the specimen is sheared", ratio, 0, 0.95},
-  {"run.skin", quantity, CLATHRA_FIELD(run, skin), "distance beyond touching at which neighbours are listed", length, 1e-9, 1, "chosen"},
+  {"run.skin", quantity, CLATHRA_FIELD(run, skin), "distance beyond touching at which neighbours are listed; up to five times that for discs that fly", length, 1e-9, 1, "chosen"},
   {"run.force", boolean, CLATHRA_FIELD(run, force), "go on where a guard refuses; noted in run.json"},
 
   {"output.folder", text, CLATHRA_FIELD(output, folder), "folder of the results"},

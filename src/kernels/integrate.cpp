@@ -32,11 +32,9 @@ struct KickAndDrift {
     Lanes lost(0);
     Lanes const fx = load(&p.force_x(i)), fy = load(&p.force_y(i));
     Lanes const x0 = load(&p.x(i)), y0 = load(&p.y(i));
-    Lanes const frame_vx = frame.gradient_x * (x0 - frame.centre_x) + frame.drift_x;
-    Lanes const frame_vy = frame.gradient_y * (y0 - frame.centre_y) + frame.drift_y;
-    Lanes const vx = kicked<Ledger>(load(&p.vx(i)), frame_vx, fx, inverse_mass, law.damping, dt, lost) +
+    Lanes const vx = kicked<Ledger>(load(&p.vx(i)), frame.velocity_x(x0), fx, inverse_mass, law.damping, dt, lost) +
                      select(free, Lanes(law.gravity_x * dt), Lanes(0));
-    Lanes const vy = kicked<Ledger>(load(&p.vy(i)), frame_vy, fy, inverse_mass, law.damping, dt, lost) +
+    Lanes const vy = kicked<Ledger>(load(&p.vy(i)), frame.velocity_y(y0), fy, inverse_mass, law.damping, dt, lost) +
                      select(free, Lanes(law.gravity_y * dt), Lanes(0));
     Lanes const omega =
         kicked<Ledger>(load(&p.omega(i)), Lanes(0), load(&p.torque(i)), load(&p.inverse_inertia(i)), law.damping, dt, lost);
@@ -54,7 +52,8 @@ struct KickAndDrift {
     Lanes moved = select(free, dx * dx + dy * dy + lane_abs(omega) * Lanes(0), Lanes(0));
     for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(moved, l, 0);  // ghosts share the last slice
     if (any(!(moved < Lanes(1e10)))) report(i, moved);
-    farthest = lane_max(farthest, largest(moved));
+    Lanes const leeway = load(&p.leeway(i));
+    farthest = lane_max(farthest, largest(select(moved > Lanes(0), moved / (leeway * leeway), Lanes(0))));
   }
 
   KOKKOS_FUNCTION void report(std::size_t i, Lanes const& moved) const {

@@ -22,12 +22,22 @@ struct AffineFrame {
   Real stretch_x = 1, stretch_y = 1;
   Real gradient_x = 0, gradient_y = 0;  ///< d v_x / d x and d v_y / d y [1/s]
   Real drift_x = 0, drift_y = 0;        ///< velocity of the centre [m/s]
+
+  /// Velocity of the homogeneous motion at a place [m/s].
+  template <class L>
+  KOKKOS_INLINE_FUNCTION L velocity_x(L const& x) const {
+    return gradient_x * (x - centre_x) + drift_x;
+  }
+  template <class L>
+  KOKKOS_INLINE_FUNCTION L velocity_y(L const& y) const {
+    return gradient_y * (y - centre_y) + drift_y;
+  }
 };
 
 /// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
 /// position.
 /// @param losses  the damping account is written when its field exists
-/// @return the largest squared distance [m^2] of a disc from where the affine frame of this step puts it
+/// @return the largest (d / leeway)^2 of a disc, d its distance from where the affine frame of this step puts it
 Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
                Faults const& faults);
 

@@ -71,11 +71,32 @@ class OldRow {
   int id_[longest_row];
 };
 
+/// Discs in the order of the grid's cells, so that candidates lie side by side.
+struct Candidates {
+  Field<Real> x, y, radius, leeway;  // [discs + lane_count]
+  CellGrid grid;
+  ParticleSoA p;
+
+  Candidates(ParticleSoA const& particles, CellGrid const& cells) : grid(cells), p(particles) {
+    std::size_t const size = cells.disc.extent(0) + lane_count;
+    for (Field<Real>* field : {&x, &y, &radius, &leeway}) *field = uninitialised<Real>("candidates", size);
+    Kokkos::parallel_for("line_up", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(size)), *this);
+  }
+  KOKKOS_FUNCTION void operator()(int k) const {
+    int const disc = k < static_cast<int>(grid.disc.extent(0)) ? grid.disc(k) : p.padding();
+    x(k) = p.x(disc);
+    y(k) = p.y(disc);
+    radius(k) = p.radius(disc);
+    leeway(k) = p.leeway(disc);
+  }
+};
+
 /// What one search needs to know about the old rows and the grid.
 struct Search {
   ParticleSoA p;
   CellGrid grid;
-  Real skin, bonded_reach;
+  Candidates candidates;
+  Real bonded_reach;  // beyond touching, of any bond [m]
   OldRows old;
   Field<int> slot;
 
@@ -91,17 +112,18 @@ struct Search {
   }
 
  private:
-  /// The candidates `grid.disc(k .. k + lane_count)`, tested side by side.
+  /// The candidates k .. k + lane_count, those before `end`, tested side by side.
   template <class Visit>
   KOKKOS_INLINE_FUNCTION void visit_near(int i, int k, int end, OldRow& before, Visit const& visit) const {
-    int j[lane_count];
-    for (int l = 0; l < lane_count; ++l) j[l] = k + l < end ? grid.disc(k + l) : i;
-    Lanes const dx = gather(p.x.data(), j) - p.x(i), dy = gather(p.y.data(), j) - p.y(i);
-    Lanes const sum = gather(p.radius.data(), j) + p.radius(i), far = sum + bonded_reach, distance2 = dx * dx + dy * dy;
-    for_each_set(distance2 < far * far, [&](int l) {
-      if (j[l] == i) return;
-      Real const touch = lane(sum, l), reach = touch + skin, apart2 = lane(distance2, l);
-      if (apart2 < reach * reach || before.was_bonded(p.id(j[l]))) visit(j[l], apart2 < touch * touch);
+    Lanes const dx = load(&candidates.x(k)) - p.x(i), dy = load(&candidates.y(k)) - p.y(i);
+    Lanes const touch = load(&candidates.radius(k)) + p.radius(i), distance2 = dx * dx + dy * dy;
+    Lanes const reach = touch + (load(&candidates.leeway(k)) + p.leeway(i)), bonded = touch + bonded_reach;
+    auto const near = distance2 < reach * reach, in_touch = distance2 < touch * touch;
+    for_each_set(near || distance2 < bonded * bonded, [&](int l) {
+      if (k + l >= end) return;
+      int const j = grid.disc(k + l);
+      if (j == i) return;
+      if (lane(near, l) || before.was_bonded(p.id(j))) visit(j, lane(in_touch, l));
     });
   }
 };
@@ -308,13 +330,14 @@ Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   return lane_max(widest, Real(0));
 }
 
-void find_neighbours(ParticleSoA const& particles, Real skin, OldRows const& old, Field<int> const& slot, ContactRows& rows,
-                     Faults const& faults, Real bonded_gap) {
+void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
+                     ContactRows& rows, Faults const& faults, Real bonded_gap) {
   auto const owned = static_cast<std::size_t>(particles.owned);
   auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
-  Real const bonded_reach = lane_max(skin, bonded_gap * (1 + 1e-9));
-  Real const cell = 2 * largest_radius(particles, particles.all()) + bonded_reach;
-  Search const search{particles, bin_particles(particles, particles.all(), cell), skin, bonded_reach, old, slot};
+  Real const bonded_reach = bonded_gap * (1 + 1e-9);
+  Real const cell = 2 * largest_radius(particles, particles.all()) + lane_max(2 * widest_leeway, bonded_reach);
+  CellGrid const grid = bin_particles(particles, particles.all(), cell);
+  Search const search{particles, grid, Candidates(particles, grid), bonded_reach, old, slot};
   Found near;
   near.neighbour = Kokkos::View<int**, MemorySpace>(Kokkos::view_alloc("found", Kokkos::WithoutInitializing), owned, Found::most);
   ContactRows found;

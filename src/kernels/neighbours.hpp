@@ -46,13 +46,14 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old);
 /// @return [owned] the place that each disc had before
 Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin);
 
-/// Makes rows of all pairs closer than `skin` [m] (surface to surface), plus all bonded pairs at any distance. History is kept by
-/// the pair's ids.
+/// Makes rows of all pairs closer than the sum of their leeways (surface to surface), plus all bonded pairs at any distance.
+/// History is kept by the pair's ids.
+/// @param widest_leeway  of all ranks [m]
 /// @param slot  [owned] where the old row of each disc is
 /// @param bonded_gap  widest_bonded_gap() before the search, of all ranks [m]
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
-void find_neighbours(ParticleSoA const& particles, Real skin, OldRows const& old, Field<int> const& slot, ContactRows& rows,
-                     Faults const& faults, Real bonded_gap);
+void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
+                     ContactRows& rows, Faults const& faults, Real bonded_gap);
 
 /// Bytes that a search needs beside the rows themselves.
 std::size_t search_bytes(ContactRows const& rows);

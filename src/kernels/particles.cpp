@@ -17,6 +17,7 @@ void for_each_derived_field(ParticleSoA& p, Visit&& visit) {
   visit("torque", p.torque);
   visit("reference_x", p.reference_x);
   visit("reference_y", p.reference_y);
+  visit("leeway", p.leeway);
 }
 
 template <class T>
@@ -35,6 +36,7 @@ struct FillPadding {
     p.x(i) = p.y(i) = p.reference_x(i) = p.reference_y(i) = 1e10;
     p.angle(i) = p.vx(i) = p.vy(i) = p.omega(i) = p.radius(i) = p.inverse_mass(i) = p.inverse_inertia(i) = 0;
     p.force_x(i) = p.force_y(i) = p.torque(i) = 0;
+    p.leeway(i) = 1;
   }
 };
 

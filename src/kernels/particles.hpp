@@ -22,6 +22,7 @@ struct ParticleSoA {
   Field<Real> force_x, force_y;           ///< [N/m]
   Field<Real> torque;                     ///< [N m/m]
   Field<Coord> reference_x, reference_y;  ///< centre at the last neighbour search [m]
+  Field<Real> leeway;                     ///< how far from there, beside the homogeneous motion, until the next one [m]
 
   int all() const { return owned + ghosts; }
   /// The index of a padding disc.

@@ -68,17 +68,16 @@ struct WallForces {
   }
 };
 
-/// Lists the discs within the skin of a wall.
+/// Lists the discs within twice their leeway of a wall.
 struct FindNearWalls {
   ParticleSoA p;
   Walls walls;
-  Real skin;
   Field<int> disc;
   KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
     Real nearest = -1e300;
     for (int wall = 0; wall < wall_count; ++wall)
       nearest = lane_max(nearest, wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i)));
-    if (nearest < -skin) return;
+    if (nearest < -2 * p.leeway(i)) return;
     if (final) disc(slot) = i;
     ++slot;
   }
@@ -110,12 +109,11 @@ WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& 
   return shear;
 }
 
-WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction,
-                                WallShear const& shear) {
+WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, bool friction, WallShear const& shear) {
   WallContacts found;
   Field<int> const candidates = uninitialised<int>("wall_candidates", static_cast<std::size_t>(particles.owned));
   Kokkos::parallel_scan("find_near_walls", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                        FindNearWalls{particles, walls, skin, candidates}, found.size);
+                        FindNearWalls{particles, walls, candidates}, found.size);
   found.disc = candidates;
   found.rough = friction;
   if (friction) {

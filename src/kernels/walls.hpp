@@ -46,9 +46,8 @@ struct WallShear {
 };
 WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts);
 
-/// Finds the discs whose surface is within `skin` [m] of a wall; those of a rough wall have the shear history `shear`.
-WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, Real skin, bool friction,
-                                WallShear const& shear);
+/// Finds the discs whose surface is within twice their leeway of a wall; those of a rough wall have the shear history `shear`.
+WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, bool friction, WallShear const& shear);
 
 /// Adds the wall forces to the discs near the walls and returns the reactions of all ranks. A wall is a disc of infinite radius
 /// without rolling. A disc more than half a radius deep in a wall is a fault.

@@ -1,0 +1,137 @@
+/// How far discs may stray before neighbours are searched again.
+#include "kernels/leeway.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double h = 0.05 * grain_d50;
+
+/// A hundred discs far from each other, of which two move.
+Specimen two_of_a_hundred_fly(double slow, double fast) {
+  Specimen s = open_space();
+  for (int n = 0; n < 100; ++n) add_disc(s, 0.01 * n, 0.02 * n);
+  s.vx[10] = slow;
+  s.vy[20] = fast;
+  return s;
+}
+
+double leeway_of(Simulation const& sim, int id) {
+  for (int i = 0; i < sim.discs(); ++i) {
+    if (sim.particles().id(i) == id) return sim.particles().leeway(i);
+  }
+  ADD_FAILURE() << "no disc " << id;
+  return 0;
+}
+
+TEST(Leeway, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
+  Simulation const sim(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
+  EXPECT_DOUBLE_EQ(give_leeway(sim.particles(), {}, h, {}), 5 * h);
+  double const mean = (0.02 + 1) / 100;
+  EXPECT_EQ(leeway_of(sim, 0), h);
+  EXPECT_NEAR(leeway_of(sim, 10) / h, 1 + 0.2 * 0.02 / mean, 1e-12);
+  EXPECT_DOUBLE_EQ(leeway_of(sim, 20), 5 * h);
+}
+
+TEST(Leeway, IsThatOfTheMotionBesideTheBox) {
+  AffineFrame frame;
+  frame.centre_x = 0.3;
+  frame.centre_y = -0.2;
+  frame.gradient_x = 0.5;
+  frame.gradient_y = -0.75;
+  frame.drift_x = 2;
+  frame.drift_y = -1;
+  Specimen s = two_of_a_hundred_fly(0.02, 1);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    s.vx[i] += frame.velocity_x(s.x[i]);
+    s.vy[i] += frame.velocity_y(s.y[i]);
+  }
+  Simulation const moved(s, {}, 2 * h), still(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
+  give_leeway(moved.particles(), frame, h, {});
+  give_leeway(still.particles(), {}, h, {});
+  for (int id : {0, 10, 20, 99}) EXPECT_NEAR(leeway_of(moved, id) / leeway_of(still, id), 1, 1e-11) << id;
+}
+
+TEST(Leeway, IsTheSameForAllAtRest) {
+  Simulation const sim(two_of_a_hundred_fly(0, 0), {}, 2 * h);
+  EXPECT_EQ(give_leeway(sim.particles(), {}, h, {}), h);
+  for (int id : {0, 10, 99}) EXPECT_EQ(leeway_of(sim, id), h);
+}
+
+TEST(Leeway, OneDiscThatFliesSeldomCallsForASearch) {
+  Specimen s = disordered_patch(10, 10);
+  double const way = 10 * grain_d50, top = *std::max_element(s.y.begin(), s.y.end());
+  add_disc(s, s.x[0], top + 4 * grain_d50, grain_radius, 1, 0);
+  s.right = 1;
+  s.top = 1;
+  Simulation sim(s, {}, 2 * h);
+  sim.time_step = 1e-6;
+  std::int64_t const before = sim.rebuilds();
+  auto const steps = static_cast<int>(way / sim.time_step);
+  for (int n = 0; n < steps; ++n) sim.step();
+  // Without a leeway of its own it would be one for each h of the way.
+  EXPECT_LE(sim.rebuilds() - before, way / (4.5 * h) + 3);
+  EXPECT_GE(sim.rebuilds() - before, way / (5.5 * h) - 3);
+}
+
+bool in_row(Simulation const& sim, int i, int j) {
+  ContactRows const& rows = sim.rows();
+  for (int k = 0; k < rows.length(i); ++k) {
+    if (rows.neighbour(rows.entry(i, k)) == j) return true;
+  }
+  return false;
+}
+
+/// Discs that fly at speeds over three decades.
+Simulation gas() {
+  Specimen s = disordered_patch(8, 8, 0.3);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    double const speed = 3 * std::pow(10, -3 * uniform_random(7, 1, i)), angle = 2 * pi * uniform_random(7, 2, i);
+    s.vx[i] = speed * std::cos(angle);
+    s.vy[i] = speed * std::sin(angle);
+  }
+  return Simulation(s, {}, 2 * h);
+}
+
+template <class Visit>
+void for_each_pair(Simulation const& sim, Visit const& visit) {
+  ParticleSoA const& p = sim.particles();
+  for (int i = 0; i < sim.discs(); ++i) {
+    for (int j = 0; j < sim.discs(); ++j) {
+      if (i != j) visit(i, j, std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j));
+    }
+  }
+}
+
+TEST(Leeway, RowsReachAsFarAsBothLeewaysTogether) {
+  Simulation const sim = gas();
+  int listed = 0;
+  for_each_pair(sim, [&](int i, int j, double gap) {
+    bool const near = gap < sim.particles().leeway(i) + sim.particles().leeway(j);
+    listed += near ? 1 : 0;
+    EXPECT_EQ(in_row(sim, i, j), near) << i << " and " << j;
+  });
+  EXPECT_GT(listed, 30);
+}
+
+TEST(Leeway, RowsHoldEveryPairInTouchHoweverDiscsFly) {
+  Simulation sim = gas();
+  sim.time_step = 0.3 * sim.stable_time_step();
+  sim.loading.x = AxisDrive::at_rate(500);
+  sim.loading.y = AxisDrive::at_rate(-300);
+  int touching = 0, missing = 0;
+  for (int n = 0; n < 4000; ++n) {
+    sim.step();
+    for_each_pair(sim, [&](int i, int j, double gap) {
+      if (gap >= 0) return;
+      ++touching;
+      if (!in_row(sim, i, j)) ++missing;
+    });
+  }
+  EXPECT_EQ(missing, 0);
+  EXPECT_GT(touching, 3000);
+  EXPECT_GT(sim.rebuilds(), 20);
+}
+
+}  // namespace
+}  // namespace clathra
