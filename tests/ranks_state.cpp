@@ -49,6 +49,20 @@ TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
   }
 }
 
+TEST(Ranks, MissNoContactOfFlyingDiscs) {
+  Specimen const whole = gas(), part = dealt(whole);
+  constexpr double skin = 0.1 * grain_d50;
+  Simulation one(whole, {}, skin), many(part, {}, skin, world());
+  for (Simulation* sim : {&one, &many}) {
+    sim->time_step = 0.3 * one.stable_time_step();
+    sim->loading.x = AxisDrive::at_rate(500);
+    sim->loading.y = AxisDrive::at_rate(-300);
+    for (int n = 0; n < 4000; ++n) sim->step();
+  }
+  EXPECT_EQ(one.hash(), many.hash());
+  EXPECT_EQ(one.rebuilds(), many.rebuilds());
+}
+
 TEST(Ranks, MeasureWhatOneRankMeasures) {
   Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
   Simulation one = ready(whole, Composite::parallel), many = ready(whole, Composite::parallel, world(), &part);

@@ -91,6 +91,17 @@ inline Specimen disordered_patch(int columns, int rows, double spread = 0.04, st
   return s;
 }
 
+/// Discs apart from each other that fly at speeds over three decades [m/s].
+inline Specimen gas() {
+  Specimen s = disordered_patch(8, 8, 0.3);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    double const speed = 3 * std::pow(10, -3 * uniform_random(7, 1, i)), angle = 2 * pi * uniform_random(7, 2, i);
+    s.vx[i] = speed * std::cos(angle);
+    s.vy[i] = speed * std::sin(angle);
+  }
+  return s;
+}
+
 /// The same specimen with its discs and contacts in another order.
 inline Specimen shuffled(Specimen const& s, std::uint64_t seed) {
   Specimen mixed = s;

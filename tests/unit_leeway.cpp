@@ -26,7 +26,7 @@ double leeway_of(Simulation const& sim, int id) {
 
 TEST(Leeway, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
   Simulation const sim(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  EXPECT_DOUBLE_EQ(give_leeway(sim.particles(), {}, h, {}), 5 * h);
+  EXPECT_DOUBLE_EQ(give_leeway(sim.particles(), {}, {h, 5 * h}, {}), 5 * h);
   double const mean = (0.02 + 1) / 100;
   EXPECT_EQ(leeway_of(sim, 0), h);
   EXPECT_NEAR(leeway_of(sim, 10) / h, 1 + 0.2 * 0.02 / mean, 1e-12);
@@ -47,14 +47,14 @@ TEST(Leeway, IsThatOfTheMotionBesideTheBox) {
     s.vy[i] += frame.velocity_y(s.y[i]);
   }
   Simulation const moved(s, {}, 2 * h), still(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  give_leeway(moved.particles(), frame, h, {});
-  give_leeway(still.particles(), {}, h, {});
+  give_leeway(moved.particles(), frame, {h, 5 * h}, {});
+  give_leeway(still.particles(), {}, {h, 5 * h}, {});
   for (int id : {0, 10, 20, 99}) EXPECT_NEAR(leeway_of(moved, id) / leeway_of(still, id), 1, 1e-11) << id;
 }
 
 TEST(Leeway, IsTheSameForAllAtRest) {
   Simulation const sim(two_of_a_hundred_fly(0, 0), {}, 2 * h);
-  EXPECT_EQ(give_leeway(sim.particles(), {}, h, {}), h);
+  EXPECT_EQ(give_leeway(sim.particles(), {}, {h, 5 * h}, {}), h);
   for (int id : {0, 10, 99}) EXPECT_EQ(leeway_of(sim, id), h);
 }
 
@@ -82,17 +82,6 @@ bool in_row(Simulation const& sim, int i, int j) {
   return false;
 }
 
-/// Discs that fly at speeds over three decades.
-Simulation gas() {
-  Specimen s = disordered_patch(8, 8, 0.3);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    double const speed = 3 * std::pow(10, -3 * uniform_random(7, 1, i)), angle = 2 * pi * uniform_random(7, 2, i);
-    s.vx[i] = speed * std::cos(angle);
-    s.vy[i] = speed * std::sin(angle);
-  }
-  return Simulation(s, {}, 2 * h);
-}
-
 template <class Visit>
 void for_each_pair(Simulation const& sim, Visit const& visit) {
   ParticleSoA const& p = sim.particles();
@@ -104,7 +93,7 @@ void for_each_pair(Simulation const& sim, Visit const& visit) {
 }
 
 TEST(Leeway, RowsReachAsFarAsBothLeewaysTogether) {
-  Simulation const sim = gas();
+  Simulation const sim(gas(), {}, 2 * h);
   int listed = 0;
   for_each_pair(sim, [&](int i, int j, double gap) {
     bool const near = gap < sim.particles().leeway(i) + sim.particles().leeway(j);
@@ -115,7 +104,7 @@ TEST(Leeway, RowsReachAsFarAsBothLeewaysTogether) {
 }
 
 TEST(Leeway, RowsHoldEveryPairInTouchHoweverDiscsFly) {
-  Simulation sim = gas();
+  Simulation sim(gas(), {}, 2 * h);
   sim.time_step = 0.3 * sim.stable_time_step();
   sim.loading.x = AxisDrive::at_rate(500);
   sim.loading.y = AxisDrive::at_rate(-300);
@@ -131,6 +120,35 @@ TEST(Leeway, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   EXPECT_EQ(missing, 0);
   EXPECT_GT(touching, 3000);
   EXPECT_GT(sim.rebuilds(), 20);
+}
+
+// The first checkpoints have no column of leeways.
+TEST(Leeway, OfAStateWithoutItIsThatOfDiscsAtRest) {
+  Simulation sim(gas(), {}, 2 * h);
+  sim.time_step = 0.3 * sim.stable_time_step();
+  for (int n = 0; n < 50; ++n) sim.step();
+  SimulationState state = sim.state();
+  std::size_t const at = state.disc_columns.size();  // of the last column in a record: the id comes first
+  ASSERT_EQ(state.disc_columns.back(), "leeway");
+  state.disc_columns.pop_back();
+  for (std::size_t k = state.discs.size(); k-- > 0;)
+    state.discs.numbers.erase(state.discs.numbers.begin() + static_cast<std::ptrdiff_t>(state.discs.begin[k] + at));
+  for (std::size_t k = 0; k < state.discs.begin.size(); ++k) state.discs.begin[k] -= k;
+  std::uint64_t const hash = sim.hash();
+  Simulation resumed(std::move(state), {}, {});
+  EXPECT_EQ(resumed.hash(), hash);
+  for (int i = 0; i < resumed.discs(); ++i) EXPECT_EQ(resumed.particles().leeway(i), h);
+}
+
+TEST(Leeway, LeavesASmallPeriodicCellWideEnough) {
+  Specimen s = disordered_patch(5, 5, 0.1);
+  s.periodic = true;
+  s.vx[5] = 3;  // all others are at rest
+  Simulation sim(s, {}, 0.4 * grain_d50);
+  double const side = std::min(sim.cell().width, sim.cell().height), largest = 1.1 * grain_radius;
+  EXPECT_LT(leeway_of(sim, 5), 5 * 0.2 * grain_d50);
+  EXPECT_GT(leeway_of(sim, 5), 0.2 * grain_d50);
+  EXPECT_LE(2 * (2 * largest + 2 * leeway_of(sim, 5)), side);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
   constexpr double entries = 5;  // a disc, empty places of slices included
   int const extras =
       (scene.output.energy ? 5 : 0) + (scene.output.snapshots > 0 ? 2 : 0) + (scene.test.wall_friction > 0 ? 4 : 0);
-  double const state = 8 * (15 + extras) + 4 + entries * (4 + 8 * numbers + 16);
+  double const state = 8 * (16 + extras) + 4 + entries * (4 + 8 * numbers + 16);
   // Beside the state there is, in turns, the specimen that it was made from, a checkpoint and the last specimen; ranks also send
   // parts of these to each other.
   double const beside = ranks > 1 ? 1 : 0.85;

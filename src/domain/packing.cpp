@@ -16,7 +16,7 @@ constexpr double loose_solid_fraction = 0.46;    // of the random placement
 constexpr double unjammed = 0.04;                // in void ratio: how far above e_(i) a layer's compaction stops
 constexpr double slowing_range = 0.15;           // in void ratio: the wall slows down as the layers are about to jam
 constexpr std::int64_t most_in_patch = 100'000;  // discs placed one after the other
-constexpr double loose_skin = 0.25;              // in d50, while discs still fly
+constexpr double loose_skin = 0.2;               // in d50, while discs still fly
 
 /// The loose discs of a layer. Wide layers are placed in patches side by side, whatever the number of ranks.
 struct Layer {

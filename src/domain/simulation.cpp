@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "domain/migration.hpp"
-#include "kernels/leeway.hpp"
 #include "kernels/stability.hpp"
 
 namespace clathra {
@@ -44,7 +43,7 @@ void Simulation::step() {
   if (step_ % check_every == 0) throw_if_unstable();
 }
 
-void Simulation::rebuild() {
+void Simulation::rebuild(bool leeway_by_speed) {
   throw_if_unstable();  // discs that are nowhere have no cell
   Kokkos::Timer const clock;
   collect_breaks();
@@ -61,7 +60,7 @@ void Simulation::rebuild() {
   }
   Field<int> const order = sort_in_space(particles_, old, slot, skin_);
   for (Companion const& with : with_discs) *with.field = permuted(*with.field, order, particles_.x.extent(0));
-  Real const widest_leeway = ranks_.max(give_leeway(particles_, frame(), skin_ / 2, sum_));
+  Real const widest_leeway = ranks_.max(give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sum_));
   reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);
   if (periodic()) images_.rebuild(particles_, cell_, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
@@ -130,6 +129,16 @@ AffineFrame Simulation::frame() const {
   f.drift_x = middle(walls_.velocity[left], walls_.velocity[right]);
   f.drift_y = middle(walls_.velocity[bottom], walls_.velocity[top]);
   return f;
+}
+
+/// A periodic cell must stay twice as wide as neighbours reach.
+LeewayRange Simulation::leeway_range(bool by_speed) const {
+  constexpr Real times = 5;
+  Real const least = skin_ / 2;
+  if (!by_speed) return {least, least};
+  Real most = times * least;
+  if (periodic()) most = std::min(most, 0.49 * (0.5 * std::min(cell_.width, cell_.height) - 2 * largest_radius_));
+  return {least, std::max(most, least)};
 }
 
 /// Whether two discs that are not in each other's rows could touch: the greatest share of its leeway that a disc has strayed off

@@ -11,7 +11,7 @@
 #include "domain/simulation_state.hpp"
 #include "domain/specimen.hpp"
 #include "kernels/forces.hpp"
-#include "kernels/integrate.hpp"
+#include "kernels/leeway.hpp"
 #include "kernels/measures.hpp"
 #include "kernels/neighbours.hpp"
 #include "kernels/walls.hpp"
@@ -49,7 +49,7 @@ class Simulation {
  public:
   /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
   /// @param specimen  this rank's share of it: each disc and each contact on one rank, whichever
-  /// @param skin  Verlet skin [m], surface to surface
+  /// @param skin  Verlet skin [m], surface to surface, of discs at rest; those that fly have more (leeway.hpp)
   Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin, Ranks ranks = {});
 
   /// Goes on from a state, on any number of ranks, with the bits of the simulation that gave it.
@@ -127,10 +127,11 @@ class Simulation {
   void throw_if_unstable() const;
 
  private:
-  void rebuild();
+  void rebuild(bool leeway_by_speed = true);
   void adopt_discs(Specimen const& specimen);
   void inject(Specimen const& specimen);
   AffineFrame frame() const;
+  LeewayRange leeway_range(bool by_speed) const;
   bool outdated(Real strayed2) const;
   void stretch_homogeneously();
   void rebalance_if_it_pays();

@@ -122,7 +122,7 @@ PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design
   specimen.x = placed.x;
   specimen.y = placed.y;
   for (std::int64_t i = 0; i < particles; ++i) specimen.id.push_back(static_cast<int>(i));
-  Simulation simulation(specimen, generation_laws(scene, knob), 0.25 * d50);
+  Simulation simulation(specimen, generation_laws(scene, knob), 0.2 * d50);
   SettlingTarget target;
   target.stress = scene.bond.stress;
   target.void_ratio = design.void_ratio;

@@ -70,8 +70,8 @@ FoundCheckpoint read_manifest(std::filesystem::path const& run_folder, int gener
     if (whole.at("format").get<std::string>() != manifest_format) throw bad("is no manifest of a checkpoint");
     Json const& content = whole.at("content");
     if (text_digest(content.dump()) != whole.at("content_digest_xxh3_128").get<std::string>()) throw bad("is damaged");
-    if (auto const version = content.at("version").get<std::int64_t>(); version != checkpoint_version)
-      throw bad(fmt::format("has version {}, this program reads {}", version, checkpoint_version));
+    if (auto const version = content.at("version").get<std::int64_t>(); version < 1 || version > checkpoint_version)
+      throw bad(fmt::format("has version {}, this program reads 1 to {}", version, checkpoint_version));
     bytes = content.at("bytes").get<std::uintmax_t>();
     c = checkpoint_of(content, run_folder, generation);
   } catch (Json::exception const&) {

@@ -199,8 +199,8 @@ void write_checkpoint_content(std::filesystem::path const& path, Scene const& sc
 TestState read_checkpoint_content(std::filesystem::path const& path, Scene const& scene, Ranks const& ranks) {
   Hdf5File const file = Hdf5File::open(path);
   if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a checkpoint of Clathra");
-  if (std::int64_t const version = file.integer_attribute("version"); version != checkpoint_version)
-    file.fail(ExitCode::refused, fmt::format("has version {}, this program reads {}", version, checkpoint_version));
+  if (std::int64_t const version = file.integer_attribute("version"); version < 1 || version > checkpoint_version)
+    file.fail(ExitCode::refused, fmt::format("has version {}, this program reads 1 to {}", version, checkpoint_version));
   if (std::string const precision = file.text_attribute("precision"); precision != "double")
     file.fail(ExitCode::refused, fmt::format("has precision {}, this program computes in double", precision));
   Json const about = Json::parse(file.read_text("about"), nullptr, false);

@@ -7,7 +7,7 @@
 
 namespace clathra {
 
-inline constexpr std::int64_t checkpoint_version = 1;
+inline constexpr std::int64_t checkpoint_version = 2;  ///< 1 had one leeway for all discs; it is read, too
 
 /// @throws FileProblem cannot_create or io_error
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks);

@@ -25,7 +25,7 @@ struct KickAndDrift {
   Field<Accum> lost_to_damping;
   Faults faults;
 
-  KOKKOS_FUNCTION void operator()(int slice, Real& farthest) const {
+  KOKKOS_FUNCTION void operator()(int slice, Real& strayed2) const {
     auto const i = static_cast<std::size_t>(slice) * lane_count;
     Lanes const inverse_mass = load(&p.inverse_mass(i));
     auto const free = inverse_mass > Lanes(0);  // padding discs have none
@@ -53,7 +53,7 @@ struct KickAndDrift {
     for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(moved, l, 0);  // ghosts share the last slice
     if (any(!(moved < Lanes(1e10)))) report(i, moved);
     Lanes const leeway = load(&p.leeway(i));
-    farthest = lane_max(farthest, largest(select(moved > Lanes(0), moved / (leeway * leeway), Lanes(0))));
+    strayed2 = lane_max(strayed2, largest(select(moved > Lanes(0), moved / (leeway * leeway), Lanes(0))));
   }
 
   KOKKOS_FUNCTION void report(std::size_t i, Lanes const& moved) const {
@@ -68,15 +68,15 @@ struct KickAndDrift {
 Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
                Faults const& faults) {
   Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
-  Real farthest = 0;
+  Real strayed2 = 0;
   if (losses.damping.extent(0) > 0) {
     Kokkos::parallel_reduce("kick_and_drift", slices, KickAndDrift<true>{particles, law, dt, frame, losses.damping, faults},
-                            Kokkos::Max<Real>(farthest));
+                            Kokkos::Max<Real>(strayed2));
   } else {
     Kokkos::parallel_reduce("kick_and_drift", slices, KickAndDrift<false>{particles, law, dt, frame, losses.damping, faults},
-                            Kokkos::Max<Real>(farthest));
+                            Kokkos::Max<Real>(strayed2));
   }
-  return farthest;
+  return strayed2;
 }
 
 void mark_reference(ParticleSoA const& particles) {

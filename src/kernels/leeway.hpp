@@ -5,11 +5,17 @@
 
 namespace clathra {
 
-/// Gives each owned disc its leeway h_i = h (1 + min(v_i / 5 v_mean, 4)), where v_i is its speed against the homogeneous motion:
-/// the few discs that no contact holds fly far while all others hardly move, and would call for a search of all. Rows that hold
-/// every pair nearer than h_i + h_j are complete until some disc has strayed by its h_i. Does not depend on the discs' order.
-/// @param least  h [m]
+/// The leeway of discs at rest, and the most that a flying one may get [m].
+struct LeewayRange {
+  Real least, most;
+};
+
+/// Gives each owned disc its leeway h_i = min(h (1 + v_i / 5 v_mean), h_most), where v_i is its speed against the homogeneous
+/// motion: the few discs that no contact holds fly far while all others hardly move, and would call for a search of all. Rows
+/// that hold every pair nearer than h_i + h_j are complete until some disc has strayed by its h_i. Does not depend on the discs'
+/// order.
 /// @return the greatest leeway of this rank's discs [m], h without discs
-Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, Real least, SumOverRanks const& over_ranks);
+Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range,
+                 SumOverRanks const& over_ranks);
 
 }  // namespace clathra

@@ -9,20 +9,32 @@ namespace clathra {
 
 namespace {
 
-constexpr int sorting_window = 64;  // discs whose rows are evened out together; they stay near each other in space
+constexpr int sorting_window = 128;  // discs whose rows are evened out together; they stay near each other in space
 
-struct SortByLength {
+/// By the entries that carry a history, which the contact kernel evaluates, and by the length of the row among equals.
+struct SortByWork {
   Field<int> order, slot;
   OldRows old;
   int discs;
-  KOKKOS_INLINE_FUNCTION int length(int disc) const { return old.length(slot(disc)); }
+
+  KOKKOS_INLINE_FUNCTION int work(int disc) const {
+    int const length = old.length(slot(disc));
+    int carrying = 0;
+    for (int k = 0; k < length; ++k) carrying += old.carries(old.entry(slot(disc), k)) ? 1 : 0;
+    return carrying * (longest_row + 1) + length;
+  }
   KOKKOS_FUNCTION void operator()(int window) const {
     int const begin = window * sorting_window, end = begin + sorting_window < discs ? begin + sorting_window : discs;
-    for (int k = begin + 1; k < end; ++k) {
-      int const disc = order(k), own = length(disc);
+    int works[sorting_window];
+    for (int k = begin; k < end; ++k) {
+      int const disc = order(k), own = work(disc);
       int at = k;
-      for (; at > begin && length(order(at - 1)) < own; --at) order(at) = order(at - 1);
+      for (; at > begin && works[at - 1 - begin] < own; --at) {
+        order(at) = order(at - 1);
+        works[at - begin] = works[at - 1 - begin];
+      }
       order(at) = disc;
+      works[at - begin] = own;
     }
   }
 };
@@ -71,25 +83,33 @@ class OldRow {
   int id_[longest_row];
 };
 
-/// Discs in the order of the grid's cells, so that candidates lie side by side.
+/// Discs in the order of the grid's cells, so that candidates lie side by side; [discs + lane_count].
 struct Candidates {
-  Field<Real> x, y, radius, leeway;  // [discs + lane_count]
-  CellGrid grid;
-  ParticleSoA p;
+  Field<Real> x, y, radius, leeway;
+};
 
-  Candidates(ParticleSoA const& particles, CellGrid const& cells) : grid(cells), p(particles) {
-    std::size_t const size = cells.disc.extent(0) + lane_count;
-    for (Field<Real>* field : {&x, &y, &radius, &leeway}) *field = uninitialised<Real>("candidates", size);
-    Kokkos::parallel_for("line_up", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(size)), *this);
-  }
+struct LineUp {
+  ParticleSoA p;
+  Field<int> disc;
+  Candidates to;
   KOKKOS_FUNCTION void operator()(int k) const {
-    int const disc = k < static_cast<int>(grid.disc.extent(0)) ? grid.disc(k) : p.padding();
-    x(k) = p.x(disc);
-    y(k) = p.y(disc);
-    radius(k) = p.radius(disc);
-    leeway(k) = p.leeway(disc);
+    int const i = k < static_cast<int>(disc.extent(0)) ? disc(k) : p.padding();
+    to.x(k) = p.x(i);
+    to.y(k) = p.y(i);
+    to.radius(k) = p.radius(i);
+    to.leeway(k) = p.leeway(i);
   }
 };
+
+Candidates line_up(ParticleSoA const& particles, CellGrid const& grid) {
+  Candidates candidates;
+  std::size_t const size = grid.disc.extent(0) + lane_count;
+  for (Field<Real>* field : {&candidates.x, &candidates.y, &candidates.radius, &candidates.leeway})
+    *field = uninitialised<Real>("candidates", size);
+  Kokkos::parallel_for("line_up", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(size)),
+                       LineUp{particles, grid.disc, candidates});
+  return candidates;
+}
 
 /// What one search needs to know about the old rows and the grid.
 struct Search {
@@ -304,9 +324,9 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old) {
 
 Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin) {
   Field<int> const order = bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
-  Kokkos::parallel_for("sort_by_length",
+  Kokkos::parallel_for("sort_by_work",
                        Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
-                       SortByLength{order, slot, old, particles.owned});
+                       SortByWork{order, slot, old, particles.owned});
   permute(particles, order);
   slot = permuted(slot, order, order.extent(0));
   return order;
@@ -336,8 +356,8 @@ void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows c
   auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
   Real const bonded_reach = bonded_gap * (1 + 1e-9);
   Real const cell = 2 * largest_radius(particles, particles.all()) + lane_max(2 * widest_leeway, bonded_reach);
-  CellGrid const grid = bin_particles(particles, particles.all(), cell);
-  Search const search{particles, grid, Candidates(particles, grid), bonded_reach, old, slot};
+  Search search{particles, bin_particles(particles, particles.all(), cell), {}, bonded_reach, old, slot};
+  search.candidates = line_up(particles, search.grid);
   Found near;
   near.neighbour = Kokkos::View<int**, MemorySpace>(Kokkos::view_alloc("found", Kokkos::WithoutInitializing), owned, Found::most);
   ContactRows found;
@@ -357,6 +377,7 @@ void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows c
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
                        FillRows{search, near, found, source});
   near = Found();
+  search = Search();
   carry_history(old, found, source, entries);
   rows = found;
 }
