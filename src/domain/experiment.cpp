@@ -66,7 +66,7 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
   // more while neighbours are searched.
   int const numbers = 1 + (scene.grains.shape_factor > 0 || bonded ? 1 : 0) + (bonded ? 2 : 0) +
                       (bonded && scene.bond.composite == Composite::parallel ? 2 : 0);
-  constexpr double entries = 5;  // a disc, empty places of slices included
+  constexpr double entries = 5.2;  // a disc, empty places of slices included
   int const extras =
       (scene.output.energy ? 5 : 0) + (scene.output.snapshots > 0 ? 2 : 0) + (scene.test.wall_friction > 0 ? 4 : 0);
   double const state = 8 * (16 + extras) + 4 + entries * (4 + 8 * numbers + 16);
