@@ -49,6 +49,20 @@ TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
   }
 }
 
+std::int64_t neighbours_listed(Simulation const& sim) {
+  std::int64_t listed = 0;
+  for (int i = 0; i < sim.particles().owned; ++i) listed += sim.rows().length(i);
+  return sim.ranks().sum(listed);
+}
+
+TEST(Ranks, ListNeighboursAsFarAsFlyingDiscsHaveLeeway) {
+  Specimen const whole = gas(), part = dealt(whole);
+  constexpr double skin = 0.5 * grain_d50;
+  Simulation const one(whole, {}, skin), many(part, {}, skin, world());
+  EXPECT_EQ(neighbours_listed(one), neighbours_listed(many));
+  EXPECT_GT(neighbours_listed(one), 200);
+}
+
 TEST(Ranks, MissNoContactOfFlyingDiscs) {
   Specimen const whole = gas(), part = dealt(whole);
   constexpr double skin = 0.1 * grain_d50;
