@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "golden_bonds.hpp"
-#include "kernels/bond_law.hpp"
+#include "kernels/bond_quick_test.hpp"
 #include "printed_equations.hpp"
 #include "printed_number.hpp"
 
@@ -122,6 +122,7 @@ TEST(Trap07, ANegativeSlopeOfTheEnvelopeIsNoStrength) {
     ASSERT_GT(strength.compression, 0);
     EXPECT_NE(strength.test(0, 0, 0), BreakMode::none);
     EXPECT_FALSE(is_surely_intact(law, bond));
+    EXPECT_FALSE(is_far_from_breaking(least_strength(law), bond));
   }
 }
 
@@ -182,6 +183,7 @@ TEST(Trap13, ABondOfNoThicknessDividesNothingByZero) {
   EXPECT_EQ(bond.stiffness.rolling, 0);
   EXPECT_EQ(bond.force.normal, 0);
   EXPECT_FALSE(is_surely_intact(law, bond));
+  EXPECT_FALSE(is_far_from_breaking(least_strength(law), bond));
 }
 
 TEST(Trap14, ABondOnAnOverlapCountsAsOneWithoutGap) {
@@ -276,11 +278,13 @@ TEST(Trap25, AStrengthThatFallsBelowThePresentTensionIsANormalTensileBreak) {
   };
   EXPECT_EQ(mode(), BreakMode::none);
   EXPECT_TRUE(is_surely_intact(law, bond));
+  EXPECT_TRUE(is_far_from_breaking(least_strength(law), bond));
   law.strength.tensile_stress *= 0.88;  // the hydrate warms
   EXPECT_EQ(mode(), BreakMode::none);
   law.strength.tensile_stress *= 0.88;
   EXPECT_EQ(mode(), BreakMode::tension);
   EXPECT_FALSE(is_surely_intact(law, bond));
+  EXPECT_FALSE(is_far_from_breaking(least_strength(law), bond));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "draw.hpp"
 #include "golden_bonds.hpp"
-#include "kernels/bond_law.hpp"
+#include "kernels/bond_quick_test.hpp"
 #include "printed_equations.hpp"
 #include "printed_number.hpp"
 
@@ -220,6 +220,7 @@ TEST(BondLaw, SwappingThePairGivesExactOpposites) {
     ASSERT_TRUE(same_bits(on_a.force.shear, on_b.force.shear));
     ASSERT_TRUE(exact_opposites(on_a.force.moment, on_b.force.moment));
     ASSERT_EQ(is_surely_intact(law, on_a), is_surely_intact(law, on_b));
+    ASSERT_EQ(is_far_from_breaking(least_strength(law), on_a), is_far_from_breaking(least_strength(law), on_b));
     ASSERT_EQ(test_of(law, on_a), test_of(law, on_b));
   }
 }
@@ -245,12 +246,13 @@ TEST(BondLaw, LanesGiveTheBitsOfTheScalarAlsoBesideUnbondedLanes) {
     Lanes const width = law.width_formed_at(motion.common_radius, equilibrium);
     BondForce<Lanes> const trial = bond_contact(law, motion, equilibrium, width, row([](Bond const& b) { return b.shear; }),
                                                 row([](Bond const& b) { return b.moment; }));
-    auto const intact = is_surely_intact(law, trial);
+    auto const intact = is_surely_intact(law, trial), far = is_far_from_breaking(least_strength(law), trial);
     for (int l = 0; l < lane_count; ++l) {
       Bond const& bond = bonds[static_cast<std::size_t>(l)];
       BondForce<Real> const alone = force_of(law, bond);
       ASSERT_EQ(lane(is_bonded(equilibrium), l), is_bonded(bond.equilibrium));
       ASSERT_EQ(lane(intact, l), is_surely_intact(law, alone));
+      ASSERT_EQ(lane(far, l), is_far_from_breaking(least_strength(law), alone));
       ASSERT_TRUE(same_bits(lane(trial.force.normal, l), alone.force.normal));
       ASSERT_TRUE(same_bits(lane(trial.force.shear, l), alone.force.shear));
       ASSERT_TRUE(same_bits(lane(trial.force.moment, l), alone.force.moment));

@@ -1,10 +1,10 @@
-/// The quick test of the contact kernel, is_surely_intact(), against the exact envelope.
+/// The quick tests of the contact kernel, is_far_from_breaking() and is_surely_intact(), against the exact envelope.
 #include <limits>
 #include <vector>
 
 #include "draw.hpp"
 #include "golden_bonds.hpp"
-#include "kernels/bond_law.hpp"
+#include "kernels/bond_quick_test.hpp"
 #include "printed_equations.hpp"
 #include "printed_number.hpp"
 
@@ -34,10 +34,14 @@ std::vector<BondLaw> various_laws() {
   return laws;
 }
 
+bool passes_coarse_test(BondLaw const& law, BondForce<Real> const& bond) {
+  return is_far_from_breaking(least_strength(law), bond);
+}
+
 /// Forces of any size around the envelope of a bond, often just at it.
 BondForce<Real> any_state(Draw& draw, BondLaw const& law) {
   BondForce<Real> bond{};
-  bond.gap = law.gap(draw.between(-1.02, 0.1) * law.critical_thickness);
+  bond.gap = law.gap(draw.between(-1, 0.1) * law.critical_thickness);
   bond.width = law.width(draw.of_size(2e-5, 4e-4), bond.gap);
   BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
   bond.force.normal = draw.between(-1.1 * std::fabs(strength.tension), 1.1 * strength.compression);
@@ -61,6 +65,8 @@ TEST(BondQuickTest, NeverPassesABondThatIsBroken) {
     if (mode == BreakMode::none) continue;
     ASSERT_FALSE(is_surely_intact(law, bond)) << n << ": gap " << bond.gap << " width " << bond.width << " F_n "
                                               << bond.force.normal << " F_s " << bond.force.shear << " M " << bond.force.moment;
+    ASSERT_FALSE(passes_coarse_test(law, bond)) << n << ": gap " << bond.gap << " width " << bond.width << " F_n "
+                                                << bond.force.normal << " F_s " << bond.force.shear << " M " << bond.force.moment;
   }
   EXPECT_GT(broken, 300000);
   EXPECT_GT(intact, 300000);
@@ -77,6 +83,7 @@ TEST(BondQuickTest, NeverPassesABondAtTheEndsOfItsEnvelope) {
                             std::nextafter(strength.compression, 1e9), -1e12, 1e12}) {
         bond.force.normal = normal;
         ASSERT_FALSE(is_surely_intact(law, bond)) << normal;
+        ASSERT_FALSE(passes_coarse_test(law, bond)) << normal;
       }
     }
   }
@@ -84,7 +91,7 @@ TEST(BondQuickTest, NeverPassesABondAtTheEndsOfItsEnvelope) {
 
 TEST(BondQuickTest, SparesNearlyEveryLightlyLoadedBondTheExactTest) {
   Draw draw(63);
-  int intact = 0, passed = 0;
+  int intact = 0, passed = 0, passed_coarse = 0;
   for (BondLaw const& law : various_laws()) {
     for (int n = 0; n < 10000; ++n) {
       BondForce<Real> bond = any_state(draw, law);
@@ -95,10 +102,13 @@ TEST(BondQuickTest, SparesNearlyEveryLightlyLoadedBondTheExactTest) {
       bond.force.moment = draw.between(-0.4, 0.4) * strength.rolling(bond.force.normal);
       ++intact;
       passed += is_surely_intact(law, bond);
+      passed_coarse += passes_coarse_test(law, bond);
     }
   }
   EXPECT_GT(intact, 100000);
   EXPECT_GT(passed, 0.8 * intact);
+  EXPECT_GT(passed_coarse, 0.8 * intact);
+  EXPECT_LT(passed_coarse, passed);
   RecordProperty("passed_per_mille", static_cast<int>(1000.0 * passed / intact));
 }
 
@@ -107,11 +117,36 @@ TEST(BondQuickTest, PassesNoBondWithNanForces) {
   BondLaw const law = various_laws()[0];
   BondForce<Real> bond{{0, 0, 0}, {0, 0, 0}, 3e-5, 0};
   EXPECT_TRUE(is_surely_intact(law, bond));
+  EXPECT_TRUE(passes_coarse_test(law, bond));
   for (double ContactForce<Real>::*part :
        {&ContactForce<Real>::normal, &ContactForce<Real>::shear, &ContactForce<Real>::moment}) {
     bond.force = {0, 0, 0};
     bond.force.*part = nan;
     EXPECT_FALSE(is_surely_intact(law, bond));
+    EXPECT_FALSE(passes_coarse_test(law, bond));
+  }
+}
+
+TEST(BondQuickTest, LeastStrengthsLieBelowThoseOfEveryBondButNotFar) {
+  Draw draw(64);
+  for (BondLaw const& law : various_laws()) {
+    LeastStrength const least = least_strength(law);
+    for (int n = 0; n < 10000; ++n) {
+      double const gap = law.gap(-draw.between(0, 1) * law.critical_thickness), width = law.width(draw.of_size(2e-5, 4e-4), gap);
+      BondStrength const exact = bond_strength(law.strength, width, gap);
+      double const tension = least.tension_per_width * width + least.tension;
+      double const compression = least.compression_per_width * width + least.compression;
+      double const moment_slope = least.moment_per_width * width + least.moment;
+      ASSERT_LT(tension, exact.tension);
+      ASSERT_LT(compression, exact.compression);
+      ASSERT_LT(least.shear_slope, exact.shear_slope);
+      ASSERT_LE(moment_slope, exact.moment_slope);
+      ASSERT_TRUE(moment_slope < exact.moment_slope || exact.moment_slope == 0);
+      ASSERT_GT(tension, exact.tension - 2.7e5 * law.critical_thickness);
+      ASSERT_GT(compression, exact.compression - 4.2e6 * law.critical_thickness - 1e-5);
+      ASSERT_GT(least.shear_slope, 0.6 * exact.shear_slope);
+      ASSERT_GE(moment_slope, 0.6 * exact.moment_slope);
+    }
   }
 }
 

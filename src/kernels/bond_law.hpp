@@ -51,7 +51,7 @@ struct BondLaw {
   }
 };
 
-/// Forces of an intact bond and whether the quick test leaves a doubt about its strength.
+/// Forces of an intact bond and what they follow from.
 template <class L>
 struct BondForce {
   ContactForce<L> force;
@@ -74,19 +74,6 @@ KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLaw const& law, Contac
   bond.force.shear = shear + bond.stiffness.shear * motion.slip;
   bond.force.moment = moment + bond.stiffness.rolling * motion.turn;
   return bond;
-}
-
-/// True where a bond is certainly within its strength: the envelope's lower bound already holds. Where false, the exact test
-/// decides.
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION auto is_surely_intact(BondLaw const& law, BondForce<L> const& bond) {
-  L const tension = tensile_strength(law.strength, bond.width, bond.gap);
-  L const compression = compressive_strength(law.strength, bond.width, bond.gap);
-  L const a = law.least_shape_of_shear * shear_slope(bond.gap);
-  L const b = law.least_shape_of_rolling * rolling_slope(bond.gap) * moment_length(law.strength, bond.width);
-  L const size = lane_max(envelope_lower_bound(bond.force.normal + tension, compression + tension), L(0));
-  L const of_shear = bond.force.shear * b, of_moment = bond.force.moment * a, limit = a * b * size;
-  return of_shear * of_shear + of_moment * of_moment < limit * limit;
 }
 
 }  // namespace clathra

@@ -1,5 +1,8 @@
 #pragma once
 /// The contact kernel, specialised by bond kind, rolling, dashpot and ledger; instantiated in forces.cpp only.
+#include <type_traits>
+
+#include "kernels/bond_quick_test.hpp"
 #include "kernels/forces.hpp"
 
 namespace clathra {
@@ -10,11 +13,18 @@ struct ContactKernel {
   static constexpr bool bonded_code = Bond != BondKind::none;
   static constexpr bool moments = Rolling || bonded_code;
 
+  /// Numbers of the laws. The kernel works on a copy on its stack, which no store can change, so that what follows from them is
+  /// computed once a slice.
+  struct Constants {
+    GrainLaw grain;
+    BondLaw bond;
+    LeastStrength least;
+    Real dt;
+  };
+
   ParticleSoA p;
   ContactRows rows;
-  GrainLaw grain;
-  BondLaw bond;
-  Real dt;
+  Constants constants;
   std::int64_t step;
   BreakLog breaks;
   EnergyLosses losses;
@@ -34,6 +44,7 @@ struct ContactKernel {
 
   KOKKOS_FUNCTION void operator()(int slice) const {
     auto const first = static_cast<std::size_t>(slice) * lane_count;
+    Constants const law = constants;
     Own own{load(&p.x(first)),
             load(&p.y(first)),
             load(&p.vx(first)),
@@ -54,7 +65,7 @@ struct ContactKernel {
     std::uint64_t const active = rows.active(slice);
     std::uint64_t carrying = 0, bit = 1;
     for (int k = begin; k < end; ++k, bit <<= 1) {
-      if (add_block(first, static_cast<std::size_t>(k) * lane_count, (active & bit) != 0, own)) carrying |= bit;
+      if (add_block(law, first, static_cast<std::size_t>(k) * lane_count, (active & bit) != 0, own)) carrying |= bit;
     }
     rows.active(slice) = carrying;
     store(&p.force_x(first), own.force_x);
@@ -70,7 +81,8 @@ struct ContactKernel {
 
   /// Entry block `e .. e + lane_count`: the k-th neighbour of each disc of the slice.
   /// @param active  false if none of them holds a history;  @return whether one does afterwards
-  KOKKOS_FORCEINLINE_FUNCTION bool add_block(std::size_t first, std::size_t e, bool active, Own& own) const {
+  KOKKOS_FORCEINLINE_FUNCTION bool add_block(Constants const& law, std::size_t first, std::size_t e, bool active,
+                                             Own& own) const {
     int const* const j = &rows.neighbour(e);
     Lanes const dx = gather(p.x.data(), j) - own.x, dy = gather(p.y.data(), j) - own.y;
     Lanes const other_radius = gather(p.radius.data(), j);
@@ -88,35 +100,46 @@ struct ContactKernel {
     motion.approach = -(dvx * nx + dvy * ny);
     Lanes const half_overlap = Lanes(0.5) * motion.overlap;
     Lanes const arm = own.radius - half_overlap, other_arm = other_radius - half_overlap;  // arm + other_arm = distance
-    motion.slip = ((dvy * nx - dvx * ny) - (own.omega * arm + other_omega * other_arm)) * dt;
-    motion.turn = (other_omega - own.omega) * dt;
+    motion.slip = ((dvy * nx - dvx * ny) - (own.omega * arm + other_omega * other_arm)) * law.dt;
+    motion.turn = (other_omega - own.omega) * law.dt;
     motion.common_radius = common_radius(own.radius, other_radius);
     auto const deep = distance < lane_max(own.radius, other_radius);  // one disc's centre lies inside the other
     if (any(deep)) report_deep(first, deep);
 
-    Lanes dashpot(0);
-    if constexpr (Dashpot) dashpot = dashpot_coefficient(grain, own.inverse_mass, gather(p.inverse_mass.data(), j));
-    ContactForce<Lanes> force = grain_force(motion, dashpot, h, own);
+    Viscosity dashpot;
+    if constexpr (Dashpot) dashpot = dashpot_coefficient(law.grain, own.inverse_mass, gather(p.inverse_mass.data(), j));
+    ContactForce<Lanes> force = grain_force(law, motion, dashpot, h, own);
+    auto carrying = touching;
     if constexpr (bonded_code) {
-      Site const site{first, e, j, &own, dx, dy};
-      force = with_bond(force, motion, dashpot, site, h, own);
+      auto const bonded = is_bonded(h.equilibrium);
+      BondForce<Lanes> const trial = bond_trial(law, motion, h);
+      auto intact = bonded;
+      auto const doubt = bonded && !is_far_from_breaking(law.least, trial);
+      if (any(doubt)) {
+        intact = bonded && !break_bonds({first, e, doubt, trial.width, trial.gap, trial.force.normal, trial.force.shear,
+                                         trial.force.moment, own.x + Lanes(0.5) * dx, own.y + Lanes(0.5) * dy});
+      }
+      force = with_bond(law, force, motion, dashpot, trial, bonded, intact, h, own);
+      carrying = touching || intact;
     }
     write(e, h);
     // Entries out of touch and without a bond got exact zeros from the laws; nothing needs masking here.
     own.force_x -= force.normal * nx + force.shear * ny;
     own.force_y += force.shear * nx - force.normal * ny;
     own.torque += arm * force.shear + force.moment;
-    if constexpr (bonded_code) return any(touching || is_bonded(h.equilibrium));
-    return any(touching);
+    return any(carrying);
   }
 
  private:
-  /// Where a block of entries lies: needed only when something is reported.
-  struct Site {
+  using Viscosity = std::conditional_t<Dashpot, Lanes, Undamped>;
+
+  /// A block with bonds that may break. It is put together where one is met: a block whose values had an address would spend its
+  /// time storing and loading them.
+  struct Doubtful {
     std::size_t first, entry;
-    int const* other;
-    Own const* own;
-    Lanes dx, dy;
+    Mask where;
+    Lanes width, gap, normal, shear, moment;
+    Lanes x, y;  ///< midpoints of the branches
   };
 
   KOKKOS_FORCEINLINE_FUNCTION History read(std::size_t e) const {
@@ -143,70 +166,73 @@ struct ContactKernel {
   }
 
   /// The unbonded law on every entry; with `replace` the entries that are bonded are overruled by with_bond().
-  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> grain_force(ContactMotion<Lanes> const& motion, Lanes const& dashpot,
-                                                              History& h, Own& own) const {
+  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> grain_force(Constants const& law, ContactMotion<Lanes> const& motion,
+                                                              Viscosity const& dashpot, History& h, Own& own) const {
     if constexpr (Bond == BondKind::replace) return {};
-    ContactForce<Lanes> const force = grain_contact<Rolling>(grain, motion, h.shear, h.moment, dashpot);
+    ContactForce<Lanes> const force = grain_contact<Rolling>(law.grain, motion, h.shear, h.moment, dashpot);
     if constexpr (Ledger) {
-      add_grain_losses(motion, h.shear + grain.shear_stiffness * motion.slip, h.moment + rolling_trial(motion), h, force, own);
+      add_grain_losses(law, motion, h.shear + law.grain.shear_stiffness * motion.slip, h.moment + rolling_trial(law, motion), h,
+                       force, own);
     }
     h.shear = force.shear;
     h.moment = force.moment;
     return force;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION Lanes rolling_trial(ContactMotion<Lanes> const& motion) const {
-    return rolling_stiffness(grain, motion.common_radius) * motion.turn;
+  KOKKOS_FORCEINLINE_FUNCTION static Lanes rolling_trial(Constants const& law, ContactMotion<Lanes> const& motion) {
+    return rolling_stiffness(law.grain, motion.common_radius) * motion.turn;
   }
 
-  /// Adds the bond (`parallel`) or puts it in the grain contact's place (`replace`), and breaks it where its strength is reached;
-  /// a broken bond's pair follows the unbonded law from this very step on.
-  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> with_bond(ContactForce<Lanes> const& grain_part,
-                                                            ContactMotion<Lanes> const& motion, Lanes const& dashpot,
-                                                            Site const& site, History& h, Own& own) const {
+  /// What the bonds would carry if none broke.
+  KOKKOS_FORCEINLINE_FUNCTION static BondForce<Lanes> bond_trial(Constants const& law, ContactMotion<Lanes> const& motion,
+                                                                 History const& h) {
     constexpr bool parallel = Bond == BondKind::parallel;
-    auto const bonded = is_bonded(h.equilibrium);
-    BondForce<Lanes> const trial = bond_contact(bond, motion, h.equilibrium, h.width, parallel ? h.bond_shear : h.shear,
-                                                parallel ? h.bond_moment : h.moment);
-    auto const doubt = bonded && !is_surely_intact(bond, trial);
-    if (any(doubt) && break_bonds(trial, doubt, site, h)) store(&rows.equilibrium(site.entry), h.equilibrium);
-    auto const intact = is_bonded(h.equilibrium);
+    return bond_contact(law.bond, motion, h.equilibrium, h.width, parallel ? h.bond_shear : h.shear,
+                        parallel ? h.bond_moment : h.moment);
+  }
+
+  /// Adds the bond (`parallel`) or puts it in the grain contact's place (`replace`). The pair of a bond that broke, `bonded` but
+  /// not `intact`, follows the unbonded law from this very step on.
+  KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> with_bond(Constants const& law, ContactForce<Lanes> const& grain_part,
+                                                            ContactMotion<Lanes> const& motion, Viscosity const& dashpot,
+                                                            BondForce<Lanes> const& trial, Mask const& bonded, Mask const& intact,
+                                                            History& h, Own& own) const {
     Lanes const zero(0);
-    if constexpr (parallel) {
+    if constexpr (Bond == BondKind::parallel) {
       if constexpr (Ledger) own.breakage += select(bonded && !intact, Lanes(0.5) * bond_energy(trial), zero);
       h.bond_shear = select(intact, trial.force.shear, zero);
       h.bond_moment = select(intact, trial.force.moment, zero);
       return {grain_part.normal + select(intact, trial.force.normal, zero), h.shear + h.bond_shear, h.moment + h.bond_moment};
     } else {
-      Lanes const trial_shear = select(bonded, trial.force.shear, h.shear + grain.shear_stiffness * motion.slip);
-      Lanes const trial_moment = select(bonded, trial.force.moment, Rolling ? h.moment + rolling_trial(motion) : zero);
-      ContactForce<Lanes> const unbonded = limit_grain_contact<Rolling>(grain, motion, trial_shear, trial_moment, dashpot);
-      if constexpr (Ledger) add_replace_losses(motion, trial, trial_shear, trial_moment, bonded, intact, unbonded, h, own);
+      Lanes const trial_shear = select(bonded, trial.force.shear, h.shear + law.grain.shear_stiffness * motion.slip);
+      Lanes const trial_moment = select(bonded, trial.force.moment, Rolling ? h.moment + rolling_trial(law, motion) : zero);
+      ContactForce<Lanes> const unbonded = limit_grain_contact<Rolling>(law.grain, motion, trial_shear, trial_moment, dashpot);
+      if constexpr (Ledger) add_replace_losses(law, motion, trial, trial_shear, trial_moment, bonded, intact, unbonded, h, own);
       h.shear = select(intact, trial.force.shear, unbonded.shear);
       h.moment = select(intact, trial.force.moment, unbonded.moment);
       return {select(intact, trial.force.normal, unbonded.normal), h.shear, h.moment};
     }
   }
 
-  /// The exact strength test of the doubtful bonds, one by one: they are few. @return whether one broke
-  KOKKOS_FUNCTION bool break_bonds(BondForce<Lanes> const& trial, Mask const& doubt, Site const& site, History& h) const {
-    bool broken = false;
-    for (int l = 0; l < lane_count; ++l) {
-      if (!lane(doubt, l)) continue;
-      BondStrength const strength = bond_strength(bond.strength, lane(trial.width, l), lane(trial.gap, l));
-      BreakMode const mode = strength.test(lane(trial.force.normal, l), lane(trial.force.shear, l), lane(trial.force.moment, l));
-      if (mode == BreakMode::none) continue;
-      set_lane(h.equilibrium, l, no_bond);
-      broken = true;
-      int const id = p.id(site.first + static_cast<std::size_t>(l)), other = p.id(site.other[l]);
-      if (id >= other) continue;  // both discs of the pair see the same break; one of them reports it
-      breaks.record(step, id, other, mode, lane(site.own->x, l) + 0.5 * lane(site.dx, l),
-                    lane(site.own->y, l) + 0.5 * lane(site.dy, l));
-    }
+  /// The closer strength test of the doubtful bonds and, one by one, the exact one of those that it leaves. @return those that
+  /// broke
+  CLATHRA_COLD_FUNCTION Mask break_bonds(Doubtful const& block) const {
+    Mask broken(false);
+    BondForce<Lanes> const trial{{block.normal, block.shear, block.moment}, {0, 0, 0}, block.width, block.gap};
+    for_each_set(block.where && !is_surely_intact(constants.bond, trial), [&](int l) {
+      BondStrength const strength = bond_strength(constants.bond.strength, lane(block.width, l), lane(block.gap, l));
+      BreakMode const mode = strength.test(lane(block.normal, l), lane(block.shear, l), lane(block.moment, l));
+      if (mode == BreakMode::none) return;
+      std::size_t const e = block.entry + static_cast<std::size_t>(l);
+      rows.equilibrium(e) = no_bond;
+      set_lane(broken, l, true);
+      int const id = p.id(block.first + static_cast<std::size_t>(l)), other = p.id(rows.neighbour(e));
+      if (id < other) breaks.record(step, id, other, mode, lane(block.x, l), lane(block.y, l));  // the other side sees it too
+    });
     return broken;
   }
 
-  KOKKOS_FUNCTION void report_deep(std::size_t first, Mask const& deep) const {
+  CLATHRA_COLD_FUNCTION void report_deep(std::size_t first, Mask const& deep) const {
     for (int l = 0; l < lane_count; ++l) {
       if (lane(deep, l)) faults.report(Fault::deep_overlap, p.id(first + static_cast<std::size_t>(l)));
     }
@@ -222,34 +248,35 @@ struct ContactKernel {
 
   /// Work of slip and plastic rolling of a grain contact in this step, by the mean force over the step: exactly what leapfrog
   /// takes out.
-  KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(ContactMotion<Lanes> const& motion, Lanes const& trial_shear,
-                                                    Lanes const& trial_moment, History const& old, ContactForce<Lanes> const& now,
-                                                    Own& own, Mask const& where = Mask(true)) const {
+  KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(Constants const& law, ContactMotion<Lanes> const& motion,
+                                                    Lanes const& trial_shear, Lanes const& trial_moment, History const& old,
+                                                    ContactForce<Lanes> const& now, Own& own,
+                                                    Mask const& where = Mask(true)) const {
     Lanes const zero(0), quarter(0.25);
-    Lanes const slid = (trial_shear - now.shear) * Lanes(1 / grain.shear_stiffness);
+    Lanes const slid = (trial_shear - now.shear) * Lanes(1 / law.grain.shear_stiffness);
     own.sliding += select(where, quarter * (old.shear + now.shear) * slid, zero);
     if constexpr (Rolling) {
-      Lanes const stiffness = lane_max(rolling_stiffness(grain, motion.common_radius), Lanes(1e-300));
+      Lanes const stiffness = lane_max(rolling_stiffness(law.grain, motion.common_radius), Lanes(1e-300));
       own.rolling += select(where, quarter * (old.moment + now.moment) * ((trial_moment - now.moment) / stiffness), zero);
     }
     if constexpr (Dashpot) {
-      Lanes const spring = lane_max(grain.normal_stiffness * motion.overlap, zero);
-      own.dashpot += select(where, Lanes(0.5) * (now.normal - spring) * (motion.approach * dt), zero);
+      Lanes const spring = lane_max(law.grain.normal_stiffness * motion.overlap, zero);
+      own.dashpot += select(where, Lanes(0.5) * (now.normal - spring) * (motion.approach * law.dt), zero);
     }
   }
 
   /// The same for `replace`: unbonded pairs slide and roll; a bond that breaks swaps its energy for that of the grain contact.
-  KOKKOS_FORCEINLINE_FUNCTION void add_replace_losses(ContactMotion<Lanes> const& motion, BondForce<Lanes> const& trial,
-                                                      Lanes const& trial_shear, Lanes const& trial_moment, Mask const& bonded,
-                                                      Mask const& intact, ContactForce<Lanes> const& unbonded, History const& old,
-                                                      Own& own) const {
-    add_grain_losses(motion, trial_shear, trial_moment, old, unbonded, own, !bonded);
-    Lanes const spring = lane_max(grain.normal_stiffness * motion.overlap, Lanes(0));
-    Lanes after = spring * spring * Lanes(0.5 / grain.normal_stiffness) +
-                  unbonded.shear * unbonded.shear * Lanes(0.5 / grain.shear_stiffness);
+  KOKKOS_FORCEINLINE_FUNCTION void add_replace_losses(Constants const& law, ContactMotion<Lanes> const& motion,
+                                                      BondForce<Lanes> const& trial, Lanes const& trial_shear,
+                                                      Lanes const& trial_moment, Mask const& bonded, Mask const& intact,
+                                                      ContactForce<Lanes> const& unbonded, History const& old, Own& own) const {
+    add_grain_losses(law, motion, trial_shear, trial_moment, old, unbonded, own, !bonded);
+    Lanes const spring = lane_max(law.grain.normal_stiffness * motion.overlap, Lanes(0));
+    Lanes after = spring * spring * Lanes(0.5 / law.grain.normal_stiffness) +
+                  unbonded.shear * unbonded.shear * Lanes(0.5 / law.grain.shear_stiffness);
     if constexpr (Rolling) {
       after += Lanes(0.5) * unbonded.moment * unbonded.moment /
-               lane_max(rolling_stiffness(grain, motion.common_radius), Lanes(1e-300));
+               lane_max(rolling_stiffness(law.grain, motion.common_radius), Lanes(1e-300));
     }
     own.breakage += select(bonded && !intact, Lanes(0.5) * (bond_energy(trial) - after), Lanes(0));
   }

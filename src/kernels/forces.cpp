@@ -69,8 +69,8 @@ void compute_forces(ParticleSoA const& particles, ContactRows const& rows, Conta
   Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
   std::visit(
       [&](auto bond, auto rolling, auto dashpot, auto ledger) {
-        ContactKernel<bond(), rolling(), dashpot(), ledger()> const kernel{particles, rows,   laws.grain, laws.bond, dt,
-                                                                           step,      breaks, losses,     faults};
+        ContactKernel<bond(), rolling(), dashpot(), ledger()> const kernel{
+            particles, rows, {laws.grain, laws.bond, least_strength(laws.bond), dt}, step, breaks, losses, faults};
         Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", slices, kernel);
       },
       bond_axis(laws.bond_kind), on(rows.features.rolling), on(laws.grain.damping_ratio > 0), on(laws.ledger));

@@ -38,16 +38,32 @@ KOKKOS_FORCEINLINE_FUNCTION L rolling_stiffness(GrainLaw const& law, L const& co
   return law.rolling_factor() * common_radius * common_radius;
 }
 
+/// In place of a dashpot coefficient: contacts are not viscous.
+struct Undamped {};
+
+/// F_n = k_n u_n >= 0 (Eq. 8) [N/m]; 0 for u_n <= 0.
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L> const& motion, Undamped) {
+  return lane_max(law.normal_stiffness * motion.overlap, L(0));
+}
+
+/// The same with a dashpot [N s/m per m]; the sum of both is never tensile.
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L> const& motion, L const& dashpot) {
+  L const damped = lane_max(L(0), law.normal_stiffness * motion.overlap + dashpot * motion.approach);
+  return select(motion.overlap > L(0), damped, L(0));
+}
+
 /// Eq. 8 with signed limits: F_n = k_n u_n >= 0; |F_s| <= mu F_n; |M| <= F_n B_c / 6. A contact with u_n <= 0 carries nothing.
 /// @param trial_shear,trial_moment  F_s + k_s Delta u_s and M + k_m Delta theta before the limits; for a bond that broke in
 ///                                  this step its own last forces, which are clipped to the limits and not reset
-/// @param dashpot                   viscous normal coefficient [N s/m per m]; the sum of spring and dashpot is never tensile
-template <bool Rolling, class L>
+/// @param dashpot                   viscous normal coefficient [N s/m per m] or Undamped
+template <bool Rolling, class L, class Dashpot>
 KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLaw const& law, ContactMotion<L> const& motion,
-                                                                L const& trial_shear, L const& trial_moment, L const& dashpot) {
-  L const damped = lane_max(L(0), law.normal_stiffness * motion.overlap + dashpot * motion.approach);
+                                                                L const& trial_shear, L const& trial_moment,
+                                                                Dashpot const& dashpot) {
   ContactForce<L> force;
-  force.normal = select(motion.overlap > L(0), damped, L(0));
+  force.normal = normal_force(law, motion, dashpot);
   force.shear = clamp_to(trial_shear, law.friction * force.normal);
   force.moment = L(0);
   if constexpr (Rolling) {
@@ -57,9 +73,9 @@ KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLaw const& 
 }
 
 /// One step of an unbonded contact with history F_s, M (Eq. 8).
-template <bool Rolling, class L>
+template <bool Rolling, class L, class Dashpot>
 KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> grain_contact(GrainLaw const& law, ContactMotion<L> const& motion, L const& shear,
-                                                          L const& moment, L const& dashpot) {
+                                                          L const& moment, Dashpot const& dashpot) {
   L const trial_shear = shear + law.shear_stiffness * motion.slip;
   L trial_moment(0);
   if constexpr (Rolling) trial_moment = moment + rolling_stiffness(law, motion.common_radius) * motion.turn;

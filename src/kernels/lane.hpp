@@ -13,6 +13,13 @@
 #include <experimental/simd>
 #endif
 
+/// A function that is rarely called, kept out of the code around the call so that its arguments need no memory there.
+#ifdef CLATHRA_SIMD
+#define CLATHRA_COLD_FUNCTION [[gnu::noinline, gnu::cold]] KOKKOS_FUNCTION
+#else
+#define CLATHRA_COLD_FUNCTION KOKKOS_FUNCTION
+#endif
+
 namespace clathra {
 
 // The scalar instance of the vocabulary: `double` is a lane of width one, `bool` its mask.
@@ -54,6 +61,16 @@ KOKKOS_FORCEINLINE_FUNCTION void for_each_set(Mask mask, Visit const& visit) {
 }
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_sqrt(Lanes const& a) { return stdx::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_abs(Lanes const& a) { return stdx::abs(a); }
+#if defined(__AVX512F__)  // GCC makes a comparison and a choice of the general form where one side is a constant
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) {
+  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
+  return Lanes(PlainVector(_mm512_mask_max_pd(x, 0xff, x, y)));
+}
+KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) {
+  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
+  return Lanes(PlainVector(_mm512_mask_min_pd(x, 0xff, x, y)));
+}
+#else
 KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) {
   auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
   return Lanes(x > y ? x : y);
@@ -62,11 +79,13 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) {
   auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
   return Lanes(x < y ? x : y);
 }
+#endif
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(Real const* from) { return Lanes(from, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Lanes const& value) { value.copy_to(to, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION Real lane(Lanes const& value, int l) { return value[static_cast<std::size_t>(l)]; }
 KOKKOS_FORCEINLINE_FUNCTION bool lane(Mask const& mask, int l) { return mask[static_cast<std::size_t>(l)]; }
 KOKKOS_FORCEINLINE_FUNCTION void set_lane(Lanes& value, int l, Real to) { value[static_cast<std::size_t>(l)] = to; }
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(Mask& mask, int l, bool to) { mask[static_cast<std::size_t>(l)] = to; }
 KOKKOS_FORCEINLINE_FUNCTION Real largest(Lanes const& value) { return stdx::hmax(value); }
 /// The values of a field at the discs named by `index[0 .. lane_count)`.
 KOKKOS_FORCEINLINE_FUNCTION Lanes gather(Real const* field, int const* index) {
@@ -82,6 +101,7 @@ KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Real value) { *to = value; }
 KOKKOS_FORCEINLINE_FUNCTION Real lane(Real value, int) { return value; }
 KOKKOS_FORCEINLINE_FUNCTION bool lane(bool mask, int) { return mask; }
 KOKKOS_FORCEINLINE_FUNCTION void set_lane(Real& value, int, Real to) { value = to; }
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(bool& mask, int, bool to) { mask = to; }
 KOKKOS_FORCEINLINE_FUNCTION Real largest(Real value) { return value; }
 KOKKOS_FORCEINLINE_FUNCTION Real gather(Real const* field, int const* index) { return field[*index]; }
 #endif
