@@ -112,12 +112,15 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
   simulation.add_uniform_strain_rate(-0.25 * rate.strain_rate, rate.strain_rate);
   if (breaking) {
-    // Ten times as fast to where bonds break.
-    constexpr double strain = 0.05, hurry = 10;
+    // Faster to where bonds break, but platens no faster than those of a small specimen, or large ones burst; then a while for
+    // the waves of that to die.
+    constexpr double strain = 0.05, hurry_of_small = 10, calming_of_small = 500, small = 20000;
+    double const length = std::sqrt(std::max(1.0, simulation.discs() / small)), hurry = std::max(1.0, hurry_of_small / length);
     simulation.loading.y = AxisDrive::at_rate(hurry * rate.strain_rate);
     auto const steps = static_cast<int>(strain / (hurry * rate.strain_rate * simulation.time_step));
     for (int n = 0; n < steps; ++n) simulation.step();
     simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
+    for (int n = 0; n < calming_of_small * length; ++n) simulation.step();
   }
   return simulation;
 }
