@@ -43,7 +43,7 @@ double moved_bytes(Simulation const& simulation) {
 
 /// Double precision operations of the laws, counted in their machine code: a pair in touch or bonded, once from either side, and
 /// the drift of a disc.
-constexpr double flops_of_contact = 59, flops_of_bonded_pair = 111, flops_of_drift = 47;
+constexpr double flops_of_contact = 58, flops_of_bonded_pair = 113, flops_of_drift = 47;
 
 double flops_per_step(Simulation const& simulation, Measures const& m) {
   double const pairs = flops_of_bonded_pair * m.bonded + flops_of_contact * (m.mechanical - m.bonded);
