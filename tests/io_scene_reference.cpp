@@ -74,7 +74,9 @@ TEST(SceneReference, NamesEveryKeyInBothForms) {
     EXPECT_NE(page.find("| `" + std::string(key.leaf()) + "` | " + std::string(key.help)), std::string::npos) << key.name;
     auto const& entry = json["properties"][std::string(key.section())]["properties"][std::string(key.leaf())];
     EXPECT_TRUE(entry.contains("description")) << key.name;
-    if (key.kind == Kind::choice) EXPECT_EQ(entry["enum"].size(), key.choices.size()) << key.name;
+    if (key.kind == Kind::choice) {
+      EXPECT_EQ(entry["enum"].size(), key.choices.size()) << key.name;
+    }
   }
 }
 

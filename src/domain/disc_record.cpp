@@ -89,14 +89,15 @@ std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) 
 }  // namespace
 
 DiscColumns::DiscColumns(ParticleSoA const& particles, Companions const& companions) {
-  auto const add = [this](Field<Real> const& field) {
+  auto const add = [this](char const* label, Field<Real> const& field) {
     if (count == most) throw std::logic_error("a disc has more numbers than a record holds");
+    name[count] = label;
     column[count++] = field;
   };
-  for_each_field(particles, [&](char const*, auto const& field) {
-    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) add(field);
+  for_each_field(particles, [&](char const* label, auto const& field) {
+    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) add(label, field);
   });
-  for (Companion const& companion : companions) add(*companion.field);
+  for (Companion const& companion : companions) add(companion.name, *companion.field);
 }
 
 RowColumns::RowColumns(ContactRows const& rows) {

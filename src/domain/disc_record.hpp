@@ -19,6 +19,7 @@ struct DiscColumns {
   static constexpr int most = 26;  // 9 of the state, 5 accounts, 2 of the start, 4 of rough walls, 6 derived ones
   int count = 0;
   Field<Real> column[most];
+  char const* name[most];
   DiscColumns(ParticleSoA const& particles, Companions const& companions);
 };
 

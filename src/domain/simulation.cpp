@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "domain/migration.hpp"
+#include "kernels/spatial_order.hpp"
 #include "kernels/stability.hpp"
 
 namespace clathra {

@@ -34,12 +34,8 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
 
 /// The numbers of a record between its id and the length of its row.
 std::vector<std::string> names_of(ParticleSoA const& particles, Companions const& companions) {
-  std::vector<std::string> names;
-  for_each_field(particles, [&](std::string const& name, auto const& field) {
-    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) names.push_back(name);
-  });
-  for (Companion const& companion : companions) names.push_back(companion.name);
-  return names;
+  DiscColumns const discs(particles, companions);
+  return {discs.name, discs.name + discs.count};
 }
 
 }  // namespace

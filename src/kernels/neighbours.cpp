@@ -9,36 +9,6 @@ namespace clathra {
 
 namespace {
 
-constexpr int sorting_window = 128;  // discs whose rows are evened out together; they stay near each other in space
-
-/// By the entries that carry a history, which the contact kernel evaluates, and by the length of the row among equals.
-struct SortByWork {
-  Field<int> order, slot;
-  OldRows old;
-  int discs;
-
-  KOKKOS_INLINE_FUNCTION int work(int disc) const {
-    int const length = old.length(slot(disc));
-    int carrying = 0;
-    for (int k = 0; k < length; ++k) carrying += old.carries(old.entry(slot(disc), k)) ? 1 : 0;
-    return carrying * (longest_row + 1) + length;
-  }
-  KOKKOS_FUNCTION void operator()(int window) const {
-    int const begin = window * sorting_window, end = begin + sorting_window < discs ? begin + sorting_window : discs;
-    int works[sorting_window];
-    for (int k = begin; k < end; ++k) {
-      int const disc = order(k), own = work(disc);
-      int at = k;
-      for (; at > begin && works[at - 1 - begin] < own; --at) {
-        order(at) = order(at - 1);
-        works[at - begin] = works[at - 1 - begin];
-      }
-      order(at) = disc;
-      works[at - begin] = own;
-    }
-  }
-};
-
 struct FirstSlots {
   Field<int> slot;
   int slots;
@@ -320,16 +290,6 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old) {
   Field<int> const slot = uninitialised<int>("slot", static_cast<std::size_t>(particles.owned));
   Kokkos::parallel_for("first_slots", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), FirstSlots{slot, old.slots_here});
   return slot;
-}
-
-Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin) {
-  Field<int> const order = bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
-  Kokkos::parallel_for("sort_by_work",
-                       Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
-                       SortByWork{order, slot, old, particles.owned});
-  permute(particles, order);
-  slot = permuted(slot, order, order.extent(0));
-  return order;
 }
 
 std::size_t search_bytes(ContactRows const& rows) { return rows.neighbour.span() * (2 * sizeof(int) + sizeof(Real)); }

@@ -28,10 +28,6 @@ struct OldRows {
   KOKKOS_INLINE_FUNCTION int neighbour_id(int entry) const {
     return entry < entries_here ? here.neighbour(entry) : arrived.neighbour(entry - entries_here);
   }
-  /// Whether a contact or a bond has left its mark on an entry.
-  KOKKOS_INLINE_FUNCTION bool carries(int entry) const {
-    return (entry < entries_here ? here.shear(entry) : arrived.shear(entry - entries_here)) != 0 || bonded(entry);
-  }
   KOKKOS_INLINE_FUNCTION bool bonded(int entry) const {
     if (here.equilibrium.extent(0) == 0) return false;
     return is_bonded(entry < entries_here ? here.equilibrium(entry) : arrived.equilibrium(entry - entries_here));
@@ -43,12 +39,6 @@ OldRows take_as_old(ParticleSoA const& particles, ContactRows const& rows);
 
 /// [owned] the slot of each disc, before discs move: its index.
 Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old);
-
-/// Puts the discs in spatial order (by cell; within windows of a few slices by the work on their rows, which evens out the
-/// slices) and drops the ghosts.
-/// @param slot  [owned] where the old row of each disc is; reordered with them
-/// @return [owned] the place that each disc had before
-Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin);
 
 /// Makes rows of all pairs closer than the sum of their leeways (surface to surface), plus all bonded pairs at any distance.
 /// History is kept by the pair's ids.

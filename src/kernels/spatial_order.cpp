@@ -1,0 +1,88 @@
+#include "kernels/spatial_order.hpp"
+
+#include "kernels/cell_grid.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr int sorting_window = 128;  // discs whose rows are evened out together; they stay near each other in space
+
+/// The work on the row of each slot of one slice: the entries that carry a history, which the contact kernel evaluates, and among
+/// equals the length of the row.
+struct WorkOfSlots {
+  ContactRows rows;
+  int first;
+  Field<int> work;  ///< [slots] first + slot is set
+
+  KOKKOS_FUNCTION void operator()(int slice) const {
+    bool const bonds = rows.equilibrium.extent(0) > 0;
+    Lanes carrying(0);
+    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
+      auto const e = static_cast<std::size_t>(k) * lane_count;
+      auto marked = load(&rows.shear(e)) != Lanes(0);
+      if (bonds) marked = marked || is_bonded(load(&rows.equilibrium(e)));
+      carrying += select(marked, Lanes(1), Lanes(0));
+    }
+    for (int l = 0; l < lane_count; ++l) {
+      int const slot = slice * lane_count + l;
+      if (slot < static_cast<int>(rows.length.extent(0)))
+        work(first + slot) = static_cast<int>(lane(carrying, l)) * (longest_row + 1) + rows.length(slot);
+    }
+  }
+};
+
+/// Sorts the discs of one window by falling work; equal ones keep their order.
+struct SortByWork {
+  Field<int> order, slot, work;
+  int discs;
+
+  KOKKOS_FUNCTION void operator()(int window) const {
+    int const begin = window * sorting_window, size = begin + sorting_window < discs ? sorting_window : discs - begin;
+    int disc[sorting_window], by_length[sorting_window];
+    for (int k = 0; k < size; ++k) disc[k] = order(begin + k);
+    spread(disc, by_length, size, [this](int d) { return work_on(d) % (longest_row + 1); });
+    spread(by_length, disc, size, [this](int d) { return work_on(d) / (longest_row + 1); });
+    for (int k = 0; k < size; ++k) order(begin + k) = disc[k];
+  }
+
+  KOKKOS_INLINE_FUNCTION int work_on(int disc) const { return slot(disc) < 0 ? 0 : work(slot(disc)); }
+
+  /// One pass of a counting sort, the largest digit first.
+  template <class Digit>
+  KOKKOS_INLINE_FUNCTION static void spread(int const* from, int* to, int size, Digit const& digit) {
+    int place[longest_row + 1] = {};
+    for (int k = 0; k < size; ++k) ++place[digit(from[k])];
+    int next = 0;
+    for (int d = longest_row; d >= 0; --d) {
+      int const count = place[d];
+      place[d] = next;
+      next += count;
+    }
+    for (int k = 0; k < size; ++k) to[place[digit(from[k])]++] = from[k];
+  }
+};
+
+Field<int> work_of_slots(OldRows const& old) {
+  auto const arrived = static_cast<int>(old.arrived.length.extent(0));
+  Field<int> const work = uninitialised<int>("work_of_slots", static_cast<std::size_t>(old.slots_here + arrived));
+  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(old.slots_here)),
+                       WorkOfSlots{old.here, 0, work});
+  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(arrived)),
+                       WorkOfSlots{old.arrived, old.slots_here, work});
+  return work;
+}
+
+}  // namespace
+
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin) {
+  Field<int> const order = bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
+  Kokkos::parallel_for("sort_by_work",
+                       Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
+                       SortByWork{order, slot, work_of_slots(old), particles.owned});
+  permute(particles, order);
+  slot = permuted(slot, order, order.extent(0));
+  return order;
+}
+
+}  // namespace clathra

@@ -1,0 +1,13 @@
+#pragma once
+/// The order in which discs are stored: near each other in memory what is near in space, and slices of equal work.
+#include "kernels/neighbours.hpp"
+
+namespace clathra {
+
+/// Puts the discs in spatial order (by cell; within windows of a few slices by the work on their rows, which evens out the
+/// slices) and drops the ghosts.
+/// @param slot  [owned] where the old row of each disc is; reordered with them
+/// @return [owned] the place that each disc had before
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin);
+
+}  // namespace clathra
