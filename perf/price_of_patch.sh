@@ -59,5 +59,4 @@ done <<'END'
 contact forces, rolling:forces:ContactKernel<(clathra::BondKind)0, true, false, false>::operator()(int) const>:
 contact forces, bonded:forces:ContactKernel<(clathra::BondKind)2, true, false, false>::operator()(int) const>:
 kick and drift:integrate:KickAndDrift<false>, Kokkos::RangePolicy<Kokkos::OpenMP>, Kokkos::Max
-walls:walls:WallForces
 END

@@ -13,7 +13,7 @@ for discs in "${sizes[@]}"; do
   # A large packing takes long to settle and shows little of it.
   if ((discs > 500000)); then how=(--settle 500 --repeat 1); else how=(--repeat 3); fi
   for case in rolling bonded breaking; do
-    [ "$case" != breaking ] || ((discs <= 500000)) || continue # it takes a million thousands of steps to get there
+    [ "$case" != breaking ] || ((discs <= 500000)) || continue # thousands of steps until their bonds break
     for threads in 1 2; do
       OMP_NUM_THREADS=$threads OMP_PROC_BIND=false "$bench" --case $case --discs "$discs" --seconds 3 "${how[@]}" |
         awk -F, '

@@ -1,4 +1,5 @@
 /// What the rows keep beside the history, against doing without it.
+#include "kernels/spatial_order.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -28,6 +29,30 @@ TEST(ContactRows, EntriesKnownToCarryNothingMayBeLeftOut) {
     EXPECT_GT(quick.broken_bonds(), 10);
     EXPECT_GT(quick.rebuilds(), 3);
   }
+}
+
+TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
+  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Specimen s = disordered_patch(20, 20, 0.03);
+  bond_all(s, scene);
+  s.contacts.resize(2 * s.contacts.size() / 3);  // some discs carry less than others
+  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
+  sim.request_rebuild();
+  (void)sim.state();  // searches, and evaluates nothing behind that
+  ContactRows const& rows = sim.rows();
+  auto const carrying = [&](int i) {
+    int count = 0;
+    for (int k = 0; k < rows.length(i); ++k)
+      count += rows.shear(rows.entry(i, k)) != 0 || is_bonded(rows.equilibrium(rows.entry(i, k))) ? 1 : 0;
+    return count;
+  };
+  int falls = 0;
+  for (int i = 1; i < sim.particles().owned; ++i) {
+    if (i % sorting_window == 0) continue;
+    EXPECT_LE(carrying(i), carrying(i - 1)) << i;
+    falls += carrying(i) < carrying(i - 1) ? 1 : 0;
+  }
+  EXPECT_GT(falls, 4);
 }
 
 TEST(ContactRows, KeepTheWidthThatTheLawGivesABond) {

@@ -6,8 +6,6 @@ namespace clathra {
 
 namespace {
 
-constexpr int sorting_window = 128;  // discs whose rows are evened out together; they stay near each other in space
-
 /// The work on the row of each slot of one slice: the entries that carry a history, which the contact kernel evaluates, and among
 /// equals the length of the row.
 struct WorkOfSlots {

@@ -4,8 +4,11 @@
 
 namespace clathra {
 
+/// Discs whose rows are evened out together; they stay near each other in space.
+inline constexpr int sorting_window = 128;
+
 /// Puts the discs in spatial order (by cell; within windows of a few slices by the work on their rows, which evens out the
-/// slices) and drops the ghosts.
+/// slices: first those with the most entries that carry a history, then those with the longest rows) and drops the ghosts.
 /// @param slot  [owned] where the old row of each disc is; reordered with them
 /// @return [owned] the place that each disc had before
 Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin);
