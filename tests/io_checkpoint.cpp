@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "io/checkpoint.hpp"
+#include "io/checkpoint_content.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/run_record.hpp"
 #include "io/scene_file.hpp"
@@ -150,6 +152,21 @@ TEST_F(CheckpointFile, OfAnotherSceneOrVersionIsRefusedWithWhatDiffers) {
     EXPECT_EQ(problem.code, ExitCode::refused);
     EXPECT_NE(std::string(problem.what()).find("run.damping was 0.3, is 0.2"), std::string::npos) << problem.what();
     EXPECT_EQ(std::string(problem.what()).find("run.threads"), std::string::npos) << problem.what();
+  }
+}
+
+TEST_F(CheckpointFile, WithAHistoryThatIsNotFiniteIsRefused) {
+  TestState state = begun().state();
+  state.simulation.discs.numbers.back() = std::numeric_limits<double>::quiet_NaN();  // the last entry of the last row
+  fs::path const path = folder / "bad.h5";
+  write_checkpoint_content(path, test_scene(), state, {});
+  try {
+    (void)read_checkpoint_content(path, test_scene(), {});
+    FAIL() << "a history that is not finite";
+  } catch (FileProblem const& problem) {
+    EXPECT_EQ(problem.code, ExitCode::bad_input);
+    EXPECT_NE(std::string(problem.what()).find("rows/" + state.simulation.history_columns.back()), std::string::npos)
+        << problem.what();
   }
 }
 

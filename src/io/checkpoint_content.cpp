@@ -131,6 +131,13 @@ RowRange read_lengths(Hdf5File const& file, RowRange const& discs, std::int64_t 
   return {static_cast<std::size_t>(entries), static_cast<std::size_t>(before), static_cast<std::size_t>(before + own)};
 }
 
+std::vector<double> read_finite(Hdf5File const& file, std::string const& name, RowRange const& range) {
+  auto column = file.read<double>(name, range);
+  if (!std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); }))
+    file.fail(ExitCode::bad_input, name + " holds a number that is not finite");
+  return column;
+}
+
 void read_records(Hdf5File const& file, SimulationState& s, Ranks const& ranks) {
   std::int64_t const discs = file.integer_attribute("particles"), entries = file.integer_attribute("entries");
   if (discs < 1 || discs > 1'000'000'000 || entries < 0 || entries > discs * longest_row)
@@ -151,14 +158,11 @@ void read_records(Hdf5File const& file, SimulationState& s, Ranks const& ranks) 
   layout.for_each_disc(s.discs, 0, next_of(ids));
   layout.for_each_disc(s.discs, layout.length, next_of(lengths));
   for (std::size_t c = 0; c < s.disc_columns.size(); ++c) {
-    auto const column = file.read<double>("particles/" + s.disc_columns[c], rows);
-    if (!std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); }))
-      file.fail(ExitCode::bad_input, fmt::format("particles/{} holds a number that is not finite", s.disc_columns[c]));
-    layout.for_each_disc(s.discs, 1 + c, next_of(column));
+    layout.for_each_disc(s.discs, 1 + c, next_of(read_finite(file, "particles/" + s.disc_columns[c], rows)));
   }
   layout.for_each_entry(s.discs, 0, next_of(file.read<std::int32_t>("rows/neighbour", row_entries)));
   for (std::size_t c = 0; c < s.history_columns.size(); ++c)
-    layout.for_each_entry(s.discs, 1 + c, next_of(file.read<double>("rows/" + s.history_columns[c], row_entries)));
+    layout.for_each_entry(s.discs, 1 + c, next_of(read_finite(file, "rows/" + s.history_columns[c], row_entries)));
 }
 
 void require_same_scene(Hdf5File const& file, Json const& then, Scene const& scene) {
