@@ -19,7 +19,7 @@ class Failed(Exception):
 
 def start(command, log, cores, threads):
     """Runs a command bound to cores, its output in a log. Returns the output, and the share of the cores that it got."""
-    environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive", OMP_PROC_BIND="false",
+    environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_PROC_BIND="false",
                        OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     pinned = ["taskset", "-c", ",".join(map(str, cores))] + [str(word) for word in command]
     before, clock = os.times(), time.monotonic()
