@@ -10,7 +10,10 @@ fail() { echo "restart: $*"; cat log || true; exit 1; }
 "$clathra" generate "$scene" -o specimen.h5 >log 2>&1 || fail "no specimen"
 given=(run "$scene" --set sample.generator=file --set sample.file=specimen.h5 --set test.axial_strain=0.008
   --set output.records=60 --set output.snapshots=3 --set output.energy=true)
+begun=$(date +%s%N)
 "$clathra" "${given[@]}" --output alone >log 2>&1 || fail "the run that is left alone failed"
+quarter=$((($(date +%s%N) - begun) / 4000000)) # of its time [ms]
+seconds() { printf '%d.%03d' $(($1 / 1000)) $(($1 % 1000)); }
 
 # With ranks $1 under the launcher, else alone.
 start() {
@@ -28,7 +31,7 @@ for round in 1 2 3 4 5; do
   ranks=$((round % 3 + 1))
   start "$ranks" "${given[@]}" --output killed --resume --checkpoint-every 0.2s >log 2>&1 &
   job=$!
-  sleep "$((1 + round % 2)).$((round * 2))"
+  sleep "$(seconds $((round * quarter)))"
   # The launcher goes last: it would end its ranks in order.
   pkill -KILL -f -- "--output killed" || true
   wait "$job" 2>/dev/null || true
@@ -53,7 +56,7 @@ compare killed
 
 # Asked to stop: the step's end, a checkpoint, 75.
 code=0
-start 3 "${given[@]}" --output stopped --max-walltime 1s --checkpoint-every 0s >log 2>&1 || code=$?
+start 3 "${given[@]}" --output stopped --max-walltime "$(seconds $quarter)s" --checkpoint-every 0s >log 2>&1 || code=$?
 [ "$code" = 75 ] || fail "code $code instead of 75 where the wall time is over"
 [ -f stopped/ckpt/0.json ] || fail "stopped without a checkpoint"
 grep -q -- "--resume goes on" log || fail "does not say how to go on"
@@ -68,7 +71,7 @@ code=0
 "$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || code=$?
 [ "$code" = 66 ] && grep -q "has digest" log || fail "a damaged checkpoint is not refused ($code)"
 code=0
-start 2 "${given[@]}" --output stopped --max-walltime 1s >log 2>&1 || code=$?
+start 2 "${given[@]}" --output stopped --max-walltime "$(seconds $quarter)s" >log 2>&1 || code=$?
 [ "$code" = 75 ] || fail "code $code at the second try"
 "$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || fail "cannot be resumed on one rank"
 compare stopped
