@@ -132,8 +132,8 @@ struct ContactKernel {
   }
 
  private:
-  /// What neighbours are asked for lies scattered, and a load that waits for the outer caches holds up everything behind it. So
-  /// the discs some slices ahead are fetched in their order, before a neighbour needs them.
+  /// Neighbours lie scattered, and a load that waits for the outer caches holds up everything behind it. So the discs some slices
+  /// ahead are fetched in their order, before a neighbour needs them.
   KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(std::size_t first) const {
     constexpr std::size_t slices_ahead = 64;
     std::size_t const wanted = first + slices_ahead * lane_count, last = p.x.extent(0) - 1;
