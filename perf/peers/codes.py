@@ -66,14 +66,22 @@ class Packing:
         self.discs = [line.split() for line in (folder / "discs.txt").read_text().splitlines()]
         self.forces = read_forces(folder / "forces.txt")
 
-    def write_data(self, path, density_of):
-        """The data file of LAMMPS and LIGGGHTS; `density_of` gives the density that makes a disc of a particle of this radius."""
+    def write_data(self, path, density_of, bonded):
+        """The data file of LAMMPS and LIGGGHTS; `density_of` gives the density that makes a disc of a particle of this radius.
+        With bonds the discs have a number of their molecule as well."""
         s = self.settings
-        lines = ["Discs of Clathra, one metre deep", "", f"{len(self.discs)} atoms", "2 atom types", "",
-                 f"{s['left']!r} {s['right']!r} xlo xhi", f"{s['bottom']!r} {s['top']!r} ylo yhi", "-0.5 0.5 zlo zhi", "",
-                 "Atoms", ""]
+        bonds = (self.folder / "bonds.txt").read_text().splitlines() if bonded else []
+        lines = ["Discs of Clathra, one metre deep", "", f"{len(self.discs)} atoms", "2 atom types"]
+        lines += [f"{len(bonds)} bonds", "1 bond types"] * bonded
+        lines += ["", f"{s['left']!r} {s['right']!r} xlo xhi", f"{s['bottom']!r} {s['top']!r} ylo yhi", "-0.5 0.5 zlo zhi", "",
+                  "Atoms", ""]
         for number, x, y, radius in self.discs:
-            lines.append(f"{int(number) + 1} 1 {2 * float(radius)!r} {density_of(float(radius))!r} {x} {y} 0")
+            first = f"{int(number) + 1} 1" + " 1" * bonded
+            lines.append(f"{first} {2 * float(radius)!r} {density_of(float(radius))!r} {x} {y} 0")
+        lines += ["", "Bonds", ""] * bonded
+        for number, bond in enumerate(bonds):
+            a, b = bond.split()
+            lines.append(f"{number + 1} 1 {int(a) + 1} {int(b) + 1}")
         path.write_text("\n".join(lines) + "\n")
 
 
@@ -91,7 +99,7 @@ def ours_program():
 
 
 class Ours:
-    name, package, program = "Clathra", None, None
+    name = "Clathra"
     laws = {"frictional": "springs, friction", "rolling": "springs, friction, rolling",
             "bonded": "springs, friction, rolling, bonds (55 %)"}
 
@@ -101,11 +109,37 @@ class Ours:
         return measurement_of(*start(words, log, cores, len(cores)), log, packing, steps, packing.forces)
 
 
-class Lammps:
+class Packaged:
+    """A code that Debian packages."""
+    package = None
+
+    def version(self):
+        return version(self.package)
+
+    def has(self, law):
+        return law in self.laws
+
+
+class Lammps(Packaged):
     """LAMMPS, and LIGGGHTS which has its input language. The lever of their rolling laws is R_eff = Rbar / 2, so that our
     k_m = k_n beta^2 Rbar^2 / 12 is a spring of k_n beta^2 / 3 there, and our |M| <= F_n beta Rbar / 6 a coefficient of beta / 3."""
     name, package, program, input = "LAMMPS", "lammps", "lmp", "lammps.in"
-    laws = {"frictional": "gran/hooke/history", "rolling": "granular, rolling sds"}
+    laws = {"frictional": "gran/hooke/history", "rolling": "granular, rolling sds",
+            "bonded": "granular, rolling sds, bpm/rotational"}
+
+    def __init__(self, program=None):
+        """With `program` instead of Debian's."""
+        if program:
+            self.package, self.program = None, os.path.abspath(shutil.which(program))
+
+    def help(self):
+        return subprocess.run([self.program, "-h"], capture_output=True, text=True).stdout
+
+    def version(self):
+        return super().version() if self.package else re.search(r"Parallel Simulator - (.*)", self.help())[1]
+
+    def has(self, law):
+        return law in self.laws and (law != "bonded" or "bpm/rotational" in self.help())
 
     def density_of(self, packing, radius):
         """The mass of a sphere is 4/3 pi r^3 times this density: that of a disc one metre deep."""
@@ -115,17 +149,20 @@ class Lammps:
         s = packing.settings
         names = ("dt", "skin", "kn", "ks", "friction", "left", "right", "bottom", "top")
         values = {name: repr(s[name]) for name in names}
-        return values | {"data": packing.folder / f"{self.program}.data",
-                         "forces": packing.folder / f"{self.program}-{law}.forces", "law": law, "check": check, "steps": steps,
-                         "rolling_stiffness": repr(s["kn"] * s["shape_factor"]**2 / 3),
-                         "rolling_friction": repr(s["shape_factor"] / 3)}
+        bond = ("stiffness", "strength")
+        bond = {f"bond_{name}": " ".join(repr(s[f"bond_{part}_{name}"]) for part in ("normal", "shear", "rolling", "rolling"))
+                for name in bond}  # the last of the three for twisting too, which discs do not do
+        return values | bond | {"data": packing.folder / f"{self.input}-{law}.data",
+                                "forces": packing.folder / f"{self.input}-{law}.forces", "law": law, "check": check,
+                                "steps": steps, "rolling_stiffness": repr(s["kn"] * s["shape_factor"]**2 / 3),
+                                "rolling_friction": repr(s["shape_factor"] / 3), "longest": repr(1.5 * s["longest_bond"])}
 
     def run(self, packing, law, cores, check, steps):
-        log = packing.folder / f"{self.program}-{law}-{len(cores)}.log"
+        log = packing.folder / f"{self.input}-{law}-{len(cores)}.log"
         words = ["mpirun", "--bind-to", "none", "--oversubscribe", "-np", len(cores)] if len(cores) > 1 else []
         words += [self.program, "-in", here / self.input, "-log", "none"]
         values = self.variables(packing, law, check, steps)
-        packing.write_data(values["data"], lambda radius: self.density_of(packing, radius))
+        packing.write_data(values["data"], lambda radius: self.density_of(packing, radius), law == "bonded")
         for name, value in values.items():
             words += ["-var", name, value]
         text, share = start(words, log, cores, 1)
@@ -150,8 +187,8 @@ class Liggghts(Lammps):
         return super().variables(packing, law, check, steps) | {"rolling": "off" if law == "frictional" else "epsd2"}
 
 
-class Yade:
-    name, package, program = "YADE", "yade", "yade"
+class Yade(Packaged):
+    name, package = "YADE", "yade"
     laws = {"frictional": "FrictPhys_CundallStrack", "bonded": "CohFrictPhys_CohesionMoment"}
 
     def run(self, packing, law, cores, check, steps):

@@ -1,6 +1,6 @@
 /// Our side of the comparison with other codes: perf/peers/run starts it.
 ///   peers_ours write SPECIMEN FOLDER
-///     writes discs.txt (id x y radius) and forces.txt (id fx fy) there and prints the settings for the peers
+///     writes discs.txt (id x y radius), forces.txt (id fx fy) and bonds.txt (id id) there and prints the settings for the peers
 ///   peers_ours run SPECIMEN CASE DT CHECK STEPS
 ///     steps CHECK times, prints the contact stress, then times STEPS more
 /// CASE: frictional, rolling or bonded. Every run starts as the peers do: at rest, without history of the contacts, between four
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -81,10 +82,39 @@ void write_discs(Simulation const& simulation, std::string const& folder) {
   if (std::fclose(discs) + std::fclose(forces) != 0) throw std::runtime_error("cannot write into " + folder);
 }
 
+/// The bonds as pairs of ids; prints means over them of what a bond of constant stiffness and strength needs: stiffness (Eqs. 19
+/// to 21), R_t, and R_s and R_r of a bond without normal force.
+void write_bonds(Simulation const& bonded, std::string const& folder) {
+  Snapshot const s = take_snapshot(bonded);
+  BondLaw const& law = bonded.laws().contact.bond;
+  std::ofstream file(folder + "/bonds.txt");
+  BondStiffness<Real> stiffness{0, 0, 0}, strength{0, 0, 0};
+  Real bonds = 0, longest = 0;
+  for (std::size_t k = 0; k < s.a.size(); ++k) {
+    Real const width = s.width[k];
+    if (!(width > 0)) continue;
+    auto const a = static_cast<std::size_t>(s.a[k]), b = static_cast<std::size_t>(s.b[k]);
+    file << s.id[a] << ' ' << s.id[b] << '\n';
+    Real const gap = law.gap(-Real(s.gap[k]));
+    BondStiffness<Real> const k_bond = law.stiffness(width, gap);
+    BondStrength const limit = bond_strength(law.strength, width, gap);
+    stiffness = {stiffness.normal + k_bond.normal, stiffness.shear + k_bond.shear, stiffness.rolling + k_bond.rolling};
+    strength = {strength.normal + limit.tension, strength.shear + limit.shear(0), strength.rolling + limit.rolling(0)};
+    longest = std::max(longest, std::hypot(s.x[b] - s.x[a], s.y[b] - s.y[a]));
+    bonds += 1;
+  }
+  if (!file.flush()) throw std::runtime_error("cannot write into " + folder);
+  std::printf("bond_normal_stiffness %.17g\nbond_shear_stiffness %.17g\nbond_rolling_stiffness %.17g\n", stiffness.normal / bonds,
+              stiffness.shear / bonds, stiffness.rolling / bonds);
+  std::printf("bond_normal_strength %.17g\nbond_shear_strength %.17g\nbond_rolling_strength %.17g\nlongest_bond %.17g\n",
+              strength.normal / bonds, strength.shear / bonds, strength.rolling / bonds, longest);
+}
+
 void write_for_peers(char const* path, std::string const& folder) {
   Specimen const specimen = read_at_rest(path);
   Simulation const rolling = simulation_of(specimen, "rolling"), bonded = simulation_of(specimen, "bonded");
   write_discs(rolling, folder);
+  write_bonds(bonded, folder);
   Scene const scene = scene_of(specimen, "rolling");
   GrainLaw const& law = rolling.laws().contact.grain;
   double const dt = std::min(stable_step(rolling, scene), stable_step(bonded, scene));
