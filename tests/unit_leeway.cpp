@@ -151,5 +151,53 @@ TEST(Leeway, LeavesASmallPeriodicCellWideEnough) {
   EXPECT_LE(2 * (2 * largest + 2 * leeway_of(sim, 5)), side);
 }
 
+/// The homogeneous motion of a box whose walls stood at `before`.
+AffineFrame motion_since(Walls const& before, Walls const& now) {
+  AffineFrame frame;
+  frame.reference_centre_x = 0.5 * (before.position[left] + before.position[right]);
+  frame.reference_centre_y = 0.5 * (before.position[bottom] + before.position[top]);
+  frame.centre_x = 0.5 * (now.position[left] + now.position[right]);
+  frame.centre_y = 0.5 * (now.position[bottom] + now.position[top]);
+  frame.stretch_x = now.width() / before.width();
+  frame.stretch_y = now.height() / before.height();
+  return frame;
+}
+
+/// Steps, and expects that no disc ever strays beyond its leeway and that none is searched for long before.
+void expect_searches_in_time(Simulation& sim, int steps) {
+  Walls at_search = sim.walls();
+  std::int64_t const before = sim.rebuilds();
+  double largest = 0;
+  for (int n = 0; n < steps; ++n) {
+    std::int64_t const searches = sim.rebuilds();
+    sim.step();
+    if (sim.rebuilds() > searches) at_search = sim.walls();
+    double const stray = std::sqrt(largest_stray2(sim.particles(), motion_since(at_search, sim.walls())));
+    EXPECT_LT(stray, 1) << n;
+    largest = std::max(largest, stray);
+  }
+  EXPECT_GT(largest, 0.8);
+  EXPECT_GE(sim.rebuilds() - before, 3);
+}
+
+TEST(Leeway, SearchesComeInTimeForDiscsThatFly) {
+  Specimen s = two_of_a_hundred_fly(0.3, -0.2);
+  s.left = s.bottom = -1;
+  s.right = s.top = 3;
+  Simulation sim(s, {}, 2 * h);
+  sim.time_step = 2e-7;
+  expect_searches_in_time(sim, 8000);
+}
+
+TEST(Leeway, SearchesComeInTimeForDiscsThatAnArrivingWallLeavesBehind) {
+  Specimen s = two_of_a_hundred_fly(0, 0);
+  s.left = s.bottom = -1;
+  s.right = s.top = 3;
+  Simulation sim(s, {}, 2 * h);
+  sim.time_step = 2e-7;
+  sim.loading.y = AxisDrive::at_rate(0.05);
+  expect_searches_in_time(sim, 8000);
+}
+
 }  // namespace
 }  // namespace clathra

@@ -20,10 +20,10 @@ Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
 void Simulation::step() {
   loading.move(walls_, time_step);
   Kokkos::Timer const moving;
-  Real const strayed2 = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
+  Real const longest_way = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
   busy_seconds_ += moving.seconds();
   if (periodic()) stretch_homogeneously();
-  if (rebuild_pending_ || outdated(ranks_.max(strayed2))) {
+  if (rebuild_pending_ || outdated(ranks_.max(longest_way))) {
     rebuild();
   } else if (periodic()) {
     images_.refresh(particles_, cell_);
@@ -73,6 +73,7 @@ void Simulation::rebuild(bool leeway_by_speed) {
   mark_reference(particles_);
   reference_walls_ = walls_;
   reference_cell_ = cell_;
+  strayed_ = 0;
   rebuild_pending_ = false;
   ++rebuilds_;
   Kokkos::fence();
@@ -143,11 +144,18 @@ LeewayRange Simulation::leeway_range(bool by_speed) const {
 }
 
 /// Whether two discs that are not in each other's rows could touch: the greatest share of its leeway that a disc has strayed off
-/// the homogeneous motion, plus what the homogeneous motion itself brings two discs nearer, as a share of the least leeway.
-bool Simulation::outdated(Real strayed2) const {
+/// the homogeneous motion, plus what the homogeneous motion itself brings two discs nearer, as a share of the least leeway. Ways
+/// are added up until they could amount to that, and only then is it looked where the discs are.
+/// @param longest_way  of a disc of any rank in this step [m]
+bool Simulation::outdated(Real longest_way) {
   AffineFrame const f = frame();
   Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
-  return std::sqrt(strayed2) + closing * (2 * largest_radius_ / skin_ + 1) >= 1;
+  Real const spent = closing * (2 * largest_radius_ / skin_ + 1);
+  Real const way_of_frame = periodic() ? 0 : (walls_.largest_speed(left, right) + walls_.largest_speed(bottom, top)) * time_step;
+  strayed_ += (longest_way + way_of_frame) / leeway_range(false).least;
+  if (strayed_ * (1 + closing) + spent < 1) return false;
+  strayed_ = std::sqrt(ranks_.max(largest_stray2(particles_, f)));
+  return strayed_ + spent >= 1;
 }
 
 void Simulation::account_boundary_work(WallReactions const& before) {

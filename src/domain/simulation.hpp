@@ -132,7 +132,7 @@ class Simulation {
   void inject(Specimen const& specimen);
   AffineFrame frame() const;
   LeewayRange leeway_range(bool by_speed) const;
-  bool outdated(Real strayed2) const;
+  bool outdated(Real longest_way);
   void stretch_homogeneously();
   void rebalance_if_it_pays();
   Companions companions(WallShear& wall_shear);
@@ -168,6 +168,7 @@ class Simulation {
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Accum> start_x_, start_y_;
+  Real strayed_ = 1e300;     // at most, since the last search, as a share of a leeway
   double busy_seconds_ = 0;  // of this rank since the cuts were made
   bool rebuild_pending_ = true;
 };

@@ -37,13 +37,13 @@ double moved_bytes(Simulation const& simulation) {
   ContactFeatures const features = simulation.rows().features;
   double const histories = 1 + (features.rolling || features.bonds ? 1 : 0) + (features.separate_bond ? 2 : 0);
   double const row = sizeof(int) + sizeof(Real) * (2 * histories + (features.bonds ? 2 : 0));
-  constexpr double contact_pass = 6 + 3, drift = 14 + 6;  // fields of a disc
+  constexpr double contact_pass = 6 + 3, drift = 11 + 6;  // fields of a disc
   return entries * row + sizeof(Real) * (contact_pass + drift);
 }
 
 /// Double precision operations of the laws, counted in their machine code: a pair in touch or bonded, once from either side, and
 /// the drift of a disc.
-constexpr double flops_of_contact = 58, flops_of_bonded_pair = 113, flops_of_drift = 47;
+constexpr double flops_of_contact = 58, flops_of_bonded_pair = 113, flops_of_drift = 33;
 
 double flops_per_step(Simulation const& simulation, Measures const& m) {
   double const pairs = flops_of_bonded_pair * m.bonded + flops_of_contact * (m.mechanical - m.bonded);

@@ -24,9 +24,16 @@ struct KickAndDrift {
   AffineFrame frame;
   Field<Accum> lost_to_damping;
   Faults faults;
+  int slices, share;  ///< in all, and of a thread
 
-  KOKKOS_FUNCTION void operator()(int slice, Real& strayed2) const {
-    auto const i = static_cast<std::size_t>(slice) * lane_count;
+  /// A thread goes through its share backwards, since what the forces touched last is still in its cache.
+  KOKKOS_FUNCTION int backwards(int place) const {
+    int const first = place / share * share, next = first + share;
+    return first + (next < slices ? next : slices) - 1 - place;
+  }
+
+  KOKKOS_FUNCTION void operator()(int place, Real& longest_way) const {
+    auto const i = static_cast<std::size_t>(backwards(place)) * lane_count;
     Lanes const inverse_mass = load(&p.inverse_mass(i));
     auto const free = inverse_mass > Lanes(0);  // padding discs have none
     Lanes lost(0);
@@ -47,18 +54,15 @@ struct KickAndDrift {
     store(&p.angle(i), load(&p.angle(i)) + omega * dt);
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
 
-    Lanes const dx = x - (frame.centre_x + frame.stretch_x * (load(&p.reference_x(i)) - frame.reference_centre_x));
-    Lanes const dy = y - (frame.centre_y + frame.stretch_y * (load(&p.reference_y(i)) - frame.reference_centre_y));
-    Lanes moved = select(free, dx * dx + dy * dy + lane_abs(omega) * Lanes(0), Lanes(0));
-    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(moved, l, 0);  // ghosts share the last slice
-    if (any(!(moved < Lanes(1e10)))) report(i, moved);
-    Lanes const leeway = load(&p.leeway(i));
-    strayed2 = lane_max(strayed2, largest(select(moved > Lanes(0), moved / (leeway * leeway), Lanes(0))));
+    Lanes way = (lane_abs(vx) + lane_abs(vy)) * dt + lane_abs(omega) * Lanes(0);
+    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(way, l, 0);  // ghosts share the last slice
+    if (any(!(way < Lanes(1e5)))) report(i, way);
+    longest_way = lane_max(longest_way, largest(select(way > Lanes(0), way, Lanes(0))));
   }
 
-  KOKKOS_FUNCTION void report(std::size_t i, Lanes const& moved) const {
+  KOKKOS_FUNCTION void report(std::size_t i, Lanes const& way) const {
     for (int l = 0; l < lane_count; ++l) {
-      if (!(lane(moved, l) < 1e10)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
+      if (!(lane(way, l) < 1e5)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
     }
   }
 };
@@ -67,21 +71,19 @@ struct KickAndDrift {
 
 Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
                Faults const& faults) {
-  Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
-  Real strayed2 = 0;
+  int const slices = slice_count(particles.owned), threads = ExecutionSpace().concurrency();
+  int const share = (slices + threads - 1) / threads;
+  Real longest_way = 0;
+  auto const run = [&](auto const& kernel) {
+    Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, slices), kernel,
+                            Kokkos::Max<Real>(longest_way));
+  };
   if (losses.damping.extent(0) > 0) {
-    Kokkos::parallel_reduce("kick_and_drift", slices, KickAndDrift<true>{particles, law, dt, frame, losses.damping, faults},
-                            Kokkos::Max<Real>(strayed2));
+    run(KickAndDrift<true>{particles, law, dt, frame, losses.damping, faults, slices, share});
   } else {
-    Kokkos::parallel_reduce("kick_and_drift", slices, KickAndDrift<false>{particles, law, dt, frame, losses.damping, faults},
-                            Kokkos::Max<Real>(strayed2));
+    run(KickAndDrift<false>{particles, law, dt, frame, losses.damping, faults, slices, share});
   }
-  return strayed2;
-}
-
-void mark_reference(ParticleSoA const& particles) {
-  Kokkos::deep_copy(particles.reference_x, particles.x);
-  Kokkos::deep_copy(particles.reference_y, particles.y);
+  return longest_way;
 }
 
 }  // namespace clathra

@@ -37,11 +37,8 @@ struct AffineFrame {
 /// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
 /// position.
 /// @param losses  the damping account is written when its field exists
-/// @return the largest (d / leeway)^2 of a disc, d its distance from where the affine frame of this step puts it
+/// @return at least the longest way of a disc in this step, max (|v_x| + |v_y|) dt [m]
 Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
                Faults const& faults);
-
-/// Remembers the present centres as the reference of integrate().
-void mark_reference(ParticleSoA const& particles);
 
 }  // namespace clathra

@@ -31,6 +31,21 @@ struct GiveLeeway {
   }
 };
 
+/// One slice of discs.
+struct Stray {
+  ParticleSoA p;
+  AffineFrame frame;
+  KOKKOS_FUNCTION void operator()(int slice, Real& greatest2) const {
+    auto const i = static_cast<std::size_t>(slice) * lane_count;
+    Lanes const dx = load(&p.x(i)) - (frame.centre_x + frame.stretch_x * (load(&p.reference_x(i)) - frame.reference_centre_x));
+    Lanes const dy = load(&p.y(i)) - (frame.centre_y + frame.stretch_y * (load(&p.reference_y(i)) - frame.reference_centre_y));
+    Lanes const leeway = load(&p.leeway(i));
+    Lanes share2 = (dx * dx + dy * dy) / (leeway * leeway);
+    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(share2, l, 0);  // ghosts share the last slice
+    greatest2 = lane_max(greatest2, largest(select(share2 > Lanes(0), share2, Lanes(0))));
+  }
+};
+
 }  // namespace
 
 Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range,
@@ -43,6 +58,18 @@ Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayR
   Kokkos::parallel_reduce("give_leeway", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                           GiveLeeway{particles, wandering, range, mean_speed}, Kokkos::Max<Real>(greatest));
   return lane_max(greatest, range.least);
+}
+
+void mark_reference(ParticleSoA const& particles) {
+  Kokkos::deep_copy(particles.reference_x, particles.x);
+  Kokkos::deep_copy(particles.reference_y, particles.y);
+}
+
+Real largest_stray2(ParticleSoA const& particles, AffineFrame const& frame) {
+  Real greatest2 = 0;
+  Kokkos::parallel_reduce("largest_stray", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(particles.owned)),
+                          Stray{particles, frame}, Kokkos::Max<Real>(greatest2));
+  return greatest2;
 }
 
 }  // namespace clathra

@@ -18,4 +18,12 @@ struct LeewayRange {
 Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range,
                  SumOverRanks const& over_ranks);
 
+/// Remembers the present centres as those of a neighbour search.
+void mark_reference(ParticleSoA const& particles);
+
+/// How far discs have strayed since.
+/// @return the largest (d / leeway)^2 of this rank's discs, d the distance from where the homogeneous motion would have brought
+/// one
+Real largest_stray2(ParticleSoA const& particles, AffineFrame const& frame);
+
 }  // namespace clathra

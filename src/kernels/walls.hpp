@@ -1,5 +1,8 @@
 #pragma once
 /// Four rigid walls around the specimen, with or without friction.
+#include <algorithm>
+#include <cmath>
+
 #include "kernels/contacts.hpp"
 #include "kernels/exact_sum.hpp"
 #include "kernels/grain_contact.hpp"
@@ -16,6 +19,7 @@ struct Walls {
   Real velocity[wall_count] = {0, 0, 0, 0};             ///< [m/s]
   Coord width() const { return position[right] - position[left]; }
   Coord height() const { return position[top] - position[bottom]; }
+  Real largest_speed(WallName a, WallName b) const { return std::max(std::abs(velocity[a]), std::abs(velocity[b])); }
 };
 
 struct WallLaw {
