@@ -48,6 +48,13 @@ TEST(Diverged, ByANumberThatIsNotFiniteInAnyFieldOfADisc) {
   }
 }
 
+TEST(Diverged, ByAPositionThatIsNotFiniteThoughNothingTouchesTheDisc) {
+  Simulation sim(two_discs(-1e-5), sand_laws(), 1e-5);
+  sim.time_step = 1e-7;
+  assign(sim.particles().x, index_of(sim, 1), nan);
+  EXPECT_TRUE(names(fault_of(sim), "disc 1 has a position or velocity that is not finite"));
+}
+
 TEST(Diverged, ByAForceThatIsNotFiniteNamesTheDisc) {
   Specimen s = two_discs(-1e-5);
   Simulation sim(s, sand_laws(), 1e-5);

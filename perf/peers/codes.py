@@ -149,16 +149,15 @@ class Lammps(Packaged):
         s = packing.settings
         names = ("dt", "skin", "kn", "ks", "friction", "left", "right", "bottom", "top")
         values = {name: repr(s[name]) for name in names}
-        bond = ("stiffness", "strength")
-        bond = {f"bond_{name}": " ".join(repr(s[f"bond_{part}_{name}"]) for part in ("normal", "shear", "rolling", "rolling"))
-                for name in bond}  # the last of the three for twisting too, which discs do not do
-        return values | bond | {"data": packing.folder / f"{self.input}-{law}.data",
-                                "forces": packing.folder / f"{self.input}-{law}.forces", "law": law, "check": check,
+        parts = ("normal", "shear", "rolling", "rolling")  # rolling for twisting too, which discs do not do
+        bond = {f"bond_{name}": " ".join(repr(s[f"bond_{part}_{name}"]) for part in parts) for name in ("stiffness", "strength")}
+        return values | bond | {"data": packing.folder / f"{self.name.lower()}-{law}.data",
+                                "forces": packing.folder / f"{self.name.lower()}-{law}.forces", "law": law, "check": check,
                                 "steps": steps, "rolling_stiffness": repr(s["kn"] * s["shape_factor"]**2 / 3),
                                 "rolling_friction": repr(s["shape_factor"] / 3), "longest": repr(1.5 * s["longest_bond"])}
 
     def run(self, packing, law, cores, check, steps):
-        log = packing.folder / f"{self.input}-{law}-{len(cores)}.log"
+        log = packing.folder / f"{self.name.lower()}-{law}-{len(cores)}.log"
         words = ["mpirun", "--bind-to", "none", "--oversubscribe", "-np", len(cores)] if len(cores) > 1 else []
         words += [self.program, "-in", here / self.input, "-log", "none"]
         values = self.variables(packing, law, check, steps)

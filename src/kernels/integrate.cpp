@@ -54,7 +54,7 @@ struct KickAndDrift {
     store(&p.angle(i), load(&p.angle(i)) + omega * dt);
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
 
-    Lanes way = (lane_abs(vx) + lane_abs(vy)) * dt + lane_abs(omega) * Lanes(0);
+    Lanes way = lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
     for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(way, l, 0);  // ghosts share the last slice
     if (any(!(way < Lanes(1e5)))) report(i, way);
     longest_way = lane_max(longest_way, largest(select(way > Lanes(0), way, Lanes(0))));

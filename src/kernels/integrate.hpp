@@ -37,7 +37,7 @@ struct AffineFrame {
 /// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
 /// position.
 /// @param losses  the damping account is written when its field exists
-/// @return at least the longest way of a disc in this step, max (|v_x| + |v_y|) dt [m]
+/// @return at least the longest way of a disc in this step, max (|Delta x| + |Delta y|) [m]
 Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
                Faults const& faults);
 

@@ -26,12 +26,10 @@ class OldRow {
  public:
   KOKKOS_INLINE_FUNCTION OldRow(OldRows const& old, Field<int> const& slot, int disc) : old_(old), slot_(slot), disc_(disc) {}
 
-  /// The old entry of disc `other`, or -1. Quickest when discs are asked for in the order of the row.
+  /// The old entry of disc `other`, or -1.
   KOKKOS_INLINE_FUNCTION int entry(int other) {
     if (length_ < 0) read();
-    for (int n = 0; n < length_; ++n) {
-      int const k = next_ < length_ ? next_ : 0;
-      next_ = k + 1;
+    for (int k = 0; k < length_; ++k) {
       if (id_[k] == other) return old_.entry(at_, k);
     }
     return -1;
@@ -53,7 +51,7 @@ class OldRow {
 
   OldRows const& old_;
   Field<int> const& slot_;
-  int disc_, at_ = 0, length_ = -1, next_ = 0;
+  int disc_, at_ = 0, length_ = -1;
   int id_[longest_row];
 };
 

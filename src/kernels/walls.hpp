@@ -19,6 +19,7 @@ struct Walls {
   Real velocity[wall_count] = {0, 0, 0, 0};             ///< [m/s]
   Coord width() const { return position[right] - position[left]; }
   Coord height() const { return position[top] - position[bottom]; }
+  /// The larger speed of two walls [m/s], >= 0.
   Real largest_speed(WallName a, WallName b) const { return std::max(std::abs(velocity[a]), std::abs(velocity[b])); }
 };
 
