@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <new>
+#include <thread>
 
 #include "clathra_version.hpp"
 #include "domain/experiment.hpp"
@@ -96,10 +98,17 @@ ExitCode choose_and_run(int argc, char** argv) {
   return run_guarded(chosen);
 }
 
+/// A launcher kills all ranks as soon as one ends with an error, and only rank 0 says which: it goes first.
+void let_rank_0_explain(ExitCode code) {
+  if (code != ExitCode::done && launched_rank() > 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+}
+
 }  // namespace
 }  // namespace clathra
 
 int main(int argc, char** argv) {
   clathra::secure_standard_streams();
-  return static_cast<int>(clathra::choose_and_run(argc, argv));
+  clathra::ExitCode const code = clathra::choose_and_run(argc, argv);
+  clathra::let_rank_0_explain(code);
+  return static_cast<int>(code);
 }
