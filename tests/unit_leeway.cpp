@@ -24,16 +24,9 @@ double leeway_of(Simulation const& sim, int id) {
   return 0;
 }
 
-/// Each disc held by so many contacts.
-Field<int> held_by(int contacts, Simulation const& sim) {
-  Field<int> const held("held", static_cast<std::size_t>(sim.discs()));
-  Kokkos::deep_copy(held, contacts);
-  return held;
-}
-
-TEST(Leeway, GrowsWithTheSpeedUpToTheMost) {
+TEST(Leeway, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
   Simulation const sim(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  EXPECT_DOUBLE_EQ(give_leeway(sim.particles(), held_by(4, sim), {}, {h, 5 * h}, {}), 5 * h);
+  EXPECT_DOUBLE_EQ(give_leeway(sim.particles(), {}, {h, 5 * h}, {}), 5 * h);
   double const mean = (0.02 + 1) / 100;
   EXPECT_EQ(leeway_of(sim, 0), h);
   EXPECT_NEAR(leeway_of(sim, 10) / h, 1 + 0.2 * 0.02 / mean, 1e-12);
@@ -54,73 +47,15 @@ TEST(Leeway, IsThatOfTheMotionBesideTheBox) {
     s.vy[i] += frame.velocity_y(s.y[i]);
   }
   Simulation const moved(s, {}, 2 * h), still(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  give_leeway(moved.particles(), held_by(4, moved), frame, {h, 5 * h}, {});
-  give_leeway(still.particles(), held_by(4, still), {}, {h, 5 * h}, {});
+  give_leeway(moved.particles(), frame, {h, 5 * h}, {});
+  give_leeway(still.particles(), {}, {h, 5 * h}, {});
   for (int id : {0, 10, 20, 99}) EXPECT_NEAR(leeway_of(moved, id) / leeway_of(still, id), 1, 1e-11) << id;
 }
 
-TEST(Leeway, OfDiscsAtRestGrowsAsFewerThanFourContactsHoldThem) {
+TEST(Leeway, IsTheSameForAllAtRest) {
   Simulation const sim(two_of_a_hundred_fly(0, 0), {}, 2 * h);
-  double const share[] = {2, 1.75, 1.5, 1.25, 1, 1, 1};
-  for (int contacts = 0; contacts < 7; ++contacts) {
-    EXPECT_EQ(give_leeway(sim.particles(), held_by(contacts, sim), {}, {h, 5 * h}, {}), share[contacts] * h) << contacts;
-    for (int id : {0, 10, 99}) EXPECT_EQ(leeway_of(sim, id), share[contacts] * h) << contacts;
-  }
-}
-
-/// Touching neighbours of disc i, and those bonded to it, by the listed rows.
-int holds_on(Simulation const& sim, int i) {
-  int holds = 0;
-  for (int k = 0; k < sim.rows().length(i); ++k) {
-    std::size_t const e = sim.rows().entry(i, k);
-    bool const bonded = sim.rows().equilibrium.extent(0) > 0 && is_bonded(sim.rows().equilibrium(e));
-    if (bonded || sim.rows().shear(e) != 0) ++holds;
-  }
-  return holds;
-}
-
-/// The values of discs 0, 1, ... in the order in which the discs are stored.
-std::vector<int> as_stored(std::vector<int> const& of_id, Simulation const& sim) {
-  std::vector<int> stored;
-  for (int i = 0; i < sim.discs(); ++i) stored.push_back(of_id[static_cast<std::size_t>(sim.particles().id(i))]);
-  return stored;
-}
-
-/// Searches in the next step, and expects leeways for the contacts and bonds that were there before it.
-/// @return whether the search put discs with other numbers of them in each other's places
-bool expect_leeways_of_a_search(Simulation& sim) {
-  std::vector<int> holds;
-  for (int id = 0; id < sim.discs(); ++id) holds.push_back(holds_on(sim, index_of(sim, id)));
-  EXPECT_EQ(*std::min_element(holds.begin(), holds.end()), 0);
-  EXPECT_GE(*std::max_element(holds.begin(), holds.end()), 5);
-  std::vector<int> const before = as_stored(holds, sim);
-  sim.request_rebuild();
-  sim.step();
-  double mean = 0;
-  for (int id = 0; id < sim.discs(); ++id) mean += std::hypot(disc(sim, id).vx, disc(sim, id).vy) / sim.discs();
-  for (int id = 0; id < sim.discs(); ++id) {
-    double const loose = std::max(0.0, 1 - holds[static_cast<std::size_t>(id)] / 4.0);
-    double const share = 1 + 0.2 * std::hypot(disc(sim, id).vx, disc(sim, id).vy) / mean + loose;
-    EXPECT_NEAR(leeway_of(sim, id) / h, std::min(6.0, share), 1e-9) << id;
-  }
-  return as_stored(holds, sim) != before;
-}
-
-TEST(Leeway, OfASimulationCountsContactsAndBonds) {
-  Scene const scene = hydrate_scene(0.55, Composite::parallel);
-  Specimen s = disordered_patch(8, 8, 0.02);
-  bond_all(s, scene);
-  for (std::size_t i = 0; i < s.size(); ++i) s.vx[i] = 10 * uniform_random(3, 1, i) - 5;  // bonds break
-  for (int n = 0; n < 8; ++n) add_disc(s, s.x[0] - (2 + n) * grain_d50, s.y[0], grain_radius, 0.1 * n);
-  enclose(s);
-  Simulation sim(s, bonded_laws(scene, h_max_of(scene)), 2 * h);
-  sim.time_step = 0.3 * sim.stable_time_step();
-  int reordered = 0;
-  for (int round = 0; round < 20; ++round) {
-    for (int n = 0; n < 200; ++n) sim.step();
-    if (expect_leeways_of_a_search(sim)) ++reordered;
-  }
-  EXPECT_GT(reordered, 0);
+  EXPECT_EQ(give_leeway(sim.particles(), {}, {h, 5 * h}, {}), h);
+  for (int id : {0, 10, 99}) EXPECT_EQ(leeway_of(sim, id), h);
 }
 
 TEST(Leeway, OneDiscThatFliesSeldomCallsForASearch) {
@@ -135,8 +70,8 @@ TEST(Leeway, OneDiscThatFliesSeldomCallsForASearch) {
   auto const steps = static_cast<int>(way / sim.time_step);
   for (int n = 0; n < steps; ++n) sim.step();
   // Without a leeway of its own it would be one for each h of the way.
-  EXPECT_LE(sim.rebuilds() - before, way / (5.5 * h) + 3);
-  EXPECT_GE(sim.rebuilds() - before, way / (6.5 * h) - 3);
+  EXPECT_LE(sim.rebuilds() - before, way / (4.5 * h) + 3);
+  EXPECT_GE(sim.rebuilds() - before, way / (5.5 * h) - 3);
 }
 
 bool in_row(Simulation const& sim, int i, int j) {
@@ -184,7 +119,7 @@ TEST(Leeway, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   }
   EXPECT_EQ(missing, 0);
   EXPECT_GT(touching, 3000);
-  EXPECT_GT(sim.rebuilds(), 10);
+  EXPECT_GT(sim.rebuilds(), 20);
 }
 
 // The first checkpoints have no column of leeways.

@@ -44,7 +44,7 @@ void Simulation::step() {
   if (step_ % check_every == 0) throw_if_unstable();
 }
 
-void Simulation::rebuild(bool each_its_own_leeway) {
+void Simulation::rebuild(bool leeway_by_speed) {
   throw_if_unstable();  // discs that are nowhere have no cell
   Kokkos::Timer const clock;
   collect_breaks();
@@ -59,9 +59,9 @@ void Simulation::rebuild(bool each_its_own_leeway) {
     rebalance_if_it_pays();
     migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
   }
-  SpatialOrder const order = sort_in_space(particles_, old, slot, skin_);
-  for (Companion const& with : with_discs) *with.field = permuted(*with.field, order.before, particles_.x.extent(0));
-  Real const widest_leeway = ranks_.max(give_leeway(particles_, order.held, frame(), leeway_range(each_its_own_leeway), sum_));
+  Field<int> const order = sort_in_space(particles_, old, slot, skin_);
+  for (Companion const& with : with_discs) *with.field = permuted(*with.field, order, particles_.x.extent(0));
+  Real const widest_leeway = ranks_.max(give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sum_));
   reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);
   if (periodic()) images_.rebuild(particles_, cell_, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
@@ -134,10 +134,10 @@ AffineFrame Simulation::frame() const {
 }
 
 /// A periodic cell must stay twice as wide as neighbours reach.
-LeewayRange Simulation::leeway_range(bool each_its_own) const {
-  constexpr Real times = 6;
+LeewayRange Simulation::leeway_range(bool by_speed) const {
+  constexpr Real times = 5;
   Real const least = skin_ / 2;
-  if (!each_its_own) return {least, least};
+  if (!by_speed) return {least, least};
   Real most = times * least;
   if (periodic()) most = std::min(most, 0.49 * (0.5 * std::min(cell_.width, cell_.height) - 2 * largest_radius_));
   return {least, std::max(most, least)};

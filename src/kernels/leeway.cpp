@@ -4,8 +4,7 @@ namespace clathra {
 
 namespace {
 
-constexpr Real share = 0.2;      // of h, for a disc at the mean speed: rows grow by that much of the skin on the average
-constexpr Real firmly_held = 4;  // contacts and bonds; the leeway of discs held by fewer grows by up to h
+constexpr Real share = 0.2;  // of h, for a disc at the mean speed: rows grow by that much of the skin on the average
 
 /// Speed against the homogeneous motion [m/s].
 struct Wandering {
@@ -26,10 +25,8 @@ struct GiveLeeway {
   Wandering wandering;
   LeewayRange range;
   Real mean_speed;
-  Field<int> held;
   KOKKOS_FUNCTION void operator()(int i, Real& greatest) const {
-    Real const loose = lane_max(1 - held(i) / firmly_held, Real(0));
-    p.leeway(i) = lane_min(range.least * (1 + share * wandering.speed(i) / mean_speed + loose), range.most);
+    p.leeway(i) = lane_min(range.least * (1 + share * wandering.speed(i) / mean_speed), range.most);
     greatest = lane_max(greatest, p.leeway(i));
   }
 };
@@ -51,7 +48,7 @@ struct Stray {
 
 }  // namespace
 
-Real give_leeway(ParticleSoA const& particles, Field<int> const& held, AffineFrame const& frame, LeewayRange const& range,
+Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range,
                  SumOverRanks const& over_ranks) {
   Wandering const wandering{particles, frame};
   Real sums[2];
@@ -59,7 +56,7 @@ Real give_leeway(ParticleSoA const& particles, Field<int> const& held, AffineFra
   Real const mean_speed = lane_max(sums[0] / lane_max(sums[1], Real(1)), Real(1e-300));
   Real greatest = 0;
   Kokkos::parallel_reduce("give_leeway", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                          GiveLeeway{particles, wandering, range, mean_speed, held}, Kokkos::Max<Real>(greatest));
+                          GiveLeeway{particles, wandering, range, mean_speed}, Kokkos::Max<Real>(greatest));
   return lane_max(greatest, range.least);
 }
 

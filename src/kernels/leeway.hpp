@@ -10,13 +10,12 @@ struct LeewayRange {
   Real least, most;
 };
 
-/// Gives each owned disc its leeway h_i = min(h (1 + v_i / 5 v_mean + max(0, 1 - c_i / 4)), h_most), where v_i is its speed
-/// against the homogeneous motion and c_i the number of contacts and bonds that hold it: the few discs that fly, or that little
-/// holds when something pushes them, get far while all others hardly move, and would call for a search of all. Rows that hold
-/// every pair nearer than h_i + h_j are complete until some disc has strayed by its h_i. Does not depend on the discs' order.
-/// @param held  [owned] c_i
+/// Gives each owned disc its leeway h_i = min(h (1 + v_i / 5 v_mean), h_most), where v_i is its speed against the homogeneous
+/// motion: the few discs that no contact holds fly far while all others hardly move, and would call for a search of all. Rows
+/// that hold every pair nearer than h_i + h_j are complete until some disc has strayed by its h_i. Does not depend on the discs'
+/// order.
 /// @return the greatest leeway of this rank's discs [m], h without discs
-Real give_leeway(ParticleSoA const& particles, Field<int> const& held, AffineFrame const& frame, LeewayRange const& range,
+Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range,
                  SumOverRanks const& over_ranks);
 
 /// Remembers the present centres as those of a neighbour search.

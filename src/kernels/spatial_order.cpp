@@ -71,24 +71,16 @@ Field<int> work_of_slots(OldRows const& old) {
   return work;
 }
 
-struct CountHolds {
-  Field<int> slot, work, held;
-  KOKKOS_FUNCTION void operator()(int i) const { held(i) = slot(i) < 0 ? 0 : work(slot(i)) / (longest_row + 1); }
-};
-
 }  // namespace
 
-SpatialOrder sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin) {
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin) {
   Field<int> const order = bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
-  Field<int> const work = work_of_slots(old);
   Kokkos::parallel_for("sort_by_work",
                        Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
-                       SortByWork{order, slot, work, particles.owned});
+                       SortByWork{order, slot, work_of_slots(old), particles.owned});
   permute(particles, order);
   slot = permuted(slot, order, order.extent(0));
-  Field<int> const held = uninitialised<int>("held", order.extent(0));
-  Kokkos::parallel_for("count_holds", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), CountHolds{slot, work, held});
-  return {order, held};
+  return order;
 }
 
 }  // namespace clathra
