@@ -55,6 +55,43 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
   EXPECT_GT(falls, 4);
 }
 
+/// A large disc in the middle of rings of small ones; it touches every second one of the first.
+Specimen large_disc_among_small_ones() {
+  Specimen s = open_space();
+  add_disc(s, 0, 0, 8 * grain_radius);
+  for (int ring = 0; ring < 3; ++ring) {
+    double const distance = (8.99 + 2.02 * ring) * grain_radius;
+    int const discs = static_cast<int>(2 * pi * distance / (2.03 * grain_radius));
+    for (int n = 0; n < discs; ++n) {
+      double const far = distance + (n % 2) * 0.03 * grain_radius, angle = 2 * pi * n / discs;
+      add_disc(s, far * std::cos(angle), far * std::sin(angle));
+    }
+  }
+  return s;
+}
+
+// Rows of any length, in order of ids: first those in touch.
+TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
+  Simulation const sim(large_disc_among_small_ones(), sand_laws(), 0.1 * grain_d50);
+  ParticleSoA const& p = sim.particles();
+  int longest = 0;
+  for (int i = 0; i < sim.discs(); ++i) {
+    std::vector<std::pair<bool, int>> expected, listed;
+    for (int j = 0; j < sim.discs(); ++j) {
+      double const gap = std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j);
+      if (j != i && gap < p.leeway(i) + p.leeway(j)) expected.push_back({gap >= 0, p.id(j)});
+    }
+    std::sort(expected.begin(), expected.end());
+    for (int k = 0; k < sim.rows().length(i); ++k) {
+      int const j = sim.rows().neighbour(sim.rows().entry(i, k));
+      listed.push_back({std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j) >= 0, p.id(j)});
+    }
+    EXPECT_EQ(listed, expected) << "row of disc " << p.id(i);
+    longest = std::max(longest, static_cast<int>(listed.size()));
+  }
+  EXPECT_GT(longest, 20);
+}
+
 TEST(ContactRows, KeepTheWidthThatTheLawGivesABond) {
   Simulation sim = crushed_packing(Composite::parallel);
   for (int n = 0; n < 200; ++n) sim.step();

@@ -62,5 +62,36 @@ TEST(Lane, SelectsAndStoresLaneByLane) {
   EXPECT_EQ(largest(up), lane_count - 0.5);
 }
 
+// Every mask, beside the same one lane after the other.
+TEST(Lane, PacksWhatIsSetInTheOrderOfLanes) {
+  int from[lane_count];
+  double number[lane_count];
+  for (int l = 0; l < lane_count; ++l) from[l] = 100 + l;
+  for (int bits = 0; bits < 1 << lane_count; ++bits) {
+    std::vector<int> expected, visited;
+    for (int l = 0; l < lane_count; ++l) {
+      number[l] = bits >> l & 1;
+      if (bits >> l & 1) expected.push_back(from[l]);
+    }
+    auto const mask = load(number) > Lanes(0);
+    for_each_set(mask, [&](int l) { visited.push_back(from[l]); });
+    EXPECT_EQ(visited, expected) << bits;
+    int to[lane_count + 1];
+    to[lane_count] = -7;
+    int const count = pack_set(mask, from, to);
+    EXPECT_EQ(std::vector<int>(to, to + count), expected) << bits;
+    EXPECT_EQ(to[lane_count], -7);
+  }
+}
+
+TEST(Lane, MasksTheFirstOnes) {
+  for (int count = -3; count < lane_count + 3; ++count) {
+    auto const mask = first_lanes(count);
+    for (int l = 0; l < lane_count; ++l) EXPECT_EQ(lane(mask, l), l < count) << count;
+    int from[lane_count] = {}, to[lane_count];
+    EXPECT_EQ(pack_set(mask, from, to), std::clamp(count, 0, lane_count)) << count;
+  }
+}
+
 }  // namespace
 }  // namespace clathra

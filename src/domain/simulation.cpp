@@ -11,7 +11,8 @@ namespace clathra {
 
 namespace {
 
-constexpr int check_every = 64;  // steps between looks at the fault flags
+constexpr int check_every = 64;         // steps between looks at the fault flags
+constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
 
 Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
 
@@ -59,7 +60,7 @@ void Simulation::rebuild(bool leeway_by_speed) {
     rebalance_if_it_pays();
     migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
   }
-  Field<int> const order = sort_in_space(particles_, old, slot, skin_);
+  Field<int> const order = sort_in_space(particles_, old, slot, skin_, sorting_is_due());
   for (Companion const& with : with_discs) *with.field = permuted(*with.field, order, particles_.x.extent(0));
   Real const widest_leeway = ranks_.max(give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sum_));
   reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);
@@ -78,6 +79,13 @@ void Simulation::rebuild(bool leeway_by_speed) {
   ++rebuilds_;
   Kokkos::fence();
   rebuild_seconds_ += clock.seconds();
+}
+
+/// Where no rank sends or gets discs their order in space holds for a while.
+bool Simulation::sorting_is_due() {
+  bool const due = !ranks_.alone() || searches_until_sorting_ == 0;
+  searches_until_sorting_ = due ? searches_a_sorting - 1 : searches_until_sorting_ - 1;
+  return due;
 }
 
 /// Cuts anew when the time that ranks have waited for the slowest, since the last look, is well above what cutting costs.

@@ -134,6 +134,7 @@ class Simulation {
   LeewayRange leeway_range(bool by_speed) const;
   bool outdated(Real longest_way);
   void stretch_homogeneously();
+  bool sorting_is_due();
   void rebalance_if_it_pays();
   Companions companions(WallShear& wall_shear);
   Companions companions_of_state(WallShear& wall_shear);
@@ -168,6 +169,7 @@ class Simulation {
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Accum> start_x_, start_y_;
+  int searches_until_sorting_ = 0;
   Real strayed_ = 1e300;     // at most, since the last search, as a share of a leeway
   double busy_seconds_ = 0;  // of this rank since the cuts were made
   bool rebuild_pending_ = true;

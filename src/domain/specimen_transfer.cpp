@@ -182,6 +182,7 @@ void Simulation::inject(Specimen const& s) {
     if (field->extent(0) > 0) Kokkos::deep_copy(*field, *host);
   }
   prepare_rows(particles_, rows_, laws_.contact.bond);
+  breaks_ = BreakLog();  // that of the search before it has room for no bond
   make_room_for_breaks();
 }
 
@@ -253,9 +254,10 @@ void Simulation::collect_breaks() const {
   Kokkos::deep_copy(breaks_.count, 0);
 }
 
-/// Bonds break once: a log as long as the number of intact bonds cannot overflow before the next search.
+/// Bonds break once: a log as long as the number of intact bonds cannot overflow before the next search. Where no rank sends or
+/// gets discs, they only become fewer after inject().
 void Simulation::make_room_for_breaks() {
-  if (laws_.contact.bond_kind == BondKind::none) return;
+  if (laws_.contact.bond_kind == BondKind::none || (ranks_.alone() && breaks_.count.extent(0) > 0)) return;
   auto const bonds = static_cast<std::size_t>(count_own_bonds(particles_, rows_));
   if (breaks_.count.extent(0) == 0 || breaks_.step.extent(0) < bonds) breaks_ = make_break_log(bonds);
 }

@@ -57,7 +57,18 @@ class OldRow {
 
 /// Discs in the order of the grid's cells, so that candidates lie side by side; [discs + lane_count].
 struct Candidates {
+  Field<int> disc;
   Field<Real> x, y, radius, leeway;
+};
+
+/// Discs listed in groups of lanes, hence the room behind them.
+using DiscList = int[longest_row + 1 + lane_count];
+
+/// The discs that a search finds near one.
+struct Nearby {
+  DiscList in_touch, apart;
+  int touching, others;
+  KOKKOS_INLINE_FUNCTION int count() const { return touching + others; }
 };
 
 struct LineUp {
@@ -66,6 +77,7 @@ struct LineUp {
   Candidates to;
   KOKKOS_FUNCTION void operator()(int k) const {
     int const i = k < static_cast<int>(disc.extent(0)) ? disc(k) : p.padding();
+    to.disc(k) = i;
     to.x(k) = p.x(i);
     to.y(k) = p.y(i);
     to.radius(k) = p.radius(i);
@@ -78,6 +90,7 @@ Candidates line_up(ParticleSoA const& particles, CellGrid const& grid) {
   std::size_t const size = grid.disc.extent(0) + lane_count;
   for (Field<Real>* field : {&candidates.x, &candidates.y, &candidates.radius, &candidates.leeway})
     *field = uninitialised<Real>("candidates", size);
+  candidates.disc = uninitialised<int>("candidates", size);
   Kokkos::parallel_for("line_up", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(size)),
                        LineUp{particles, grid.disc, candidates});
   return candidates;
@@ -92,31 +105,46 @@ struct Search {
   OldRows old;
   Field<int> slot;
 
-  /// Calls visit(j, in_touch) for every disc that belongs into the row of disc i, whose old row is `before`.
-  template <class Visit>
-  KOKKOS_INLINE_FUNCTION void for_each_neighbour(int i, OldRow& before, Visit const& visit) const {
+  /// Finds every disc that belongs into the row of disc i, whose old row is `before`; of more than a row holds, at least one too
+  /// many.
+  KOKKOS_INLINE_FUNCTION void near_to(int i, OldRow& before, Nearby& found) const {
+    int touching = 0, others = 0;  // not in `found`, where each store to a list might change them
     int const column = grid.column_of(p.x(i)), row = grid.row_of(p.y(i));
     for (int r = row > 0 ? row - 1 : 0; r <= row + 1 && r < grid.rows; ++r) {
       int const first = column > 0 ? column - 1 : 0, last = column + 1 < grid.columns ? column + 1 : column;
       int const end = grid.start(r * grid.columns + last + 1);
-      for (int k = grid.start(r * grid.columns + first); k < end; k += lane_count) visit_near(i, k, end, before, visit);
+      for (int k = grid.start(r * grid.columns + first); k < end && touching + others <= longest_row + 1; k += lane_count)
+        add_near(i, k, end, before, found, touching, others);
     }
+    found.touching = without(i, found.in_touch, touching);
+    found.others = others;
   }
 
  private:
   /// The candidates k .. k + lane_count, those before `end`, tested side by side.
-  template <class Visit>
-  KOKKOS_INLINE_FUNCTION void visit_near(int i, int k, int end, OldRow& before, Visit const& visit) const {
+  KOKKOS_FORCEINLINE_FUNCTION void add_near(int i, int k, int end, OldRow& before, Nearby& found, int& touching,
+                                            int& others) const {
     Lanes const dx = load(&candidates.x(k)) - p.x(i), dy = load(&candidates.y(k)) - p.y(i);
     Lanes const touch = load(&candidates.radius(k)) + p.radius(i), distance2 = dx * dx + dy * dy;
     Lanes const reach = touch + (load(&candidates.leeway(k)) + p.leeway(i)), bonded = touch + bonded_reach;
-    auto const near = distance2 < reach * reach, in_touch = distance2 < touch * touch;
-    for_each_set(near || distance2 < bonded * bonded, [&](int l) {
-      if (k + l >= end) return;
-      int const j = grid.disc(k + l);
-      if (j == i) return;
-      if (lane(near, l) || before.was_bonded(p.id(j))) visit(j, lane(in_touch, l));
+    auto const candidate = first_lanes(end - k), in_touch = candidate && distance2 < touch * touch;
+    auto const apart = candidate && !in_touch && distance2 < reach * reach;
+    touching += pack_set(in_touch, &candidates.disc(k), found.in_touch + touching);
+    others += pack_set(apart, &candidates.disc(k), found.apart + others);
+    for_each_set(candidate && !in_touch && !apart && distance2 < bonded * bonded, [&](int l) {
+      int const j = candidates.disc(k + l);
+      if (before.was_bonded(p.id(j))) found.apart[others++] = j;
     });
+  }
+
+  /// Takes a disc out of a list. @return the new length
+  KOKKOS_INLINE_FUNCTION static int without(int disc, int* list, int length) {
+    int kept = 0;
+    for (int k = 0; k < length; ++k) {
+      list[kept] = list[k];
+      kept += list[k] != disc ? 1 : 0;
+    }
+    return kept;
   }
 };
 
@@ -132,17 +160,14 @@ struct CountNeighbours {
   Field<int> length;
   Faults faults;
   KOKKOS_FUNCTION void operator()(int i) const {
-    int count = 0;
     OldRow before(search.old, search.slot, i);
-    search.for_each_neighbour(i, before, [&](int j, bool in_touch) {
-      if (count < Found::most) found.neighbour(i, count) = 2 * j + (in_touch ? 1 : 0);
-      ++count;
-    });
-    if (count > longest_row) {
-      faults.report(Fault::row_overflow, search.p.id(i));
-      count = longest_row;
-    }
-    length(i) = count;
+    Nearby near;
+    search.near_to(i, before, near);
+    if (near.count() > longest_row) faults.report(Fault::row_overflow, search.p.id(i));
+    length(i) = near.count() < longest_row ? near.count() : longest_row;
+    if (near.count() > Found::most) return;
+    for (int k = 0; k < near.touching; ++k) found.neighbour(i, k) = 2 * near.in_touch[k] + 1;
+    for (int k = 0; k < near.others; ++k) found.neighbour(i, near.touching + k) = 2 * near.apart[k];
   }
 };
 
@@ -200,7 +225,10 @@ struct FillRows {
     if (rows.length(i) <= Found::most) {
       for (int k = 0; k < rows.length(i); ++k) insert(found.neighbour(i, k) / 2, found.neighbour(i, k) % 2 == 1);
     } else {
-      search.for_each_neighbour(i, before, insert);
+      Nearby near;
+      search.near_to(i, before, near);
+      for (int k = 0; k < near.touching; ++k) insert(near.in_touch[k], true);
+      for (int k = 0; k < near.others; ++k) insert(near.apart[k], false);
     }
     for (int k = 0; k < count; ++k) {
       std::size_t const e = rows.entry(i, k);
@@ -223,17 +251,24 @@ struct CarryHistory {
   }
 };
 
+/// Of the rows of one slice.
 struct WidestBondedGap {
   ParticleSoA p;
   ContactRows rows;
-  KOKKOS_FUNCTION void operator()(int i, Real& widest) const {
-    for (int k = 0; k < rows.length(i); ++k) {
-      std::size_t const e = rows.entry(i, k);
-      if (!is_bonded(rows.equilibrium(e))) continue;
-      int const j = rows.neighbour(e);
-      Real const dx = p.x(j) - p.x(i), dy = p.y(j) - p.y(i);
-      widest = lane_max(widest, lane_sqrt(dx * dx + dy * dy) - (p.radius(i) + p.radius(j)));
+  KOKKOS_FUNCTION void operator()(int slice, Real& widest) const {
+    auto const i = static_cast<std::size_t>(slice) * lane_count;
+    Lanes const x = load(&p.x(i)), y = load(&p.y(i)), radius = load(&p.radius(i));
+    Lanes widest_here(0);
+    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
+      auto const e = static_cast<std::size_t>(k) * lane_count;
+      auto const bonded = is_bonded(load(&rows.equilibrium(e)));
+      if (!any(bonded)) continue;
+      int const* const other = &rows.neighbour(e);
+      Lanes const dx = gather(p.x.data(), other) - x, dy = gather(p.y.data(), other) - y;
+      Lanes const gap = lane_sqrt(dx * dx + dy * dy) - (radius + gather(p.radius.data(), other));
+      widest_here = lane_max(widest_here, select(bonded, gap, Lanes(0)));
     }
+    widest = lane_max(widest, largest(widest_here));
   }
 };
 
@@ -307,7 +342,7 @@ int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows) {
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   if (rows.equilibrium.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
   Real widest = 0;
-  Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+  Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(particles.owned)),
                           WidestBondedGap{particles, rows}, Kokkos::Max<Real>(widest));
   return lane_max(widest, Real(0));
 }

@@ -71,10 +71,25 @@ Field<int> work_of_slots(OldRows const& old) {
   return work;
 }
 
+Field<int> by_cells(ParticleSoA const& particles, Real skin) {
+  return bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
+}
+
+struct Number {
+  Field<int> order;
+  KOKKOS_FUNCTION void operator()(int i) const { order(i) = i; }
+};
+
+Field<int> as_stored(ParticleSoA const& particles) {
+  Field<int> const order = uninitialised<int>("order", static_cast<std::size_t>(particles.owned));
+  Kokkos::parallel_for("as_stored", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), Number{order});
+  return order;
+}
+
 }  // namespace
 
-Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin) {
-  Field<int> const order = bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin, bool anew) {
+  Field<int> const order = anew ? by_cells(particles, skin) : as_stored(particles);
   Kokkos::parallel_for("sort_by_work",
                        Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
                        SortByWork{order, slot, work_of_slots(old), particles.owned});
