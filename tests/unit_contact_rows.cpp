@@ -55,6 +55,41 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
   EXPECT_GT(falls, 4);
 }
 
+/// The mean distance of two discs that are stored side by side [m].
+double mean_distance_in_storage(ParticleSoA const& p) {
+  double sum = 0;
+  for (int i = 1; i < p.owned; ++i) sum += std::hypot(p.x(i) - p.x(i - 1), p.y(i) - p.y(i - 1));
+  return sum / (p.owned - 1);
+}
+
+// Discs that touch nothing are put in each other's places.
+TEST(ContactRows, AreSortedInSpaceAgainWithinSixteenSearches) {
+  Simulation sim(hexagonal_patch(30, 30, 3 * grain_radius), sand_laws(), 0.1 * grain_d50);
+  sim.time_step = 1e-9;
+  ParticleSoA const& p = sim.particles();
+  double const sorted = mean_distance_in_storage(p);
+  std::vector<int> place;
+  for (int i = 0; i < sim.discs(); ++i) place.push_back(i);
+  shuffle(place, 1, 1);
+  std::vector<double> xs, ys;
+  for (int i = 0; i < sim.discs(); ++i) {
+    xs.push_back(value(p.x, place[static_cast<std::size_t>(i)]));
+    ys.push_back(value(p.y, place[static_cast<std::size_t>(i)]));
+  }
+  for (int i = 0; i < sim.discs(); ++i) {
+    assign(p.x, i, xs[static_cast<std::size_t>(i)]);
+    assign(p.y, i, ys[static_cast<std::size_t>(i)]);
+  }
+  auto const search = [&] {
+    sim.request_rebuild();
+    sim.step();
+  };
+  search();
+  EXPECT_GT(mean_distance_in_storage(p), 3 * sorted);
+  for (int n = 0; n < 15; ++n) search();
+  EXPECT_LT(mean_distance_in_storage(p), 1.2 * sorted);
+}
+
 /// A large disc in the middle of rings of small ones; it touches every second one of the first.
 Specimen large_disc_among_small_ones() {
   Specimen s = open_space();

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "draw.hpp"
 #include "kernels/lane.hpp"

@@ -169,9 +169,9 @@ class Simulation {
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Accum> start_x_, start_y_;
-  int searches_until_sorting_ = 0;
-  Real strayed_ = 1e300;     // at most, since the last search, as a share of a leeway
-  double busy_seconds_ = 0;  // of this rank since the cuts were made
+  int searches_until_sorting_ = 0;  // in space; the first sorts
+  Real strayed_ = 1e300;            // at most, since the last search, as a share of a leeway
+  double busy_seconds_ = 0;         // of this rank since the cuts were made
   bool rebuild_pending_ = true;
 };
 

@@ -10,8 +10,7 @@ inline constexpr int sorting_window = 128;
 /// Puts the discs in spatial order (by cell; within windows of a few slices by the work on their rows, which evens out the
 /// slices: first those with the most entries that carry a history, then those with the longest rows) and drops the ghosts.
 /// @param slot  [owned] where the old row of each disc is; reordered with them
-/// @param anew  by cell; otherwise discs stay in their windows, which drift apart much more slowly than searches follow each
-/// other
+/// @param anew  by cell; otherwise each disc stays in the window where it is, and only the work is sorted by
 /// @return [owned] the place that each disc had before
 Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin, bool anew);
 
