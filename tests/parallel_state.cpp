@@ -79,6 +79,57 @@ TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
   }
 }
 
+/// What acts on each disc, by id.
+std::vector<double> forces_of(Simulation const& sim) {
+  std::vector<double> forces;
+  for (int id = 0; id < sim.discs(); ++id) {
+    Disc const d = disc(sim, id);
+    forces.insert(forces.end(), {d.fx, d.fy, d.torque});
+  }
+  return forces;
+}
+
+TEST(State, TakenWhileASearchIsDueKeepsTheForcesOfEachDisc) {
+  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel);
+  for (int n = 0; n < 2000; ++n) sim.step();
+  std::vector<double> const before = forces_of(sim);
+  auto const order = [&] {
+    std::vector<int> places;
+    for (int id = 0; id < sim.discs(); ++id) places.push_back(index_of(sim, id));
+    return places;
+  };
+  std::vector<int> const places = order();
+  sim.request_rebuild();
+  (void)sim.state();
+  EXPECT_NE(order(), places);  // the search has put them in another order
+  EXPECT_EQ(forces_of(sim), before);
+}
+
+/// A bonded pair across the edge of a periodic cell that flies apart by more than neighbours reach in one step.
+TEST(State, OfABondAcrossAPeriodicEdgeIsKeptByASearchInAnyStep) {
+  Specimen s = open_space();
+  s.periodic = true;
+  s.left = s.bottom = 0;
+  s.right = s.top = 40 * grain_radius;
+  double const gap = 1e-6;
+  add_disc(s, grain_radius + gap, s.top / 2, grain_radius, 1);
+  add_disc(s, s.right - grain_radius, s.top / 2, grain_radius, -1);
+  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  s.critical_thickness = h_max_of(scene);
+  s.contacts.push_back({0, 1});
+  s.contacts[0].equilibrium = -gap;
+  s.separate_bonds = true;
+  SimulationLaws const laws = unbreakable(bonded_laws(scene, s.critical_thickness));
+  Simulation sim(s, laws, 1e-9);
+  ASSERT_EQ(sim.measures().bonded, 1);
+  sim.time_step = 1e-7;
+  for (int n = 0; n < 20; ++n) {
+    sim.request_rebuild();
+    sim.step();
+    ASSERT_EQ(sim.measures().bonded, 1) << "step " << n;
+  }
+}
+
 TEST(State, EveryBitOfAFieldChangesItsHash) {
   Specimen const s = bonded_patch(Composite::parallel);
   SimulationLaws const laws = bonded_laws(hydrate_scene(0.41, Composite::parallel), s.critical_thickness);

@@ -95,6 +95,87 @@ TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
   EXPECT_EQ(launches.of("contact_forces"), 0);
 }
 
+/// Names of the accounts that a ledger keeps with these laws, and the bytes that they cost a place of a disc.
+std::string accounts_of(SimulationLaws const& laws, bool hydrate) {
+  Simulation sim = packing(laws, hydrate);
+  std::size_t const before = sim.bytes();
+  sim.set_ledger(true);
+  std::string names;
+  int accounts = 0;
+  EnergyLosses losses = sim.energy_losses();
+  for_each_account(losses, {}, [&](std::string const& name, Field<Accum> const& account, bool) {
+    if (account.extent(0) == 0) return;
+    names += name.substr(5) + " ";
+    ++accounts;
+  });
+  EXPECT_EQ(sim.bytes() - before, accounts * sizeof(Accum) * sim.particles().x.extent(0)) << names;
+  for (int n = 0; n < 50; ++n) sim.step();
+  EXPECT_GT(sim.losses().sliding + sim.losses().damping + 1, 0);
+  return names;
+}
+
+TEST(Features, ALedgerHasNoAccountThatItsSceneHasNoUseFor) {
+  SimulationLaws sand = sand_laws();
+  EXPECT_EQ(accounts_of(sand, false), "sliding rolling ");
+  sand.motion.damping = 0.3;
+  EXPECT_EQ(accounts_of(sand, false), "sliding rolling damping ");
+  EXPECT_EQ(accounts_of(sand_laws(0.5, 0), false), "sliding ");
+  EXPECT_EQ(accounts_of(sand_laws(0, 0), false), "");
+  SimulationLaws viscous = hydrate_laws(Composite::parallel);
+  viscous.contact.grain.damping_ratio = 0.02;
+  EXPECT_EQ(accounts_of(viscous, true), "sliding rolling dashpot breakage ");
+}
+
+TEST(Features, GrainsWithoutFrictionKeepNoShear) {
+  std::size_t const real = sizeof(Real), index = sizeof(int);
+  EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 0), false)), index);
+  EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 2), false)), index + real);
+  SimulationLaws smooth = hydrate_laws(Composite::parallel);
+  smooth.contact.grain.friction = 0;
+  EXPECT_EQ(bytes_per_entry(packing(smooth, true)), index + 5 * real);
+  smooth = hydrate_laws(Composite::replace);
+  smooth.contact.grain.friction = 0;
+  EXPECT_EQ(bytes_per_entry(packing(smooth, true, Composite::replace)), index + 4 * real);  // the shear of the bonds
+}
+
+/// Sheared packings that agree to the bit: without friction, and with a friction that clamps every shear to zero.
+TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
+  for (bool const hydrate : {false, true}) {
+    auto const sheared = [&](double friction) {
+      SimulationLaws laws = hydrate ? hydrate_laws(Composite::parallel) : sand_laws();
+      laws.contact.grain.friction = friction;
+      Simulation sim = packing(laws, hydrate);
+      sim.time_step = 1e-7;
+      sim.loading.y = AxisDrive::at_rate(1000);
+      for (int n = 0; n < 2000; ++n) sim.step();
+      EXPECT_GT(sim.measures().touching, 20);
+      Specimen const end = sim.specimen();
+      return std::vector{end.x, end.y, end.vx, end.vy};
+    };
+    EXPECT_EQ(sheared(0), sheared(1e-200));  // so small a limit adds nothing to any force
+  }
+}
+
+TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
+  auto const sheared = [](bool events) {
+    Simulation sim = packing(hydrate_laws(Composite::parallel), true);
+    sim.keep_break_events(events);
+    sim.loading.y = AxisDrive::at_rate(2000);
+    sim.loading.x = AxisDrive::at_rate(-1500);
+    for (int n = 0; n < 4000; ++n) sim.step();
+    return sim;
+  };
+  Simulation const logged = sheared(true), counted = sheared(false);
+  EXPECT_GT(logged.broken_bonds(), 10);
+  EXPECT_EQ(static_cast<int>(logged.break_events(0).size()), logged.broken_bonds());
+  EXPECT_EQ(counted.broken_bonds(), logged.broken_bonds());
+  EXPECT_EQ(counted.break_counts().shear, logged.break_counts().shear);
+  EXPECT_EQ(counted.break_counts().rolling, logged.break_counts().rolling);
+  EXPECT_TRUE(counted.break_events(0).empty());
+  EXPECT_EQ(counted.hash(), logged.hash());
+  EXPECT_GE(logged.bytes(), counted.bytes() + 41 * 100);  // of a bond
+}
+
 TEST(Features, WallsKeepShearOnlyWhereTheyAreRough) {
   SimulationLaws laws = sand_laws();
   laws.wall.friction = 0.5;

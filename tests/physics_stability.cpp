@@ -11,7 +11,9 @@ SimulationLaws equal_springs() {
 }
 
 double exact_limit(Simulation const& sim, int iterations) { return 2 / sim.largest_frequency(iterations); }
-double estimate(Simulation const& sim) { return sim.stable_time_step(); }
+double estimate(Simulation const& sim) {
+  return local_time_step({sim.particles(), sim.rows(), sim.laws().contact, sim.walls(), sim.laws().wall});
+}
 
 /// In units of sqrt(m / k_n).
 double unit_time() { return std::sqrt(grain_mass() / sand_kn); }
@@ -40,20 +42,35 @@ TEST(StabilityLimit, OfTheSquareLatticeIsTheExactOne) {
   EXPECT_NEAR(estimate(sim) / unit_time(), 0.5, 1e-6);
 }
 
+TEST(StabilityLimit, OfADiscOnARoughFloorIsThatOfItsShearSpring) {
+  for (double const friction : {0.0, 0.3}) {
+    SimulationLaws laws = sand_laws();
+    laws.wall.friction = friction;
+    Simulation const sim(disc_on_floor(1e-9), laws, 1e-6);
+    double const stiffness = friction > 0 ? 3 * sand_ks : sand_kn;  // F_s turns the disc as well: k_s (1/m + r^2/I)
+    EXPECT_NEAR(exact_limit(sim, 200), 2 * std::sqrt(grain_mass() / stiffness), 1e-4 * unit_time());
+    double const frame = std::sqrt(2.0);  // x and the rotation pull on each other, in |K| as in K
+    EXPECT_LE(sim.stable_limit(), exact_limit(sim, 200) * (1 + 1e-6));
+    EXPECT_GE(sim.stable_limit(), exact_limit(sim, 200) / frame);
+  }
+}
+
 /// A bonded packing, at rest but for a trace of noise, that can neither slip nor break.
-Simulation trembling_packing(Composite composite) {
+Simulation trembling_packing(Composite composite, double alpha = 0, double dashpot = 0) {
   Scene const scene = hydrate_scene(0.55, composite);
   Specimen s = disordered_patch(12, 12, 0.02);
   bond_all(s, scene);
   for (std::size_t i = 0; i < s.size(); ++i) s.vx[i] = 1e-3 * uniform_random(3, 5, i);
   SimulationLaws laws = unbreakable(bonded_laws(scene, s.critical_thickness));
   laws.contact.grain.friction = 1e9;
+  laws.contact.grain.damping_ratio = dashpot;
+  laws.motion.damping = alpha;
   return Simulation(s, laws, 0.1 * grain_d50);
 }
 
-double growth(Composite composite, double share, int steps) {
-  Simulation sim = trembling_packing(composite);
-  sim.time_step = share * exact_limit(sim, 2000);
+/// @param sim  made for this alone: a copy would share its discs
+double growth_of(Simulation&& sim, double time_step, int steps) {
+  sim.time_step = time_step;
   double const before = sim.measures().kinetic;
   try {
     for (int n = 0; n < steps; ++n) sim.step();
@@ -61,6 +78,11 @@ double growth(Composite composite, double share, int steps) {
     return HUGE_VAL;
   }
   return sim.measures().kinetic / before;
+}
+
+double growth(Composite composite, double share, int steps) {
+  double const limit = exact_limit(trembling_packing(composite), 2000);
+  return growth_of(trembling_packing(composite), share * limit, steps);
 }
 
 TEST(StabilityLimit, OfABondedPackingDividesStableFromDiverging) {
@@ -71,6 +93,85 @@ TEST(StabilityLimit, OfABondedPackingDividesStableFromDiverging) {
     EXPECT_NEAR(exact_limit(sim, 20) / exact_limit(sim, 2000), 1, 0.05);  // 20 iterations come from above
     EXPECT_GE(exact_limit(sim, 20), exact_limit(sim, 2000) * (1 - 1e-9));
     EXPECT_LT(estimate(sim), exact_limit(sim, 2000));
+  }
+}
+
+/// Nothing but grain contacts, which are loaded so that none opens.
+Simulation trembling_sand(double alpha, double dashpot) {
+  Specimen s = disordered_patch(12, 12, 0.02);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    s.x[i] *= 0.94;
+    s.y[i] *= 0.94;
+    s.vx[i] = 1e-6 * uniform_random(3, 5, i);
+  }
+  enclose(s);
+  SimulationLaws laws = sand_laws(1e9, 2);
+  laws.contact.grain.damping_ratio = dashpot;
+  laws.motion.damping = 0.7;
+  Simulation sim(s, laws, 0.1 * grain_d50);
+  sim.time_step = 0.2 * sim.stable_time_step();
+  for (int n = 0; n < 20000; ++n) sim.step();  // it comes to rest
+  laws.motion.damping = alpha;
+  sim.set_laws(laws);
+  sim.add_uniform_strain_rate(1e-3, -2e-3);
+  return sim;
+}
+
+TEST(StableLimit, IsNeverAboveTheExactOneAndNearIt) {
+  for (Composite composite : {Composite::replace, Composite::parallel}) {
+    Simulation const sim = trembling_packing(composite);
+    EXPECT_LT(sim.stable_limit(), exact_limit(sim, 2000));
+    EXPECT_GT(sim.stable_limit(), 0.5 * exact_limit(sim, 2000));  // its gaps are small: most may close
+  }
+  Simulation const sand = trembling_sand(0, 0);
+  EXPECT_LT(sand.stable_limit(), exact_limit(sand, 2000));
+  EXPECT_GT(sand.stable_limit(), 0.9 * exact_limit(sand, 2000));
+  Simulation const lattice(hexagonal_patch(20, 20, closer), equal_springs(), 1e-6);
+  EXPECT_LT(lattice.stable_limit(), exact_limit(lattice, 400) * (1 + 1e-9));
+  EXPECT_GT(lattice.stable_limit(), 0.86 * exact_limit(lattice, 400));
+}
+
+// At the limit the force of local damping always opposes the velocity: the kick is that of (1 + alpha) times the force.
+TEST(StableLimit, FallsWithLocalDampingByTheRootOfOnePlusAlpha) {
+  for (double const alpha : {0.3, 0.7}) {
+    Simulation const sim = trembling_sand(alpha, 0), undamped = trembling_sand(0, 0);
+    EXPECT_NEAR(sim.stable_limit() / undamped.stable_limit(), 1 / std::sqrt(1 + alpha), 0.01);
+    double const exact = exact_limit(sim, 2000) / std::sqrt(1 + alpha);
+    EXPECT_LT(growth_of(trembling_sand(alpha, 0), sim.stable_limit(), 4000), 1);
+    EXPECT_GT(growth_of(trembling_sand(alpha, 0), 1.06 * exact, 4000), 1e3);
+  }
+}
+
+TEST(StableLimit, KnowsDashpots) {
+  Simulation const undamped = trembling_sand(0, 0);
+  for (double const dashpot : {0.2, 1.0}) {
+    double const limit = trembling_sand(0, dashpot).stable_limit();
+    EXPECT_LT(growth_of(trembling_sand(0, dashpot), limit, 4000), 1) << dashpot;
+    EXPECT_GT(growth_of(trembling_sand(0, dashpot), 1.4 * limit, 4000), 1e3) << dashpot;
+    EXPECT_LT(limit, undamped.stable_limit());
+  }
+}
+
+TEST(StableTimeStep, IsCappedAtTheLimitOfDampingAndDashpots) {
+  Simulation const viscous = trembling_sand(0, 1), plain = trembling_sand(0.3, 0);
+  EXPECT_LT(viscous.stable_limit(), estimate(viscous));
+  EXPECT_EQ(viscous.stable_time_step(), viscous.stable_limit());
+  EXPECT_EQ(plain.stable_time_step(), estimate(plain));
+}
+
+// A bond in place of the contact is softer than that: when it breaks the grains' own stiffness is back.
+TEST(StableTimeStep, KnowsTheStiffnessBehindBondsThatMayBreak) {
+  for (Composite composite : {Composite::replace, Composite::memory}) {
+    Scene const scene = hydrate_scene(0.55, composite);
+    Specimen s = two_discs(1e-6);
+    bond_all(s, scene);
+    Simulation const bonded(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
+    ASSERT_EQ(bonded.measures().bonded, 1);
+    s.contacts[0].equilibrium = no_bond;
+    Simulation const broken(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
+    EXPECT_GT(exact_limit(bonded, 200), 1.2 * exact_limit(broken, 200));
+    EXPECT_LE(bonded.stable_limit(), broken.stable_limit() * (1 + 1e-12));
+    EXPECT_LE(estimate(bonded), estimate(broken) * (1 + 1e-12));
   }
 }
 

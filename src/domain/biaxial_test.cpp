@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <type_traits>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "domain/redistribution.hpp"
 #include "domain/sample_design.hpp"
 #include "domain/settling.hpp"
+#include "domain/shear_watch.hpp"
 
 namespace clathra {
 
@@ -70,10 +72,14 @@ struct BiaxialTest::State {
   int events_taken = 0;  // of those that this rank has seen
   bool at_rest = false;  // when the shear began
   EnergyRow start;
+  ShearWatch watch;
 
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   void consolidate(double stress, ProgressCallback const& progress);
+  void require_rest(std::int64_t steps);
   void begin_shear();
+  double eps1() const { return std::log(height0 / simulation->walls().height()); }
+  void look();
   double skin() const { return scene.run.skin > 0 ? scene.run.skin : chosen_skin * d50; }
   template <class Visit>
   void for_each_number(Visit&& visit);
@@ -91,6 +97,7 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
   auto const start_simulation = [&] {
     SimulationLaws const laws = test_laws(scene, specimen.critical_thickness);
     simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin(), ranks);
+    simulation->keep_break_events(scene.output.events || scene.output.snapshots > 0);
   };
   start_simulation();
   preparation["void_ratio_before_consolidation"] = simulation->void_ratio();
@@ -119,7 +126,7 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   prepare_servo(s, stress, inertial_number, d50, scene.run.dt_safety);
   double const squeeze = strain_rate_of(inertial_number, stress, s.density(), d50);
   AxisDrive const servo_x = s.loading.x, servo_y = s.loading.y;
-  std::int64_t const budget = scene.test.consolidation_steps,
+  std::int64_t const budget = scene.test.consolidation_steps > 0 ? scene.test.consolidation_steps : 200000,
                      most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (squeeze * s.time_step)));
   if (mean_stress(s) < 0.95 * stress) {
     s.loading.x = s.loading.y = AxisDrive::at_rate(squeeze);
@@ -133,12 +140,23 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   }
   s.loading.x = servo_x;
   s.loading.y = servo_y;
-  at_rest = hold_stress(s, stress, 1e-3, budget - s.steps(), progress, "consolidate");
+  at_rest = hold_stress(s, stress, unbalanced_at_rest, budget - s.steps(), progress, "consolidate");
   preparation["consolidation_steps"] = static_cast<double>(s.steps());
   preparation["consolidated_unbalanced"] = s.measures().unbalanced_ratio(s.discs());
-  if (!at_rest)
-    warnings.push_back("consolidation did not come to rest within " + std::to_string(budget) +
-                       " steps (test.consolidation_steps): the test is not quasi-static from its beginning");
+  if (!at_rest) require_rest(budget);
+}
+
+/// The specimen did not come to rest: refused, unless the scene has asked for so many steps or forces it.
+void BiaxialTest::State::require_rest(std::int64_t steps) {
+  Simulation const& s = *simulation;
+  char numbers[160];
+  std::snprintf(numbers, sizeof numbers, ": unbalanced ratio %.2g (at rest below %g), mean stress %.4g of %.4g MPa",
+                s.measures().unbalanced_ratio(s.discs()), unbalanced_at_rest, mean_stress(s) * 1e-6,
+                scene.test.confining_stress * 1e-6);
+  std::string const text = "consolidation did not come to rest within " + std::to_string(steps) + " steps" + numbers;
+  if (scene.test.consolidation_steps == 0 && !scene.run.force)
+    throw Refused(text + "; test.consolidation_steps = N shears it all the same after N steps");
+  warnings.push_back(text + ": the test is not quasi-static from its beginning");
 }
 
 /// Sets platens, discs and servo in motion together, so that the shear starts without a wave, and opens the accounts.
@@ -150,9 +168,9 @@ void BiaxialTest::State::begin_shear() {
   s.time_step = scene.run.dt_safety * s.stable_time_step();
   double const frequency = s.largest_frequency();
   preparation["time_step_s"] = s.time_step;
-  preparation["time_step_margin"] = frequency > 0 ? 2 / frequency / s.time_step : 0;
-  if (frequency > 0 && s.time_step > 2 / frequency)
-    warnings.push_back("the time step is above the stability limit of the contact network");
+  double const damped = 2 / std::sqrt(1 + scene.run.damping);
+  preparation["time_step_margin"] = frequency > 0 ? damped / frequency / s.time_step : 0;
+  preparation["time_step_limit_s"] = s.stable_limit();
   height0 = height_of(s);
   area0 = s.area();
   rate = rate_numbers(scene, d50, height0, s.void_ratio());
@@ -192,9 +210,7 @@ BiaxialTest::~BiaxialTest() = default;
 StageRecord const& BiaxialTest::preparation() const { return state_->preparation; }
 std::vector<std::string> const& BiaxialTest::warnings() const { return state_->warnings; }
 bool BiaxialTest::finished() const { return strain_fraction() >= 1 - 1e-9; }
-double BiaxialTest::strain_fraction() const {
-  return std::log(state_->height0 / height_of(*state_->simulation)) / state_->scene.test.axial_strain;
-}
+double BiaxialTest::strain_fraction() const { return state_->eps1() / state_->scene.test.axial_strain; }
 std::int64_t BiaxialTest::disc_steps() const {
   return state_->disc_steps + state_->simulation->steps() * state_->simulation->discs();
 }
@@ -212,7 +228,7 @@ Snapshot BiaxialTest::snapshot() const {
   Snapshot snapshot = take_snapshot(s);
   snapshot.step = s.steps() - state_->first_step;
   snapshot.time = static_cast<double>(snapshot.step) * s.time_step;
-  snapshot.eps1 = std::log(state_->height0 / height_of(s));
+  snapshot.eps1 = state_->eps1();
   snapshot.eps_v = std::log(state_->area0 / s.area());
   snapshot.d50 = state_->d50;
   return snapshot;
@@ -222,6 +238,7 @@ bool BiaxialTest::advance(std::int64_t most_steps) {
   Simulation& s = *state_->simulation;
   for (std::int64_t n = 0; n < most_steps; ++n) {
     s.step();
+    if (state_->watch.due(state_->eps1())) state_->look();
     bool const due = ++state_->steps_since_record >= state_->steps_per_record || finished();
     if (!due) continue;
     state_->steps_since_record = 0;
@@ -231,6 +248,19 @@ bool BiaxialTest::advance(std::int64_t most_steps) {
   return false;
 }
 
+void BiaxialTest::State::look() {
+  watch.look(*simulation, eps1());
+  if (!watch.balanced()) preparation["quasi_static"] = 0;
+}
+
+std::vector<std::string> BiaxialTest::shear_warnings() const { return state_->watch.warnings(); }
+
+StageRecord BiaxialTest::shear_looks() const {
+  StageRecord looks;
+  state_->watch.for_each_number([&](char const* name, auto const& value) { looks[name] = static_cast<double>(value); });
+  return looks;
+}
+
 HistoryRow BiaxialTest::record() {
   Simulation const& s = *state_->simulation;
   Measures const m = s.measures();
@@ -238,7 +268,7 @@ HistoryRow BiaxialTest::record() {
   HistoryRow row;
   row.step = s.steps() - state_->first_step;
   row.time_s = static_cast<double>(row.step) * s.time_step;
-  row.eps1 = std::log(state_->height0 / height_of(s));
+  row.eps1 = state_->eps1();
   row.eps_v = std::log(state_->area0 / s.area());
   row.sigma1_Pa = stress.y;
   row.sigma3_Pa = stress.x;
@@ -318,6 +348,7 @@ void BiaxialTest::State::for_each_number(Visit&& visit) {
   visit("inertial_number", rate.inertial_number);
   visit("wave_number", rate.wave_number);
   for_each_energy_column(start, [&](std::string const& name, double& value) { visit("start_" + name, value); });
+  watch.for_each_number(visit);
 }
 
 TestState BiaxialTest::state() const {
@@ -336,6 +367,9 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   State& t = *state_;
   t.scene = scene;
   t.ranks = ranks;
+  // Checkpoints from before there were looks hold none.
+  t.watch.for_each_number(
+      [&](std::string const& name, auto const& value) { state.numbers.emplace(name, static_cast<double>(value)); });
   t.for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
   t.preparation = state.preparation;

@@ -46,12 +46,12 @@ Verdict judge(BondLaw const& law, double radius, double gap) {
   return fits ? Verdict::bond : Verdict::out_of_fit;
 }
 
-constexpr double of_order_one = 1ll << 34;  // for the area of a bond between grains of sand [1/m^2]
+double unit_of_area(Specimen const& s) { return SumUnits::near(s.d50 * s.d50); }
 
 /// Sum of Eq. 5 over the pairs that a critical thickness would bond [m^2].
 double area_at(Scene const& scene, Specimen const& s, std::vector<NearPair> const& pairs, double h_max, Ranks const& ranks) {
   BondLaw const law = make_bond_law(scene, h_max);
-  ExactSum area(of_order_one);
+  ExactSum area(unit_of_area(s));
   for (NearPair const& p : pairs) {
     if (!(p.gap < h_max)) continue;
     double const radius = common_radius(s.radius[p.a], s.radius[p.b]), gap = law.gap(-p.gap);
@@ -131,6 +131,7 @@ Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double rea
   s.x = share.x;
   s.y = share.y;
   s.radius = share.radius;
+  s.d50 = share.d50;
   if (ranks.alone()) return s;
   double box[4] = {1e300, -1e300, 1e300, -1e300}, widest = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -193,7 +194,7 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   outcome.target_area = area_of_equation_4(scene, share);
   if (!(outcome.critical_thickness > 0)) return outcome;
   Specimen const s = with_surroundings(ranks, share, outcome.critical_thickness);
-  ExactSum area(of_order_one);
+  ExactSum area(unit_of_area(s));
   BondLaw const law = make_bond_law(scene, outcome.critical_thickness);
   std::vector<SpecimenContact> contacts;
   std::sort(share.contacts.begin(), share.contacts.end(), by_ids);

@@ -1,8 +1,10 @@
 #pragma once
 /// Discs by value, each with its companions and its row, as a string of numbers: how they travel to other ranks and to
 /// checkpoints.
+#include <string>
 #include <vector>
 
+#include "kernels/cell_grid.hpp"
 #include "kernels/neighbours.hpp"
 
 namespace clathra {
@@ -13,6 +15,10 @@ struct Companion {
   Field<Accum>* field;
 };
 using Companions = std::vector<Companion>;
+inline Companions with(Companions some, Companions const& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
 
 /// The fields of a disc as columns of numbers: those of ParticleSoA but the id, and the companions.
 struct DiscColumns {
@@ -43,6 +49,16 @@ struct DiscRecords {
 /// @param rows  neighbours by id, slots = indices
 DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companions, ContactRows const& rows,
                        std::vector<int> const& which);
+
+/// Which numbers a record holds.
+struct RecordColumns {
+  std::vector<std::string> discs;    ///< between the id and the length of the row
+  std::vector<std::string> history;  ///< behind each neighbour's id
+  bool operator==(RecordColumns const&) const = default;
+};
+
+/// Records of which only the columns `wanted` are left, in their order. @throws std::runtime_error where one is missing
+DiscRecords with_columns(DiscRecords records, RecordColumns const& present, RecordColumns const& wanted);
 
 /// Appends discs behind the owned ones and returns their rows, neighbours by id.
 /// @param numbers  records, one behind the other

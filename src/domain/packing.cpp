@@ -162,8 +162,7 @@ double disc_area_below(double radius, double offset) {
 }
 
 std::vector<double> layer_void_ratios(Specimen const& specimen, int layers, Ranks const& ranks) {
-  constexpr double of_order_one = 1 << 30;  // discs of a tenth of a millimetre
-  std::vector<ExactSum> solid(static_cast<std::size_t>(layers), ExactSum(of_order_one));
+  std::vector<ExactSum> solid(static_cast<std::size_t>(layers), ExactSum(SumUnits::near(specimen.d50 * specimen.d50)));
   double const height = specimen.height() / layers;
   for (std::size_t i = 0; i < specimen.size(); ++i) {
     double const y = specimen.y[i] - specimen.bottom, r = specimen.radius[i];

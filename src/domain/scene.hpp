@@ -72,7 +72,7 @@ struct TestScene {
   double inertial_number = 1e-4;  ///< I; 0 where strain_rate is given
   double strain_rate = 0;         ///< [1/s]
   double wall_friction = 0;
-  int consolidation_steps = 200000;  ///< at most
+  int consolidation_steps = 0;  ///< at most, and then sheared as it is; 0 = until it rests, for at most 200,000
 };
 
 /// `[run]`

@@ -5,7 +5,6 @@
 
 #include "domain/migration.hpp"
 #include "kernels/spatial_order.hpp"
-#include "kernels/stability.hpp"
 
 namespace clathra {
 
@@ -18,6 +17,21 @@ Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
 
 }  // namespace
 
+/// A sum over the specimen. A term that is out of its range is a fault, of the disc that another fault names if there is one.
+template <class Work>
+auto Simulation::in_range(Work const& sum) const {
+  try {
+    return sum();
+  } catch (SumOutOfRange const& problem) {
+    throw_if_unstable();
+    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: " + problem.what());
+  }
+}
+
+WallReactions Simulation::push_walls(Real dt) {
+  return in_range([&] { return add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, dt, losses_, faults_, sums_); });
+}
+
 void Simulation::step() {
   loading.move(walls_, time_step);
   Kokkos::Timer const moving;
@@ -26,17 +40,15 @@ void Simulation::step() {
   if (periodic()) stretch_homogeneously();
   if (rebuild_pending_ || outdated(ranks_.max(longest_way))) {
     rebuild();
-  } else if (periodic()) {
-    images_.refresh(particles_, cell_);
-  } else if (!ranks_.alone()) {
-    halo_.refresh(ranks_, particles_);
+  } else {
+    refresh_ghosts();
   }
   WallReactions const before = reactions_;
   Kokkos::Timer const pushing;
   compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, breaks_, losses_, faults_);
   busy_seconds_ += pushing.seconds();
   if (!periodic()) {
-    reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, time_step, losses_, faults_, sum_);
+    reactions_ = push_walls(time_step);
     account_boundary_work(before);
     loading.steer(walls_, reactions_, time_step);
   }
@@ -45,14 +57,15 @@ void Simulation::step() {
   if (step_ % check_every == 0) throw_if_unstable();
 }
 
-void Simulation::rebuild(bool leeway_by_speed) {
+/// @param also  what goes with the discs beside companions()
+void Simulation::rebuild(bool leeway_by_speed, Companions const& also) {
   throw_if_unstable();  // discs that are nowhere have no cell
   Kokkos::Timer const clock;
   collect_breaks();
-  if (!ranks_.alone() && rows_.features.bonds) halo_.refresh(ranks_, particles_);  // gaps to ghosts are those of now
+  if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
   Real const bonded_gap = ranks_.max(widest_bonded_gap(particles_, rows_));
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  Companions const with_discs = companions(wall_shear);
+  Companions const with_discs = with(companions(wall_shear), also);
   OldRows old = take_as_old(particles_, rows_);
   Field<int> slot = slots_of_discs(particles_, old);
   if (!ranks_.alone()) {
@@ -62,12 +75,13 @@ void Simulation::rebuild(bool leeway_by_speed) {
   }
   Field<int> const order = sort_in_space(particles_, old, slot, skin_, sorting_is_due());
   for (Companion const& with : with_discs) *with.field = permuted(*with.field, order, particles_.x.extent(0));
-  Real const widest_leeway = ranks_.max(give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sum_));
+  Real const widest_leeway =
+      ranks_.max(in_range([&] { return give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sums_); }));
   reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);
   if (periodic()) images_.rebuild(particles_, cell_, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
   refresh_ghosts(particles_.leeway);
-  find_neighbours(particles_, widest_leeway, old, slot, rows_, faults_, bonded_gap);
+  search_bytes_ = std::max(search_bytes_, find_neighbours(particles_, widest_leeway, old, slot, rows_, faults_, bonded_gap));
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
   if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
@@ -103,19 +117,20 @@ void Simulation::rebalance_if_it_pays() {
 
 Companions Simulation::companions(WallShear& wall_shear) {
   Companions with_discs;
-  if (laws_.contact.ledger) {
-    with_discs = {{"lost_sliding", &losses_.sliding},
-                  {"lost_rolling", &losses_.rolling},
-                  {"lost_dashpot", &losses_.dashpot},
-                  {"lost_breakage", &losses_.breakage},
-                  {"lost_damping", &losses_.damping}};
-  }
+  for_each_account(losses_, {}, [&](char const* name, Field<Accum>& account, bool) {
+    if (account.extent(0) > 0) with_discs.push_back({name, &account});
+  });
   if (start_x_.extent(0) > 0) with_discs.insert(with_discs.end(), {{"start_x", &start_x_}, {"start_y", &start_y_}});
   static constexpr char const* shear_names[] = {"shear_left", "shear_right", "shear_bottom", "shear_top"};
   if (wall_contacts_.rough) {
     for (std::size_t wall = 0; wall < wall_count; ++wall) with_discs.push_back({shear_names[wall], &wall_shear.of[wall]});
   }
   return with_discs;
+}
+
+void Simulation::set_sums() {
+  sums_ = {SumUnits::of(d50_ > 0 ? d50_ : 2 * largest_radius_, laws_.contact.grain.normal_stiffness, density_),
+           ranks_.summation()};
 }
 
 /// The homogeneous motion since the last neighbour search: that of the walls, or of the periodic cell.
@@ -177,7 +192,7 @@ void Simulation::account_boundary_work(WallReactions const& before) {
 void Simulation::evaluate_forces() {
   if (rebuild_pending_) rebuild();
   compute_forces(particles_, rows_, laws_.contact, 0, step_, breaks_, losses_, faults_);
-  if (!periodic()) reactions_ = add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, 0, losses_, faults_, sum_);
+  if (!periodic()) reactions_ = push_walls(0);
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
@@ -188,11 +203,13 @@ void Simulation::set_laws(SimulationLaws const& laws) {
     change_features(rows_, laws_.features());
   }
   if (!same_history || rows_.features.bonds) prepare_rows(particles_, rows_, laws_.contact.bond);
+  if (ledger) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
 }
 
 void Simulation::set_ledger(bool on) {
   laws_.contact.ledger = on;
-  losses_ = on ? make_energy_losses(particles_.x.extent(0)) : EnergyLosses();
+  losses_ = EnergyLosses();
+  if (on) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
   boundary_work_ = 0;
 }
 
@@ -206,6 +223,11 @@ void Simulation::mark_start() {
 void Simulation::cut_anew(Decomposition const& cuts) {
   decomposition_ = cuts;
   rebuild_pending_ = true;
+}
+
+void Simulation::refresh_ghosts() const {
+  if (periodic()) images_.refresh(particles_, cell_);
+  if (!ranks_.alone()) halo_.refresh(ranks_, particles_);
 }
 
 void Simulation::refresh_ghosts(Field<Real> const& field) const {
@@ -228,24 +250,31 @@ void Simulation::stretch_homogeneously() {
 }
 
 Measures Simulation::measures() const {
-  return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall, sum_);
+  return in_range([&] { return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall, sums_); });
 }
 
 LossTotals Simulation::losses() const {
-  return laws_.contact.ledger ? total_losses(losses_, particles_.owned, sum_) : LossTotals();
+  if (!laws_.contact.ledger) return {};
+  return in_range([&] { return total_losses(losses_, particles_.owned, sums_); });
 }
 
 std::uint64_t Simulation::hash() const {
   return static_cast<std::uint64_t>(ranks_.sum(static_cast<std::int64_t>(state_hash(particles_, rows_))));
 }
 
-Real Simulation::stable_time_step() const { return ranks_.min(local_time_step(particles_, rows_, laws_.contact)); }
+SpringNetwork Simulation::springs() const { return {particles_, rows_, laws_.contact, walls_, laws_.wall}; }
+
+AcrossRanks Simulation::across() const {
+  return {sums_, [this](double value) { return ranks_.max(value); }, [this](Field<Real> const& field) { refresh_ghosts(field); }};
+}
+
+Real Simulation::stable_time_step() const { return std::min(ranks_.min(local_time_step(springs())), stable_limit()); }
 
 Real Simulation::largest_frequency(int iterations) const {
-  AcrossRanks const across{ranks_.min(local_time_step(particles_, rows_, laws_.contact, 0)), sum_,
-                           [this](Field<Real> const& field) { refresh_ghosts(field); }};
-  return clathra::largest_frequency(particles_, rows_, laws_.contact, walls_, laws_.wall, across, iterations);
+  return in_range([&] { return clathra::largest_frequency(springs(), across(), iterations); });
 }
+
+Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, across()); }
 
 void Simulation::throw_if_unstable() const {
   auto const here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);

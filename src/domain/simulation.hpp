@@ -14,6 +14,7 @@
 #include "kernels/leeway.hpp"
 #include "kernels/measures.hpp"
 #include "kernels/neighbours.hpp"
+#include "kernels/stability.hpp"
 #include "kernels/walls.hpp"
 
 namespace clathra {
@@ -34,7 +35,13 @@ struct SimulationLaws {
   WallLaw wall;
   MotionLaw motion;
   ContactFeatures features() const {
-    return {contact.grain.shape_factor > 0, contact.bond_kind != BondKind::none, contact.bond_kind == BondKind::parallel};
+    return {contact.grain.friction > 0 || contact.bond_kind == BondKind::replace, contact.grain.shape_factor > 0,
+            contact.bond_kind != BondKind::none, contact.bond_kind == BondKind::parallel};
+  }
+  LossKinds losses() const {
+    ContactFeatures const f = features();
+    return {f.shear || wall.friction > 0, f.rolling, contact.grain.damping_ratio > 0 || wall.damping_ratio > 0, f.bonds,
+            motion.damping > 0};
   }
 };
 
@@ -75,6 +82,7 @@ class Simulation {
     rebuild_pending_ = true;
   }
   void set_ledger(bool on);                            ///< opens the ledger with all losses at zero, or closes it
+  void keep_break_events(bool on);                     ///< from now on; without, only their numbers by mode are known
   void stretch_cell(Real rate) { cell_rate_ = rate; }  ///< periodic cell: isotropic closing strain rate [1/s]
   void stop_discs() { stop_motion(particles_); }
   void add_uniform_strain_rate(Real rate_x,
@@ -105,21 +113,29 @@ class Simulation {
   Real boundary_work() const { return boundary_work_; }
   Measures measures() const;
   LossTotals losses() const;
+  Real deepest_overlap() const { return ranks_.max(clathra::deepest_overlap(particles_, rows_)); }
   std::uint64_t hash() const;
-  Real stable_time_step() const;                      ///< local_time_step() of the present state [s]
+  /// A step to multiply by a safety factor [s]: local_time_step(), but never above stable_limit() with the present damping.
+  Real stable_time_step() const;
   Real largest_frequency(int iterations = 20) const;  ///< of the present contact network [1/s]
+  Real stable_limit() const;                          ///< clathra::stable_limit() with the present damping [s]
   SimulationLaws const& laws() const { return laws_; }
   int broken_bonds() const;
   BreakCounts break_counts() const;
-  /// Breaks that this rank has seen, from the first-th on, sorted by (step, id_a, id_b). Each break is seen by one rank.
+  /// Breaks that this rank has seen while events were kept, from the first-th on, sorted by (step, id_a, id_b). Each break is
+  /// seen by one rank.
   std::vector<BreakEvent> break_events(int first) const;
-  /// Bytes of this rank's fields, with the room that a neighbour search needs.
-  std::size_t bytes() const { return clathra::bytes(particles_) + clathra::bytes(rows_) + search_bytes(rows_) + halo_.bytes(); }
+  /// Bytes of this rank's fields, with the ledger, the log of breaks and the most that a neighbour search has needed beside them.
+  std::size_t bytes() const {
+    return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) +
+           clathra::bytes(breaks_) + search_bytes_;
+  }
   // Of this rank:
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
   ParticleSoA const& particles() const { return particles_; }
   ContactRows const& rows() const { return rows_; }
   WallContacts const& wall_contacts() const { return wall_contacts_; }
+  EnergyLosses const& energy_losses() const { return losses_; }
   Field<Accum> const& start_x() const { return start_x_; }  ///< [owned] where mark_start() found the discs [m]
   Field<Accum> const& start_y() const { return start_y_; }
   /// Gives every ghost the value of its disc.
@@ -127,7 +143,8 @@ class Simulation {
   void throw_if_unstable() const;
 
  private:
-  void rebuild(bool leeway_by_speed = true);
+  void refresh_ghosts() const;  // all of their state
+  void rebuild(bool leeway_by_speed = true, Companions const& also = {});
   void adopt_discs(Specimen const& specimen);
   void inject(Specimen const& specimen);
   AffineFrame frame() const;
@@ -137,7 +154,14 @@ class Simulation {
   bool sorting_is_due();
   void rebalance_if_it_pays();
   Companions companions(WallShear& wall_shear);
-  Companions companions_of_state(WallShear& wall_shear);
+  void set_sums();
+  Companions forces();
+  Companions derived();
+  SpringNetwork springs() const;
+  AcrossRanks across() const;
+  template <class Work>
+  auto in_range(Work const& sum) const;
+  WallReactions push_walls(Real dt);
   std::vector<double> brought_home(DiscRecords discs);
   void find_listed_neighbours();
   template <class Visit>
@@ -148,7 +172,7 @@ class Simulation {
   void make_room_for_breaks();
 
   Ranks ranks_;
-  SumOverRanks sum_;
+  Summation sums_;
   Decomposition decomposition_;
   ParticleSoA particles_;
   ContactRows rows_;
@@ -159,8 +183,9 @@ class Simulation {
   PeriodicCell cell_, reference_cell_;
   PeriodicImages images_;
   Halo halo_;
-  BreakLog breaks_;                         // since the last collect_breaks()
-  mutable std::vector<BreakEvent> broken_;  // before
+  BreakLog breaks_;                                             // since the last collect_breaks()
+  mutable std::vector<BreakEvent> broken_;                      // before
+  mutable std::int64_t broken_by_mode_[break_mode_count] = {};  // on this rank, before
   EnergyLosses losses_;
   Faults faults_;
   Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
@@ -173,6 +198,8 @@ class Simulation {
   Real strayed_ = 1e300;            // at most, since the last search, as a share of a leeway
   double busy_seconds_ = 0;         // of this rank since the cuts were made
   bool rebuild_pending_ = true;
+  bool keeps_break_events_ = true;
+  std::size_t search_bytes_ = 0;  // at most
 };
 
 }  // namespace clathra

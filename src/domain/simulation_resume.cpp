@@ -1,5 +1,6 @@
 /// Taking a simulation apart for a checkpoint, and putting it together again.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <type_traits>
@@ -32,11 +33,17 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
   visit(name + "_largest_speed", drive.largest_speed);
 }
 
-/// The numbers of a record between its id and the length of its row.
-std::vector<std::string> names_of(ParticleSoA const& particles, Companions const& companions) {
+/// The columns of the records of these discs.
+RecordColumns columns_of(ParticleSoA const& particles, Companions const& companions, ContactFeatures const& features) {
   DiscColumns const discs(particles, companions);
-  return {discs.name, discs.name + discs.count};
+  RecordColumns columns{{discs.name, discs.name + discs.count}, {}};
+  ContactRows rows;
+  rows.features = features;
+  for_each_history(rows, [&](char const* name, Field<Real> const&, Real) { columns.history.push_back(name); });
+  return columns;
 }
+
+std::string name_of_broken(int mode) { return "broken_" + std::to_string(mode); }
 
 }  // namespace
 
@@ -58,6 +65,7 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("critical_thickness", critical_thickness_);
   visit("boundary_work", boundary_work_);
   visit("ledger", laws_.contact.ledger);
+  visit("keeps_break_events", keeps_break_events_);
   visit_walls("wall", walls_, visit);
   visit_walls("reference_wall", reference_walls_, visit);
   for (int wall = 0; wall < wall_count; ++wall) {
@@ -73,27 +81,27 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("servo_contact_stiffness", loading.servo.contact_stiffness);
 }
 
-/// The companions and what is derived from the state but must not be derived anew: forces, and where the last search found the
-/// discs.
-Companions Simulation::companions_of_state(WallShear& wall_shear) {
-  Companions all = companions(wall_shear);
-  all.insert(all.end(), {{"force_x", &particles_.force_x},
-                         {"force_y", &particles_.force_y},
-                         {"torque", &particles_.torque},
-                         {"reference_x", &particles_.reference_x},
-                         {"reference_y", &particles_.reference_y},
-                         {"leeway", &particles_.leeway}});
+Companions Simulation::forces() {
+  return {{"force_x", &particles_.force_x}, {"force_y", &particles_.force_y}, {"torque", &particles_.torque}};
+}
+
+/// What is derived from the state but must not be derived anew: forces, and where the last search found the discs.
+Companions Simulation::derived() {
+  Companions all = forces();
+  all.insert(
+      all.end(),
+      {{"reference_x", &particles_.reference_x}, {"reference_y", &particles_.reference_y}, {"leeway", &particles_.leeway}});
   return all;
 }
 
 SimulationState Simulation::state() {
   if (periodic()) throw std::logic_error("a periodic cell has no checkpoint");
-  if (rebuild_pending_) rebuild();  // rows as the next step would find them
+  if (rebuild_pending_) rebuild(true, forces());  // rows as the next step would find them
   SimulationState s;
   for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
   s.numbers["marked_start"] = start_x_.extent(0) > 0 ? 1 : 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  Companions const with_discs = companions_of_state(wall_shear);
+  Companions const with_discs = with(companions(wall_shear), derived());
   ContactRows named = rows_;
   named.neighbour = uninitialised<int>("named", rows_.neighbour.extent(0));
   Kokkos::deep_copy(named.neighbour, rows_.neighbour);
@@ -101,28 +109,34 @@ SimulationState Simulation::state() {
   std::vector<int> all(static_cast<std::size_t>(particles_.owned));
   std::iota(all.begin(), all.end(), 0);
   s.discs = pack_discs(particles_, with_discs, named, all);
-  s.disc_columns = names_of(particles_, with_discs);
-  for_each_history(rows_, [&](char const* name, Field<Real> const&, Real) { s.history_columns.push_back(name); });
+  RecordColumns const columns = columns_of(particles_, with_discs, rows_.features);
+  s.disc_columns = columns.discs;
+  s.history_columns = columns.history;
   collect_breaks();
   s.broken = broken_;
+  for (int mode = 0; mode < break_mode_count; ++mode)
+    s.numbers[name_of_broken(mode)] = static_cast<double>(ranks_.sum(broken_by_mode_[mode]));
   return s;
 }
 
 Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks)
-    : ranks_(std::move(ranks)), sum_(ranks_.summation()), laws_(laws), faults_(make_faults()) {
+    : ranks_(std::move(ranks)), laws_(laws), faults_(make_faults()) {
+  state.numbers.emplace("keeps_break_events", 1);  // as those did that do not say so
   for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
+  set_sums();
   rows_.features = laws_.features();
   particles_ = allocate_particles(0);
-  if (laws_.contact.ledger) losses_ = make_energy_losses(1);
+  if (laws_.contact.ledger) open_accounts(losses_, laws_.losses(), 1);
   if (state.numbers.at("marked_start") != 0) mark_start();
   wall_contacts_.rough = laws_.wall.friction > 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  Companions with_discs = companions_of_state(wall_shear);
-  bool const one_leeway = state.disc_columns != names_of(particles_, with_discs);
+  Companions with_discs = with(companions(wall_shear), derived());
+  auto const& columns = state.disc_columns;
+  bool const one_leeway = std::find(columns.begin(), columns.end(), "leeway") == columns.end();
   if (one_leeway) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
-  if (state.disc_columns != names_of(particles_, with_discs))
-    throw std::runtime_error("a checkpoint holds other numbers of its discs than this program asks for");
+  state.discs = with_columns(std::move(state.discs), {state.disc_columns, state.history_columns},
+                             columns_of(particles_, with_discs, laws_.features()));
   rows_ = unpack_discs(brought_home(std::move(state.discs)), laws_.features(), particles_, with_discs);
   if (one_leeway) Kokkos::deep_copy(particles_.leeway, skin_ / 2);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their leeways.
@@ -132,6 +146,13 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   make_room_for_breaks();
   wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
   broken_ = std::move(state.broken);
+  for (int mode = 0; mode < break_mode_count; ++mode) {
+    auto const counted = state.numbers.find(name_of_broken(mode));
+    if (counted != state.numbers.end())
+      broken_by_mode_[mode] = ranks_.root() ? std::llround(counted->second) : 0;
+    else  // where all are events
+      broken_by_mode_[mode] = std::count_if(broken_.begin(), broken_.end(), [&](BreakEvent const& e) { return e.mode == mode; });
+  }
 }
 
 /// The records of the discs that belong to this rank, from wherever they were read.

@@ -95,13 +95,14 @@ std::vector<SpecimenContact> contacts_from_others(Ranks const& ranks, Specimen c
 }  // namespace
 
 Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin, Ranks ranks)
-    : ranks_(std::move(ranks)), sum_(ranks_.summation()), laws_(laws), faults_(make_faults()), skin_(skin) {
+    : ranks_(std::move(ranks)), laws_(laws), faults_(make_faults()), skin_(skin) {
   std::int64_t const total = ranks_.sum(static_cast<std::int64_t>(s.size()));
   if (total == 0) throw std::invalid_argument("a specimen needs at least one disc");
   if (s.periodic && !ranks_.alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
   require_finite(ranks_, s);
   discs_ = static_cast<int>(total);
   adopt_discs(s);
+  set_sums();
   rows_.features = laws_.features();
   decomposition_ = Decomposition::bisect(ranks_, particles_, 1);
   // The first search must reach the widest bond; the skin is its own again afterwards.
@@ -231,8 +232,13 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
           static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
       int const other = id(neighbour(e));
       if (other <= id(i)) continue;
-      SpecimenContact const c{
-          id(i), other, shear(e), get(moment, e, 0), get(equilibrium, e, no_bond), get(bond_shear, e, 0), get(bond_moment, e, 0)};
+      SpecimenContact const c{id(i),
+                              other,
+                              get(shear, e, 0),
+                              get(moment, e, 0),
+                              get(equilibrium, e, no_bond),
+                              get(bond_shear, e, 0),
+                              get(bond_moment, e, 0)};
       if (c.shear != 0 || c.moment != 0 || is_bonded(c.equilibrium) || c.bond_shear != 0 || c.bond_moment != 0)
         contacts.push_back(c);
     }
@@ -244,6 +250,9 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
 /// Moves the breaks that the kernels logged to the host.
 void Simulation::collect_breaks() const {
   if (breaks_.count.extent(0) == 0) return;
+  auto const by_mode = download(breaks_.by_mode);
+  for (std::size_t mode = 0; mode < break_mode_count; ++mode) broken_by_mode_[mode] += by_mode(mode);
+  Kokkos::deep_copy(breaks_.by_mode, 0);
   int const count = download(breaks_.count)(0);
   if (count == 0) return;
   auto const step = download(breaks_.step);
@@ -258,19 +267,26 @@ void Simulation::collect_breaks() const {
 /// gets discs, they only become fewer after inject().
 void Simulation::make_room_for_breaks() {
   if (laws_.contact.bond_kind == BondKind::none || (ranks_.alone() && breaks_.count.extent(0) > 0)) return;
-  auto const bonds = static_cast<std::size_t>(count_own_bonds(particles_, rows_));
+  auto const bonds = keeps_break_events_ ? static_cast<std::size_t>(count_own_bonds(particles_, rows_)) : 0;
   if (breaks_.count.extent(0) == 0 || breaks_.step.extent(0) < bonds) breaks_ = make_break_log(bonds);
 }
 
-int Simulation::broken_bonds() const {
+void Simulation::keep_break_events(bool on) {
   collect_breaks();
-  return static_cast<int>(ranks_.sum(static_cast<std::int64_t>(broken_.size())));
+  keeps_break_events_ = on;
+  breaks_ = BreakLog();
+  make_room_for_breaks();
+}
+
+int Simulation::broken_bonds() const {
+  BreakCounts const broken = break_counts();
+  return static_cast<int>(broken.tension + broken.compression + broken.shear + broken.rolling);
 }
 
 BreakCounts Simulation::break_counts() const {
   collect_breaks();
-  std::int64_t by_mode[break_mode_count] = {};
-  for (BreakEvent const& event : broken_) ++by_mode[event.mode];
+  std::int64_t by_mode[break_mode_count];
+  std::copy(std::begin(broken_by_mode_), std::end(broken_by_mode_), by_mode);
   ranks_.sum(by_mode, break_mode_count);
   auto const of = [&](BreakMode mode) { return by_mode[static_cast<int>(mode)]; };
   return {of(BreakMode::tension), of(BreakMode::compression), of(BreakMode::shear), of(BreakMode::rolling)};

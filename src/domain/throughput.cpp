@@ -34,9 +34,10 @@ std::int64_t total(Simulation const& simulation, std::size_t of_this_rank) {
 /// drift reads and writes the discs.
 double moved_bytes(Simulation const& simulation) {
   double const entries = static_cast<double>(total(simulation, simulation.contact_entries())) / simulation.discs();
-  ContactFeatures const features = simulation.rows().features;
-  double const histories = 1 + (features.rolling || features.bonds ? 1 : 0) + (features.separate_bond ? 2 : 0);
-  double const row = sizeof(int) + sizeof(Real) * (2 * histories + (features.bonds ? 2 : 0));
+  ContactRows rows = simulation.rows();
+  double written = 0;
+  for_each_history(rows, [&](std::string const& name, Field<Real> const&, Real) { written += name == "equilibrium" ? 0 : 1; });
+  double const row = sizeof(int) + sizeof(Real) * (2 * written + (rows.features.bonds ? 2 : 0));
   constexpr double contact_pass = 6 + 3, drift = 11 + 6;  // fields of a disc
   return entries * row + sizeof(Real) * (contact_pass + drift);
 }

@@ -7,7 +7,8 @@
 
 namespace clathra {
 
-inline constexpr std::int64_t checkpoint_version = 2;  ///< 1 had one leeway for all discs; it is read, too
+/// 1 had one leeway for all discs, 2 all accounts of losses in every ledger and no counts of breaks; both are read, too.
+inline constexpr std::int64_t checkpoint_version = 3;
 
 /// @throws FileProblem cannot_create or io_error
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks);

@@ -1,6 +1,8 @@
 #include "kernels/cell_grid.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace clathra {
 
@@ -66,7 +68,18 @@ struct SortCells {
 
 }  // namespace
 
+void require_countable(std::int64_t entries, std::int64_t discs) {
+  constexpr std::int64_t most_entries = 2147483647, most_discs = 500000000;
+  auto const refuse = [](std::int64_t number, char const* of_what, std::int64_t most) {
+    throw std::length_error(std::to_string(number) + of_what + " on one rank, at most " + std::to_string(most) +
+                            " can be numbered: share the specimen among more ranks");
+  };
+  if (discs > most_discs) refuse(discs, " discs with those of the neighbours' ranks", most_discs);
+  if (entries > most_entries) refuse(entries, " places in the rows of neighbours", most_entries);
+}
+
 CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size) {
+  require_countable(0, discs);
   Kokkos::RangePolicy<ExecutionSpace> const each(0, discs);
   Real x0 = 0, x1 = 0, y0 = 0, y1 = 0;
   if (discs > 0)

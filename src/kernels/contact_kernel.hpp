@@ -1,5 +1,5 @@
 #pragma once
-/// The contact kernel, specialised by bond kind, rolling, dashpot and ledger; instantiated in forces.cpp only.
+/// The contact kernel, specialised by bond kind, friction, rolling, dashpot and ledger; instantiated in forces.cpp only.
 #include <type_traits>
 
 #include "kernels/bond_quick_test.hpp"
@@ -8,9 +8,11 @@
 namespace clathra {
 
 /// One slice of `lane_count` discs per call: walks their rows side by side.
-template <BondKind Bond, bool Rolling, bool Dashpot, bool Ledger>
+/// @tparam Friction  false where grain contacts carry no shear
+template <BondKind Bond, bool Friction, bool Rolling, bool Dashpot, bool Ledger>
 struct ContactKernel {
   static constexpr bool bonded_code = Bond != BondKind::none;
+  static constexpr bool shears = Friction || Bond == BondKind::replace;  // has a history of `shear`
   static constexpr bool moments = Rolling || bonded_code;
 
   /// Numbers of the laws. The kernel works on a copy on its stack, which no store can change, so that what follows from them is
@@ -73,10 +75,13 @@ struct ContactKernel {
     store(&p.force_y(first), own.force_y);
     store(&p.torque(first), own.torque);
     if constexpr (Ledger) {
-      store(&losses.sliding(first), load(&losses.sliding(first)) + own.sliding);
-      store(&losses.rolling(first), load(&losses.rolling(first)) + own.rolling);
-      store(&losses.dashpot(first), load(&losses.dashpot(first)) + own.dashpot);
-      store(&losses.breakage(first), load(&losses.breakage(first)) + own.breakage);
+      auto const book = [first](Field<Accum> const& account, Lanes const& loss) {
+        store(&account(first), load(&account(first)) + loss);
+      };
+      if constexpr (shears) book(losses.sliding, own.sliding);
+      if constexpr (Rolling) book(losses.rolling, own.rolling);
+      if constexpr (Dashpot) book(losses.dashpot, own.dashpot);
+      if constexpr (bonded_code) book(losses.breakage, own.breakage);
     }
   }
 
@@ -125,9 +130,15 @@ struct ContactKernel {
     }
     write(e, h);
     // Entries out of touch and without a bond got exact zeros from the laws; nothing needs masking here.
-    own.force_x -= force.normal * nx + force.shear * ny;
-    own.force_y += force.shear * nx - force.normal * ny;
-    own.torque += arm * force.shear + force.moment;
+    if constexpr (shears || bonded_code) {
+      own.force_x -= force.normal * nx + force.shear * ny;
+      own.force_y += force.shear * nx - force.normal * ny;
+      own.torque += arm * force.shear + force.moment;
+    } else {
+      own.force_x -= force.normal * nx;
+      own.force_y -= force.normal * ny;
+      own.torque += force.moment;
+    }
     return any(carrying);
   }
 
@@ -158,7 +169,8 @@ struct ContactKernel {
   };
 
   KOKKOS_FORCEINLINE_FUNCTION History read(std::size_t e) const {
-    History h{load(&rows.shear(e)), 0, no_bond, 0, 0, 0};
+    History h{0, 0, no_bond, 0, 0, 0};
+    if constexpr (shears) h.shear = load(&rows.shear(e));
     if constexpr (moments) h.moment = load(&rows.moment(e));
     if constexpr (bonded_code) {
       h.equilibrium = load(&rows.equilibrium(e));
@@ -172,7 +184,7 @@ struct ContactKernel {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void write(std::size_t e, History const& h) const {
-    store(&rows.shear(e), h.shear);
+    if constexpr (shears) store(&rows.shear(e), h.shear);
     if constexpr (moments) store(&rows.moment(e), h.moment);
     if constexpr (Bond == BondKind::parallel) {
       store(&rows.bond_shear(e), h.bond_shear);
@@ -184,7 +196,7 @@ struct ContactKernel {
   KOKKOS_FORCEINLINE_FUNCTION ContactForce<Lanes> grain_force(Constants const& law, ContactMotion<Lanes> const& motion,
                                                               Viscosity const& dashpot, History& h, Own& own) const {
     if constexpr (Bond == BondKind::replace) return {};
-    ContactForce<Lanes> const force = grain_contact<Rolling>(law.grain, motion, h.shear, h.moment, dashpot);
+    ContactForce<Lanes> const force = grain_contact<Rolling, Friction>(law.grain, motion, h.shear, h.moment, dashpot);
     if constexpr (Ledger) {
       add_grain_losses(law, motion, h.shear + law.grain.shear_stiffness * motion.slip, h.moment + rolling_trial(law, motion), h,
                        force, own);
@@ -221,7 +233,8 @@ struct ContactKernel {
     } else {
       Lanes const trial_shear = select(bonded, trial.force.shear, h.shear + law.grain.shear_stiffness * motion.slip);
       Lanes const trial_moment = select(bonded, trial.force.moment, Rolling ? h.moment + rolling_trial(law, motion) : zero);
-      ContactForce<Lanes> const unbonded = limit_grain_contact<Rolling>(law.grain, motion, trial_shear, trial_moment, dashpot);
+      ContactForce<Lanes> const unbonded =
+          limit_grain_contact<Rolling, shears>(law.grain, motion, trial_shear, trial_moment, dashpot);
       if constexpr (Ledger) add_replace_losses(law, motion, trial, trial_shear, trial_moment, bonded, intact, unbonded, h, own);
       h.shear = select(intact, trial.force.shear, unbonded.shear);
       h.moment = select(intact, trial.force.moment, unbonded.moment);
@@ -268,8 +281,10 @@ struct ContactKernel {
                                                     ContactForce<Lanes> const& now, Own& own,
                                                     Mask const& where = Mask(true)) const {
     Lanes const zero(0), quarter(0.25);
-    Lanes const slid = (trial_shear - now.shear) * Lanes(1 / law.grain.shear_stiffness);
-    own.sliding += select(where, quarter * (old.shear + now.shear) * slid, zero);
+    if constexpr (shears) {
+      Lanes const slid = (trial_shear - now.shear) * Lanes(1 / law.grain.shear_stiffness);
+      own.sliding += select(where, quarter * (old.shear + now.shear) * slid, zero);
+    }
     if constexpr (Rolling) {
       Lanes const stiffness = lane_max(rolling_stiffness(law.grain, motion.common_radius), Lanes(1e-300));
       own.rolling += select(where, quarter * (old.moment + now.moment) * ((trial_moment - now.moment) / stiffness), zero);

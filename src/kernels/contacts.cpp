@@ -14,7 +14,7 @@ void allocate_history(ContactRows& rows, std::size_t entries) {
 void change_features(ContactRows& rows, ContactFeatures features) {
   ContactRows changed = rows;
   changed.features = features;
-  changed.moment = changed.equilibrium = changed.bond_shear = changed.bond_moment = Field<Real>();
+  changed.shear = changed.moment = changed.equilibrium = changed.bond_shear = changed.bond_moment = Field<Real>();
   for_each_history(changed, [&](char const* name, Field<Real>& field, Real empty) {
     field = uninitialised<Real>(name, rows.neighbour.extent(0));
     Kokkos::deep_copy(field, empty);

@@ -6,6 +6,7 @@ namespace clathra {
 
 /// What a scene needs stored for each row entry.
 struct ContactFeatures {
+  bool shear = true;           ///< F_s of grain contacts with friction, or of bonds in their place (`replace`)
   bool rolling = true;         ///< contact moments
   bool bonds = false;          ///< bond equilibrium
   bool separate_bond = false;  ///< `parallel`: the bond has a history of its own beside the grain contact
@@ -20,7 +21,7 @@ struct ContactRows {
   Field<int> slice_start;   ///< [slices + 1] in units of lane_count entries
   Field<int> length;        ///< [owned] entries in use
   Field<int> neighbour;     ///< [entries] index of the other disc, or the padding disc
-  Field<Real> shear;        ///< [entries] F_s [N/m]
+  Field<Real> shear;        ///< [entries] F_s [N/m]; as the following, empty where no feature needs it
   Field<Real> moment;       ///< [entries] M on the row's own disc [N m/m]
   Field<Real> equilibrium;  ///< [entries] u_0 of the bond [m], no_bond without one
   Field<Real> bond_shear;   ///< [entries] F_s of a separate bond [N/m]
@@ -39,7 +40,7 @@ struct ContactRows {
 /// need exist.
 template <class Rows, class Visit>
 void for_each_history(Rows& rows, Visit&& visit) {
-  visit("shear", rows.shear, Real(0));
+  if (rows.features.shear) visit("shear", rows.shear, Real(0));
   if (rows.features.rolling || rows.features.bonds) visit("moment", rows.moment, Real(0));
   if (rows.features.bonds) visit("equilibrium", rows.equilibrium, Real(1e300));
   if (rows.features.separate_bond) {

@@ -1,46 +1,105 @@
 #pragma once
-/// Sums that do not depend on their order: fixed-point integers in two words.
+/// Sums that do not depend on their order: fixed-point integers in four words.
 #include <Kokkos_Core.hpp>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
+#include <string>
 
 #include "kernels/real.hpp"
 
 namespace clathra {
 
-/// A real number as high * 2^-20 + low * 2^-56: resolution 1.4e-17, magnitude up to 8e12, up to 1e8 terms. Covers every sum in SI
-/// units that a specimen makes (forces, moments, energies, stress times area).
+/// A number in units of its own, as four digits to the base 2^32: high + middle 2^-32 + low 2^-64 + lowest 2^-96. Each digit has
+/// 31 bits of room, so up to 2^31 terms, one a disc, can be added in any order. A term must be below 2^31 units.
 struct FixedPoint {
-  std::int64_t high = 0, low = 0;
-  static constexpr Real high_scale = 1048576.0;     // 2^20
-  static constexpr Real low_scale = 68719476736.0;  // 2^36, of the remainder
+  static constexpr int words = 4;
+  std::int64_t word[words] = {0, 0, 0, 0};
+  static constexpr Real base = 4294967296.0;        // 2^32
+  static constexpr Real largest_term = base / 2;    // in units
+  static constexpr std::int64_t mask = 0xffffffff;  // of a digit
 
+  KOKKOS_INLINE_FUNCTION static bool holds(Real value) { return value < largest_term && value > -largest_term; }
+
+  /// @param value  of which holds() is true
   KOKKOS_INLINE_FUNCTION static FixedPoint from(Real value) {
-    Real const scaled = value * high_scale;
-    auto const whole = static_cast<std::int64_t>(scaled);
-    return {whole, static_cast<std::int64_t>((scaled - static_cast<Real>(whole)) * low_scale)};
+    FixedPoint number;
+    for (std::int64_t& digit : number.word) {
+      digit = static_cast<std::int64_t>(value);
+      value = (value - static_cast<Real>(digit)) * base;
+    }
+    return number;
   }
   KOKKOS_INLINE_FUNCTION Real value() const {
-    return (static_cast<Real>(high) + static_cast<Real>(low) / low_scale) / high_scale;
+    FixedPoint number = *this;
+    number.carry();
+    bool const negative = number.word[0] < 0;
+    if (negative) {  // so that a sum and its opposite round alike
+      for (std::int64_t& digit : number.word) digit = -digit;
+      number.carry();
+    }
+    Real sum = 0;
+    for (int k = words - 1; k > 0; --k) sum = (sum + static_cast<Real>(number.word[k])) / base;
+    sum += static_cast<Real>(number.word[0]);
+    return negative ? -sum : sum;
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION void carry() {
+    for (int k = words - 1; k > 0; --k) {
+      word[k - 1] += word[k] >> 32;
+      word[k] &= mask;
+    }
   }
 };
 
+/// A term of a sum was not finite or too large for it.
+struct SumOutOfRange : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Powers of two near the quantities of a specimen: the units of its sums. They follow its scale, so that a specimen that is 2^n
+/// times as large or as stiff has the same digits in all its sums.
+struct SumUnits {
+  Real length = 1;   ///< [m]
+  Real stress = 1;   ///< [Pa]
+  Real density = 1;  ///< [kg/m^3]
+
+  /// @param d50 [m];  @param stress  a stiffness per metre thickness will do: a wide range is left on either side [Pa]
+  static SumUnits of(Real d50, Real stress, Real density) { return {near(d50), near(stress), near(density)}; }
+  /// The largest power of two that is not above a positive number; 1 where there is none.
+  static Real near(Real value) { return value > 0 ? std::ldexp(Real(1), std::ilogb(value)) : 1; }
+
+  Real area() const { return length * length; }
+  Real force() const { return stress * length; }   ///< [N/m]
+  Real energy() const { return stress * area(); }  ///< [J/m]; also of stress times area
+  Real mass() const { return density * area(); }   ///< [kg/m]
+  Real speed() const { return near(std::sqrt(stress / density)); }
+};
+
 /// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i. Same bits for any order and thread
-/// count.
+/// count. Behind the sums' words one more counts the terms that are out of range.
 template <int Count, class Terms>
 struct ExactSumKernel {
   using value_type = std::int64_t[];
-  unsigned value_count = 2 * Count;
+  unsigned value_count = words;
   Terms terms;
+  Real per_unit[Count];
+  static constexpr int words = FixedPoint::words * Count + 1;
+
   KOKKOS_FUNCTION void operator()(int i, std::int64_t* sums) const {
     Real out[Count] = {};
     terms(i, out);
     for (int c = 0; c < Count; ++c) {
       if (out[c] == 0) continue;  // nearly all terms of the walls
-      FixedPoint const term = FixedPoint::from(out[c]);
-      sums[2 * c] += term.high;
-      sums[2 * c + 1] += term.low;
+      Real const value = out[c] * per_unit[c];
+      if (!FixedPoint::holds(value)) {
+        ++sums[words - 1];
+        continue;
+      }
+      FixedPoint const term = FixedPoint::from(value);
+      for (int k = 0; k < FixedPoint::words; ++k) sums[FixedPoint::words * c + k] += term.word[k];
     }
   }
   KOKKOS_FUNCTION void init(std::int64_t* sums) const {
@@ -58,34 +117,63 @@ struct ExactSumKernel {
 /// Adds integers to those of the other ranks that hold parts of the specimen; empty where there are none.
 using SumOverRanks = std::function<void(std::int64_t*, int)>;
 
+/// How the quantities of a specimen are summed.
+struct Summation {
+  SumUnits unit;
+  SumOverRanks over_ranks;
+};
+
+/// @throws SumOutOfRange where terms of a sum were
+inline void require_in_range(std::string const& what, std::int64_t out_of_range) {
+  if (out_of_range == 0) return;
+  throw SumOutOfRange(what + ": " + std::to_string(out_of_range) +
+                      " of the terms are not finite or above 2^31 times the scale of the specimen");
+}
+
 /// A sum of numbers on the host, in any order and over all ranks.
 class ExactSum {
  public:
-  /// @param scale  a power of two that brings the terms to about 1
-  explicit ExactSum(Real scale = 1) : scale_(scale) {}
+  /// @param unit  a power of two near the terms
+  explicit ExactSum(Real unit) : unit_(unit) {}
   void add(Real value) {
-    FixedPoint const term = FixedPoint::from(value * scale_);
-    words_[0] += term.high;
-    words_[1] += term.low;
+    bool const holds = FixedPoint::holds(value / unit_);
+    FixedPoint const term = FixedPoint::from(holds ? value / unit_ : 0);
+    for (int k = 0; k < FixedPoint::words; ++k) words_[k] += term.word[k];
+    words_[FixedPoint::words] += holds ? 0 : 1;
   }
+  /// @throws SumOutOfRange on all ranks
   Real over(SumOverRanks const& ranks) {
-    if (ranks) ranks(words_, 2);
-    return FixedPoint{words_[0], words_[1]}.value() / scale_;
+    if (ranks) ranks(words_, FixedPoint::words + 1);
+    require_in_range("a sum", words_[FixedPoint::words]);
+    FixedPoint sum;
+    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = words_[k];
+    return sum.value() * unit_;
   }
 
  private:
-  Real scale_;
-  std::int64_t words_[2] = {0, 0};
+  Real unit_;
+  std::int64_t words_[FixedPoint::words + 1] = {};
 };
 
-/// @return the sums in `result[0 .. Count)`
+/// @param unit  of each quantity, a power of two near its terms
+/// @return the sums in `result[0 .. Count)`;  @throws SumOutOfRange, on all ranks
 template <int Count, class Terms>
-void exact_sums(char const* label, int n, Terms const& terms, Real* result, SumOverRanks const& over_ranks = {}) {
-  std::int64_t sums[2 * Count];
-  ExactSumKernel<Count, Terms> kernel{2 * Count, terms};
-  Kokkos::parallel_reduce(label, Kokkos::RangePolicy<ExecutionSpace>(0, n), kernel, &sums[0]);
-  if (over_ranks) over_ranks(&sums[0], 2 * Count);
-  for (int c = 0; c < Count; ++c) result[c] = FixedPoint{sums[2 * c], sums[2 * c + 1]}.value();
+void exact_sums(char const* label, int n, Terms const& terms, Real const (&unit)[Count], Real* result,
+                SumOverRanks const& over_ranks = {}) {
+  using Kernel = ExactSumKernel<Count, Terms>;
+  Kernel kernel{Kernel::words, terms, {}};
+  for (int c = 0; c < Count; ++c) kernel.per_unit[c] = 1 / unit[c];
+  std::int64_t sums[Kernel::words];
+  Kokkos::parallel_reduce(
+      label, Kokkos::RangePolicy<ExecutionSpace>(0, n), kernel,
+      Kokkos::View<std::int64_t*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(sums, Kernel::words));
+  if (over_ranks) over_ranks(&sums[0], Kernel::words);
+  require_in_range(label, sums[Kernel::words - 1]);
+  for (int c = 0; c < Count; ++c) {
+    FixedPoint sum;
+    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[FixedPoint::words * c + k];
+    result[c] = sum.value() * unit[c];
+  }
 }
 
 }  // namespace clathra

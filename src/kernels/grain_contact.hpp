@@ -58,28 +58,28 @@ KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L>
 /// @param trial_shear,trial_moment  F_s + k_s Delta u_s and M + k_m Delta theta before the limits; for a bond that broke in
 ///                                  this step its own last forces, which are clipped to the limits and not reset
 /// @param dashpot                   viscous normal coefficient [N s/m per m] or Undamped
-template <bool Rolling, class L, class Dashpot>
+template <bool Rolling, bool Friction = true, class L, class Dashpot>
 KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLaw const& law, ContactMotion<L> const& motion,
                                                                 L const& trial_shear, L const& trial_moment,
                                                                 Dashpot const& dashpot) {
   ContactForce<L> force;
   force.normal = normal_force(law, motion, dashpot);
-  force.shear = clamp_to(trial_shear, law.friction * force.normal);
-  force.moment = L(0);
+  force.shear = force.moment = L(0);
+  if constexpr (Friction) force.shear = clamp_to(trial_shear, law.friction * force.normal);
   if constexpr (Rolling) {
     force.moment = clamp_to(trial_moment, (law.shape_factor / 6) * motion.common_radius * force.normal);
   }
   return force;
 }
 
-/// One step of an unbonded contact with history F_s, M (Eq. 8).
-template <bool Rolling, class L, class Dashpot>
+/// One step of an unbonded contact, without rolling resistance or friction where the law has none, with history F_s, M (Eq. 8).
+template <bool Rolling, bool Friction = true, class L, class Dashpot>
 KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> grain_contact(GrainLaw const& law, ContactMotion<L> const& motion, L const& shear,
                                                           L const& moment, Dashpot const& dashpot) {
-  L const trial_shear = shear + law.shear_stiffness * motion.slip;
-  L trial_moment(0);
+  L trial_shear(0), trial_moment(0);
+  if constexpr (Friction) trial_shear = shear + law.shear_stiffness * motion.slip;
   if constexpr (Rolling) trial_moment = moment + rolling_stiffness(law, motion.common_radius) * motion.turn;
-  return limit_grain_contact<Rolling>(law, motion, trial_shear, trial_moment, dashpot);
+  return limit_grain_contact<Rolling, Friction>(law, motion, trial_shear, trial_moment, dashpot);
 }
 
 /// Dashpot coefficient 2 xi sqrt(k_n m_eff) for two masses given by their inverses [N s/m per m]; m_eff = m1 m2 / (m1 + m2).

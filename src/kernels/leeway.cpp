@@ -48,11 +48,10 @@ struct Stray {
 
 }  // namespace
 
-Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range,
-                 SumOverRanks const& over_ranks) {
+Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range, Summation const& summation) {
   Wandering const wandering{particles, frame};
   Real sums[2];
-  exact_sums<2>("mean_wandering", particles.owned, wandering, sums, over_ranks);
+  exact_sums<2>("mean_wandering", particles.owned, wandering, {summation.unit.speed(), 1}, sums, summation.over_ranks);
   Real const mean_speed = lane_max(sums[0] / lane_max(sums[1], Real(1)), Real(1e-300));
   Real greatest = 0;
   Kokkos::parallel_reduce("give_leeway", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),

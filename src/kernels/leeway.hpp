@@ -15,8 +15,7 @@ struct LeewayRange {
 /// that hold every pair nearer than h_i + h_j are complete until some disc has strayed by its h_i. Does not depend on the discs'
 /// order.
 /// @return the greatest leeway of this rank's discs [m], h without discs
-Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range,
-                 SumOverRanks const& over_ranks);
+Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range, Summation const& sums);
 
 /// Remembers the present centres as those of a neighbour search.
 void mark_reference(ParticleSoA const& particles);

@@ -33,8 +33,9 @@ struct DiscSums {
 
   KOKKOS_FUNCTION void operator()(int i, Real* out) const {
     out[unbalanced] = std::sqrt(p.force_x(i) * p.force_x(i) + p.force_y(i) * p.force_y(i));
-    Real const speed2 = p.vx(i) * p.vx(i) + p.vy(i) * p.vy(i);
-    out[kinetic] = 0.5 * (speed2 / p.inverse_mass(i) + p.omega(i) * p.omega(i) / p.inverse_inertia(i));
+    Real const speed2 = p.vx(i) * p.vx(i) + p.vy(i) * p.vy(i), spin2 = p.omega(i) * p.omega(i);
+    // A disc that is driven from outside has no inverse mass, and no share in the energy of the specimen.
+    if (p.inverse_mass(i) > 0) out[kinetic] = 0.5 * (speed2 / p.inverse_mass(i) + spin2 / p.inverse_inertia(i));
     for (int k = 0; k < rows.length(i); ++k) {
       PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
       if (!s.touching && !s.bonded) continue;
@@ -86,14 +87,36 @@ struct WallSums {
   }
 };
 
+struct DeepestOverlap {
+  ParticleSoA p;
+  ContactRows rows;
+  KOKKOS_FUNCTION void operator()(int i, Real& deepest) const {
+    for (int k = 0; k < rows.length(i); ++k) {
+      int const j = rows.neighbour(rows.entry(i, k));
+      Real const dx = p.x(j) - p.x(i), dy = p.y(j) - p.y(i);
+      Real const overlap = p.radius(i) + p.radius(j) - std::sqrt(dx * dx + dy * dy);
+      deepest = lane_max(deepest, overlap / lane_min(p.radius(i), p.radius(j)));
+    }
+  }
+};
+
+void set_units(SumUnits const& scale, Real (&unit)[pair_sums]) {
+  for (Real& u : unit) u = 1;  // of numbers of contacts
+  for (int const sum : {stress_xx, stress_xy, stress_yx, stress_yy, kinetic, grain_energy, bond_energy_sum})
+    unit[sum] = scale.energy();
+  for (int const sum : {contact_force, unbalanced}) unit[sum] = scale.force();
+  unit[area] = scale.area();
+}
+
 struct LossSums {
   EnergyLosses losses;
   KOKKOS_FUNCTION void operator()(int i, Real* out) const {
-    out[0] = losses.sliding(i);
-    out[1] = losses.rolling(i);
-    out[2] = losses.dashpot(i);
-    out[3] = losses.breakage(i);
-    out[4] = losses.damping(i);
+    auto const of = [i](Field<Accum> const& account) { return account.extent(0) > 0 ? account(i) : 0; };
+    out[0] = of(losses.sliding);
+    out[1] = of(losses.rolling);
+    out[2] = of(losses.dashpot);
+    out[3] = of(losses.breakage);
+    out[4] = of(losses.damping);
   }
 };
 
@@ -117,9 +140,10 @@ struct HashDisc {
     sum += hash;
     for (int k = 0; k < rows.length(i); ++k) {
       std::size_t const e = rows.entry(i, k);
-      Real const history[] = {
-          rows.shear(e), rows.moment.extent(0) ? rows.moment(e) : 0, rows.equilibrium.extent(0) ? rows.equilibrium(e) : no_bond,
-          rows.bond_shear.extent(0) ? rows.bond_shear(e) : 0, rows.bond_moment.extent(0) ? rows.bond_moment(e) : 0};
+      Real const history[] = {rows.shear.extent(0) ? rows.shear(e) : 0, rows.moment.extent(0) ? rows.moment(e) : 0,
+                              rows.equilibrium.extent(0) ? rows.equilibrium(e) : no_bond,
+                              rows.bond_shear.extent(0) ? rows.bond_shear(e) : 0,
+                              rows.bond_moment.extent(0) ? rows.bond_moment(e) : 0};
       bool empty = !is_bonded(history[2]);
       for (int f : {0, 1, 3, 4}) empty = empty && history[f] == 0;
       if (empty) continue;  // which far neighbours are listed is no part of the state
@@ -134,11 +158,13 @@ struct HashDisc {
 }  // namespace
 
 Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws,
-                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law, SumOverRanks const& over_ranks) {
+                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law, Summation const& summation) {
   Real pairs[pair_sums], at_walls[pair_sums];
-  exact_sums<pair_sums>("measure_discs", particles.owned, DiscSums{particles, rows, laws}, pairs, over_ranks);
-  exact_sums<pair_sums>("measure_walls", wall_contacts.size, WallSums{particles, wall_contacts, walls, wall_law}, at_walls,
-                        over_ranks);
+  Real unit[pair_sums];
+  set_units(summation.unit, unit);
+  exact_sums<pair_sums>("measure_discs", particles.owned, DiscSums{particles, rows, laws}, unit, pairs, summation.over_ranks);
+  exact_sums<pair_sums>("measure_walls", wall_contacts.size, WallSums{particles, wall_contacts, walls, wall_law}, unit, at_walls,
+                        summation.over_ranks);
   Measures m;
   m.stress_area_xx = pairs[stress_xx] + at_walls[stress_xx];
   m.stress_area_xy = pairs[stress_xy] + at_walls[stress_xy];
@@ -159,9 +185,17 @@ Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactL
   return m;
 }
 
-LossTotals total_losses(EnergyLosses const& losses, int discs, SumOverRanks const& over_ranks) {
+Real deepest_overlap(ParticleSoA const& particles, ContactRows const& rows) {
+  Real deepest = 0;
+  Kokkos::parallel_reduce("deepest_overlap", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                          DeepestOverlap{particles, rows}, Kokkos::Max<Real>(deepest));
+  return lane_max(deepest, Real(0));
+}
+
+LossTotals total_losses(EnergyLosses const& losses, int discs, Summation const& summation) {
   Real sums[5] = {};
-  exact_sums<5>("total_losses", discs, LossSums{losses}, sums, over_ranks);
+  Real const unit = summation.unit.energy();
+  exact_sums<5>("total_losses", discs, LossSums{losses}, {unit, unit, unit, unit, unit}, sums, summation.over_ranks);
   return {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 

@@ -27,14 +27,16 @@ struct Measures {
 };
 
 Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws,
-                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law,
-                 SumOverRanks const& over_ranks = {});
+                 WallContacts const& wall_contacts, Walls const& walls, WallLaw const& wall_law, Summation const& sums = {});
+
+/// The largest overlap of a pair over its smaller radius, 0 where none touches.
+Real deepest_overlap(ParticleSoA const& particles, ContactRows const& rows);
 
 /// Sums of an energy ledger's loss accounts [J/m].
 struct LossTotals {
   Real sliding = 0, rolling = 0, dashpot = 0, breakage = 0, damping = 0;
 };
-LossTotals total_losses(EnergyLosses const& losses, int discs, SumOverRanks const& over_ranks = {});
+LossTotals total_losses(EnergyLosses const& losses, int discs, Summation const& sums = {});
 
 /// Identity of a state: 64 bits over (id, position, angle, velocity, history, bonds) of all owned discs, independent of how they
 /// are stored. The sum of a mix per disc and per row entry, so ranks may add their parts. -0 and +0 count as equal.

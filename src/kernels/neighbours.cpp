@@ -1,5 +1,6 @@
 #include "kernels/neighbours.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,7 @@ struct Candidates {
   Field<int> disc;
   Field<Real> x, y, radius, leeway;
 };
+std::size_t bytes(Candidates const& c) { return c.disc.span() * (sizeof(int) + 4 * sizeof(Real)); }
 
 /// Discs listed in groups of lanes, hence the room behind them.
 using DiscList = int[longest_row + 1 + lane_count];
@@ -174,15 +176,15 @@ struct CountNeighbours {
 struct ScanSlices {
   Field<int> length, slice_start;
   int discs;
-  KOKKOS_FUNCTION void operator()(int slice, int& sum, bool const final) const {
+  KOKKOS_FUNCTION void operator()(int slice, std::int64_t& sum, bool const final) const {
     int longest = 0;
     for (int l = 0; l < lane_count; ++l) {
       int const i = slice * lane_count + l;
       if (i < discs && length(i) > longest) longest = length(i);
     }
-    if (final) slice_start(slice) = sum;
+    if (final) slice_start(slice) = static_cast<int>(sum);
     sum += longest;
-    if (final && (slice + 1) * lane_count >= discs) slice_start(slice + 1) = sum;
+    if (final && (slice + 1) * lane_count >= discs) slice_start(slice + 1) = static_cast<int>(sum);
   }
 };
 
@@ -329,8 +331,6 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old) {
   return slot;
 }
 
-std::size_t search_bytes(ContactRows const& rows) { return rows.neighbour.span() * (2 * sizeof(int) + sizeof(Real)); }
-
 int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows) {
   int bonds = 0;
   if (rows.equilibrium.extent(0) > 0)
@@ -347,8 +347,8 @@ Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   return lane_max(widest, Real(0));
 }
 
-void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
-                     ContactRows& rows, Faults const& faults, Real bonded_gap) {
+std::size_t find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
+                            ContactRows& rows, Faults const& faults, Real bonded_gap) {
   auto const owned = static_cast<std::size_t>(particles.owned);
   auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
   Real const bonded_reach = bonded_gap * (1 + 1e-9);
@@ -362,9 +362,10 @@ void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows c
   found.slice_start = uninitialised<int>("rows.slice_start", slices + 1);
   Kokkos::parallel_for("count_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        CountNeighbours{search, near, found.length, faults});
-  int total = 0;
+  std::int64_t total = 0;
   Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices)),
                         ScanSlices{found.length, found.slice_start, particles.owned}, total);
+  require_countable(total * lane_count, particles.all());
   std::size_t const entries = static_cast<std::size_t>(total) * lane_count, held = rows.neighbour.extent(0);
   // A little more than needed, so that the next search finds fields of the right size; never nothing.
   std::size_t const wanted = std::max<std::size_t>(entries, lane_count);
@@ -373,10 +374,12 @@ void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows c
   Field<int> const source = uninitialised<int>("rows.source", size);
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
                        FillRows{search, near, found, source});
+  std::size_t const lists = near.neighbour.span() * sizeof(int) + bytes(search.candidates) + bytes(search.grid);
   near = Found();
   search = Search();
   carry_history(old, found, source, entries);
   rows = found;
+  return size * 2 * sizeof(int) + std::max(lists, size * sizeof(Real));  // the lists are gone when the history is carried
 }
 
 }  // namespace clathra

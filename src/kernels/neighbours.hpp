@@ -46,11 +46,9 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old);
 /// @param slot  [owned] where the old row of each disc is
 /// @param bonded_gap  widest_bonded_gap() before the search, of all ranks [m]
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
-void find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
-                     ContactRows& rows, Faults const& faults, Real bonded_gap);
-
-/// Bytes that a search needs beside the rows themselves.
-std::size_t search_bytes(ContactRows const& rows);
+/// @return the most bytes that it held at once beside particles and old rows;  @throws std::length_error by require_countable()
+std::size_t find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
+                            ContactRows& rows, Faults const& faults, Real bonded_gap);
 
 /// Intact bonds whose break this rank would report: those of its discs to discs with a larger id.
 int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows);

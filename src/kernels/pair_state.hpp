@@ -16,7 +16,7 @@ struct PairState {
   Real normal_stiffness = 0, shear_stiffness = 0, rolling_stiffness = 0;  ///< tangent stiffness while nothing slips or breaks
   Real grain_energy = 0, bond_energy = 0;                                 ///< elastic [J/m]
   Real width = 0, gap = 0;                                                ///< B and h_cr of the bond [m]
-  bool carries() const { return touching || bonded; }
+  KOKKOS_INLINE_FUNCTION bool carries() const { return touching || bonded; }
 };
 
 /// Half of F^2 / k, 0 for a spring that is not there.
@@ -44,10 +44,10 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   if (s.touching && (!s.bonded || separate)) {
     Real const k_m = rows.features.rolling ? rolling_stiffness(laws.grain, common) : 0;
     s.normal = laws.grain.normal_stiffness * s.overlap;
-    s.shear = rows.shear(e);
+    s.shear = rows.shear.extent(0) > 0 ? rows.shear(e) : 0;
     s.moment = moment;
     s.normal_stiffness = laws.grain.normal_stiffness;
-    s.shear_stiffness = laws.grain.shear_stiffness;
+    s.shear_stiffness = rows.shear.extent(0) > 0 ? laws.grain.shear_stiffness : 0;
     s.rolling_stiffness = k_m;
     s.grain_energy = spring_energy(s.normal, laws.grain.normal_stiffness) + spring_energy(s.shear, laws.grain.shear_stiffness) +
                      spring_energy(s.moment, k_m);

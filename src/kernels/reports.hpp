@@ -5,14 +5,18 @@
 namespace clathra {
 
 /// Bonds that broke, each once, in no particular order. Bonds never re-form, so the number of intact bonds is a firm capacity.
+/// Where nobody reads the events only their numbers by mode are kept.
 struct BreakLog {
-  Field<int> count;          ///< [1] events in the log
-  Field<std::int64_t> step;  ///< [bonds] step number
-  Field<int> id_a, id_b;     ///< [bonds] id_a < id_b
-  Field<std::int8_t> mode;   ///< [bonds] BreakMode
-  Field<Coord> x, y;         ///< [bonds] midpoint of the branch [m]
+  Field<std::int64_t> by_mode;  ///< [break_mode_count] bonds that broke
+  Field<int> count;             ///< [1] events in the log
+  Field<std::int64_t> step;     ///< [bonds] step number; as the following, empty where events are not kept
+  Field<int> id_a, id_b;        ///< [bonds] id_a < id_b
+  Field<std::int8_t> mode;      ///< [bonds] BreakMode
+  Field<Coord> x, y;            ///< [bonds] midpoint of the branch [m]
 
   KOKKOS_INLINE_FUNCTION void record(std::int64_t at_step, int a, int b, BreakMode how, Coord at_x, Coord at_y) const {
+    Kokkos::atomic_fetch_add(&by_mode(static_cast<std::size_t>(how)), std::int64_t(1));
+    if (step.extent(0) == 0) return;
     auto const slot = static_cast<std::size_t>(Kokkos::atomic_fetch_add(&count(0), 1));
     step(slot) = at_step;
     id_a(slot) = a;
@@ -23,8 +27,10 @@ struct BreakLog {
   }
 };
 
+/// @param bonds  events that there is room for; 0 keeps none
 inline BreakLog make_break_log(std::size_t bonds) {
   BreakLog log;
+  log.by_mode = Field<std::int64_t>("breaks.by_mode", break_mode_count);
   log.count = Field<int>("breaks.count", 1);
   log.step = uninitialised<std::int64_t>("breaks.step", bonds);  // pages that nothing is written to cost nothing on a host
   log.id_a = uninitialised<int>("breaks.id_a", bonds);
@@ -33,6 +39,11 @@ inline BreakLog make_break_log(std::size_t bonds) {
   log.x = uninitialised<Coord>("breaks.x", bonds);
   log.y = uninitialised<Coord>("breaks.y", bonds);
   return log;
+}
+
+inline std::size_t bytes(BreakLog const& log) {
+  return log.by_mode.span() * sizeof(std::int64_t) + log.count.span() * sizeof(int) +
+         log.step.span() * (sizeof(std::int64_t) + 2 * sizeof(int) + sizeof(std::int8_t) + 2 * sizeof(Coord));
 }
 
 /// What can go wrong inside a kernel. Each holds the largest id of a disc that met it, or -1.
@@ -52,7 +63,8 @@ inline Faults make_faults() {
   return faults;
 }
 
-/// Energy lost since the ledger was opened [J/m], by disc (half of each contact's loss on either disc). Empty fields = no ledger.
+/// Energy lost since the ledger was opened [J/m], by disc (half of each contact's loss on either disc). An empty field is an
+/// account that the laws have no use for; all are empty where there is no ledger.
 struct EnergyLosses {
   Field<Accum> sliding;   ///< Coulomb slip
   Field<Accum> rolling;   ///< plastic rolling
@@ -61,9 +73,32 @@ struct EnergyLosses {
   Field<Accum> damping;   ///< local (Cundall) damping
 };
 
-inline EnergyLosses make_energy_losses(std::size_t discs) {
-  return {Field<Accum>("loss.sliding", discs), Field<Accum>("loss.rolling", discs), Field<Accum>("loss.dashpot", discs),
-          Field<Accum>("loss.breakage", discs), Field<Accum>("loss.damping", discs)};
+/// Which ways there are to lose energy.
+struct LossKinds {
+  bool sliding = true, rolling = true, dashpot = true, breakage = true, damping = true;
+};
+
+/// Visits (name, account, whether it is needed).
+template <class Visit>
+void for_each_account(EnergyLosses& losses, LossKinds const& needed, Visit&& visit) {
+  visit("lost_sliding", losses.sliding, needed.sliding);
+  visit("lost_rolling", losses.rolling, needed.rolling);
+  visit("lost_dashpot", losses.dashpot, needed.dashpot);
+  visit("lost_breakage", losses.breakage, needed.breakage);
+  visit("lost_damping", losses.damping, needed.damping);
+}
+
+/// Opens the accounts that are needed and not open yet; what stands in the others stays.
+inline void open_accounts(EnergyLosses& losses, LossKinds const& needed, std::size_t discs) {
+  for_each_account(losses, needed, [&](char const* name, Field<Accum>& account, bool wanted) {
+    if (wanted && account.extent(0) == 0) account = Field<Accum>(std::string(name), discs);
+  });
+}
+
+inline std::size_t bytes(EnergyLosses losses) {
+  std::size_t total = 0;
+  for_each_account(losses, {}, [&](char const*, Field<Accum> const& account, bool) { total += account.span() * sizeof(Accum); });
+  return total;
 }
 
 }  // namespace clathra

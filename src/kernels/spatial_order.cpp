@@ -14,11 +14,12 @@ struct WorkOfSlots {
   Field<int> work;  ///< [slots] first + slot is set
 
   KOKKOS_FUNCTION void operator()(int slice) const {
-    bool const bonds = rows.equilibrium.extent(0) > 0;
+    bool const shear = rows.shear.extent(0) > 0, bonds = rows.equilibrium.extent(0) > 0;
     Lanes carrying(0);
     for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
       auto const e = static_cast<std::size_t>(k) * lane_count;
-      auto marked = load(&rows.shear(e)) != Lanes(0);
+      Mask marked(false);
+      if (shear) marked = load(&rows.shear(e)) != Lanes(0);
       if (bonds) marked = marked || is_bonded(load(&rows.equilibrium(e)));
       carrying += select(marked, Lanes(1), Lanes(0));
     }

@@ -1,44 +1,39 @@
 #include "kernels/stability.hpp"
 
+#include <algorithm>
 #include <cmath>
-
-#include "kernels/exact_sum.hpp"
 
 namespace clathra {
 
 namespace {
 
+constexpr Real any_gap = 1e300;
+
 /// min over (m/k) and (I/k_rot) of one disc.
 struct LocalPeriod {
-  ParticleSoA p;
-  ContactRows rows;
-  ContactLaws laws;
+  SpringNetwork net;
   int least_contacts;
 
   KOKKOS_FUNCTION void operator()(int i, Real& least) const {
+    ParticleSoA const& p = net.particles;
+    GrainLaw const& grain = net.laws.grain;
+    Real const r = p.radius(i);
     Real kxx = 0, kyy = 0, rotation = 0, stiffest = 0, stiffest_turn = 0;
     int contacts = 0;
-    for (int k = 0; k < rows.length(i); ++k) {
-      PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
-      if (!s.carries()) continue;
-      // A bonded gap may close: with `parallel` its grain contact then adds to the bond.
-      Real const common = common_radius(p.radius(i), p.radius(s.other));
-      Real const k_m = rows.features.rolling ? rolling_stiffness(laws.grain, common) : 0;
-      bool const add_grain = !s.touching && laws.bond_kind == BondKind::parallel;
-      Real const kn = s.normal_stiffness + (add_grain ? laws.grain.normal_stiffness : 0);
-      Real const ks = s.shear_stiffness + (add_grain ? laws.grain.shear_stiffness : 0);
-      Real const turn = ks * p.radius(i) * p.radius(i) + s.rolling_stiffness + (add_grain ? k_m : 0);
-      kxx += kn * s.nx * s.nx + ks * s.ny * s.ny;
-      kyy += kn * s.ny * s.ny + ks * s.nx * s.nx;
+    for_each_spring(net, i, {true, any_gap, 0}, [&](Spring const& s) {
+      Real const turn = s.shear * r * r + s.rolling;
+      kxx += s.normal * s.nx * s.nx + s.shear * s.ny * s.ny;
+      kyy += s.normal * s.ny * s.ny + s.shear * s.nx * s.nx;
       rotation += turn;
-      stiffest = lane_max(stiffest, 0.5 * (kn + ks));
+      if (s.other < 0) return;  // a wall is no reason to count fewer contacts to come
+      stiffest = lane_max(stiffest, 0.5 * (s.normal + s.shear));
       stiffest_turn = lane_max(stiffest_turn, turn);
       ++contacts;
-    }
-    Real const r = p.radius(i);
-    if (stiffest == 0) {
-      stiffest = 0.5 * (laws.grain.normal_stiffness + laws.grain.shear_stiffness);
-      stiffest_turn = laws.grain.shear_stiffness * r * r + (rows.features.rolling ? rolling_stiffness(laws.grain, r) : 0);
+    });
+    if (contacts == 0) {
+      Real const shear = net.rows.shear.extent(0) > 0 ? grain.shear_stiffness : 0;
+      stiffest = 0.5 * (grain.normal_stiffness + shear);
+      stiffest_turn = shear * r * r + (net.rows.features.rolling ? rolling_stiffness(grain, r) : 0);
     }
     int const missing = contacts < least_contacts ? least_contacts - contacts : 0;
     Real const translation = lane_max(kxx, kyy) + missing * stiffest;
@@ -69,41 +64,29 @@ struct RandomMotion {
 
 /// w = M^-1 K u; its terms are u.M.u and u.K.u (Rayleigh quotient).
 struct StiffnessProduct {
-  ParticleSoA p;
-  ContactRows rows;
-  ContactLaws laws;
-  Walls walls;
-  WallLaw wall_law;
+  SpringNetwork net;
   Motion u, w;
 
   KOKKOS_FUNCTION void operator()(int i, Real* out) const {
+    ParticleSoA const& p = net.particles;
     Real fx = 0, fy = 0, torque = 0;
-    for (int k = 0; k < rows.length(i); ++k) {
-      PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
-      if (!(s.touching || s.bonded)) continue;
-      int const j = s.other;
-      Real const dx = u.x(j) - u.x(i), dy = u.y(j) - u.y(i);
-      Real const normal = -s.normal_stiffness * (dx * s.nx + dy * s.ny);
-      Real const shear = s.shear_stiffness * ((dy * s.nx - dx * s.ny) - (u.turn(i) * s.arm + u.turn(j) * s.other_arm));
+    for_each_spring(net, i, {}, [&](Spring const& s) {
+      Real const other_x = s.other < 0 ? 0 : u.x(s.other), other_y = s.other < 0 ? 0 : u.y(s.other);
+      Real const other_turn = s.other < 0 ? 0 : u.turn(s.other);
+      Real const dx = other_x - u.x(i), dy = other_y - u.y(i);
+      Real const normal = -s.normal * (dx * s.nx + dy * s.ny);
+      Real const shear = s.shear * ((dy * s.nx - dx * s.ny) - (u.turn(i) * s.arm + other_turn * s.other_arm));
       fx -= normal * s.nx + shear * s.ny;
       fy += shear * s.nx - normal * s.ny;
-      torque += s.arm * shear + s.rolling_stiffness * (u.turn(j) - u.turn(i));
-    }
-    for (int wall = 0; wall < wall_count; ++wall) {
-      bool const upright = wall == left || wall == right;
-      Real const distance = std::fabs((upright ? p.x(i) : p.y(i)) - walls.position[wall]);
-      if (distance >= p.radius(i)) continue;
-      (upright ? fx : fy) -= wall_law.normal_stiffness * (upright ? u.x(i) : u.y(i));
-    }
+      torque += s.arm * shear + s.rolling * (other_turn - u.turn(i));
+    });
     w.x(i) = -fx * p.inverse_mass(i);
     w.y(i) = -fy * p.inverse_mass(i);
     w.turn(i) = -torque * p.inverse_inertia(i);
-    // Scaled by the mass of a grain so that the fixed-point sums keep their digits.
-    Real const mass = reference_mass / p.inverse_mass(i), inertia = reference_mass / p.inverse_inertia(i);
+    Real const mass = 1 / p.inverse_mass(i), inertia = 1 / p.inverse_inertia(i);
     out[0] = mass * (u.x(i) * u.x(i) + u.y(i) * u.y(i)) + inertia * u.turn(i) * u.turn(i);
-    out[1] = (mass * (u.x(i) * w.x(i) + u.y(i) * w.y(i)) + inertia * u.turn(i) * w.turn(i)) * reference_time2;
+    out[1] = mass * (u.x(i) * w.x(i) + u.y(i) * w.y(i)) + inertia * u.turn(i) * w.turn(i);
   }
-  Real reference_mass, reference_time2;
 };
 
 struct Rescale {
@@ -116,37 +99,109 @@ struct Rescale {
   }
 };
 
+/// u = M^-1/2.
+struct UnitMotion {
+  ParticleSoA p;
+  Motion u;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    u.x(i) = u.y(i) = lane_sqrt(p.inverse_mass(i));
+    u.turn(i) = lane_sqrt(p.inverse_inertia(i));
+  }
+};
+
+/// w = |M^-1 (K + 2 C / dt)| u, entry by entry, for positive u; reduces to the largest w / u.
+struct AbsoluteProduct {
+  SpringNetwork net;
+  Motion u, w;
+  Real twice_rate;                       ///< 2 / dt [1/s]
+  static constexpr Real closing = 0.06;  ///< of gaps, as a share of the mean radius
+
+  KOKKOS_FUNCTION void operator()(int i, Real& greatest) const {
+    ParticleSoA const& p = net.particles;
+    Real kxx = 0, kxy = 0, kyy = 0, kxt = 0, kyt = 0, ktt = 0;  // of the disc with itself
+    Real x = 0, y = 0, turn = 0;                                // from the others
+    for_each_spring(net, i, {true, closing, closing}, [&](Spring const& s) {
+      Real const normal = s.normal + s.dashpot * twice_rate, tx = -s.ny, ty = s.nx;
+      Real const axx = normal * s.nx * s.nx + s.shear * tx * tx, axy = normal * s.nx * s.ny + s.shear * tx * ty,
+                 ayy = normal * s.ny * s.ny + s.shear * ty * ty;
+      kxx += axx;
+      kxy += axy;
+      kyy += ayy;
+      kxt += s.shear * s.arm * tx;
+      kyt += s.shear * s.arm * ty;
+      ktt += s.shear * s.arm * s.arm + s.rolling;
+      if (s.other < 0) return;
+      Real const ux = u.x(s.other), uy = u.y(s.other), ut = u.turn(s.other);
+      x += axx * ux + std::fabs(axy) * uy + std::fabs(s.shear * s.other_arm * tx) * ut;
+      y += std::fabs(axy) * ux + ayy * uy + std::fabs(s.shear * s.other_arm * ty) * ut;
+      turn += std::fabs(s.shear * s.arm * tx) * ux + std::fabs(s.shear * s.arm * ty) * uy +
+              std::fabs(s.shear * s.arm * s.other_arm - s.rolling) * ut;
+    });
+    Real const ux = u.x(i), uy = u.y(i), ut = u.turn(i);
+    w.x(i) = (kxx * ux + std::fabs(kxy) * uy + std::fabs(kxt) * ut + x) * p.inverse_mass(i);
+    w.y(i) = (std::fabs(kxy) * ux + kyy * uy + std::fabs(kyt) * ut + y) * p.inverse_mass(i);
+    w.turn(i) = (std::fabs(kxt) * ux + std::fabs(kyt) * uy + ktt * ut + turn) * p.inverse_inertia(i);
+    for (Real const ratio : {w.x(i) / ux, w.y(i) / uy, w.turn(i) / ut})
+      if (ratio > greatest) greatest = ratio;  // not where both are 0: such a motion meets no spring
+  }
+};
+
 Motion make_motion(int discs) {
   auto const n = static_cast<std::size_t>(discs);
   return {Field<Real>("motion.x", n), Field<Real>("motion.y", n), Field<Real>("motion.turn", n)};
 }
 
+/// u = factor w, on all ranks.
+void rescale(ParticleSoA const& particles, Motion const& w, Motion const& u, Real factor, AcrossRanks const& across) {
+  Kokkos::parallel_for("rescale_motion", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), Rescale{w, u, factor});
+  for (auto const& field : {u.x, u.y, u.turn}) across.refresh_ghosts(field);
+}
+
 }  // namespace
 
-Real local_time_step(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, int least_contacts) {
+Real local_time_step(SpringNetwork const& network, int least_contacts) {
   Real least = 0;
-  Kokkos::parallel_reduce("local_time_step", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                          LocalPeriod{particles, rows, laws, least_contacts}, Kokkos::Min<Real>(least));
+  Kokkos::parallel_reduce("local_time_step", Kokkos::RangePolicy<ExecutionSpace>(0, network.particles.owned),
+                          LocalPeriod{network, least_contacts}, Kokkos::Min<Real>(least));
   return std::sqrt(2 * least);
 }
 
-Real largest_frequency(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Walls const& walls,
-                       WallLaw const& wall_law, AcrossRanks const& across, int iterations) {
-  Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
-  Motion u = make_motion(particles.all()), w = make_motion(particles.owned);
+Real largest_frequency(SpringNetwork const& network, AcrossRanks const& across, int iterations) {
+  ParticleSoA const& particles = network.particles;
+  Motion const u = make_motion(particles.all()), w = make_motion(particles.owned);
   Kokkos::parallel_for("random_motion", Kokkos::RangePolicy<ExecutionSpace>(0, particles.all()), RandomMotion{particles, u});
-  StiffnessProduct product{particles, rows, laws, walls, wall_law, u, w, 1e4, across.period * across.period};
+  StiffnessProduct const product{network, u, w};
   Real frequency2 = 0;
   for (int n = 0; n < iterations; ++n) {
     Real sums[2];
-    exact_sums<2>("stiffness_product", particles.owned, product, sums, across.sum);
+    exact_sums<2>("stiffness_product", particles.owned, product, {across.sums.unit.mass(), across.sums.unit.stress}, sums,
+                  across.sums.over_ranks);
     if (!(sums[0] > 0)) return 0;
-    frequency2 = sums[1] / sums[0] / product.reference_time2;
+    frequency2 = sums[1] / sums[0];
     if (!(frequency2 > 0)) return 0;
-    Kokkos::parallel_for("rescale_motion", each, Rescale{w, u, 1 / frequency2});
-    for (auto const& field : {u.x, u.y, u.turn}) across.refresh_ghosts(field);
+    rescale(particles, w, u, 1 / frequency2, across);
   }
   return std::sqrt(frequency2);
+}
+
+Real stable_limit(SpringNetwork const& network, Real alpha, AcrossRanks const& across) {
+  ParticleSoA const& particles = network.particles;
+  Motion const u = make_motion(particles.all()), w = make_motion(particles.owned);
+  Kokkos::parallel_for("unit_motion", Kokkos::RangePolicy<ExecutionSpace>(0, particles.all()), UnitMotion{particles, u});
+  // A bound for a shorter dt holds for a longer one too. With dashpots each product halves what the logarithm of dt lacks.
+  bool const dashpots = network.laws.grain.damping_ratio > 0 || network.wall_law.damping_ratio > 0;
+  int const products = dashpots ? 16 : 10;
+  Real step = dashpots ? -1e-3 * across.max(-local_time_step(network)) : 0;
+  for (int n = 0; n < products; ++n) {
+    Real greatest = 0;
+    Kokkos::parallel_reduce("absolute_product", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                            AbsoluteProduct{network, u, w, dashpots ? 2 / step : 0}, Kokkos::Max<Real>(greatest));
+    greatest = across.max(std::max(greatest, Real(0)));
+    if (!(greatest > 0)) return 1e300;
+    step = std::max(step, 2 / std::sqrt((1 + alpha) * greatest));
+    rescale(particles, w, u, 1 / greatest, across);
+  }
+  return step;
 }
 
 }  // namespace clathra

@@ -47,7 +47,7 @@ struct WallForces {
       Real const dashpot = law.damping_ratio > 0 ? dashpot_coefficient(law, p.inverse_mass(i), Real(0)) : 0;
       ContactForce<Real> const force = grain_contact<false>(law, motion, old_shear, Real(0), dashpot);
       if (friction) contacts.shear(c, wall) = force.shear;
-      if (losses.sliding.extent(0) > 0) add_losses(i, motion, old_shear, force);
+      add_losses(i, motion, old_shear, force);
       if (overlap > p.radius(i)) faults.report(Fault::deep_overlap, p.id(i));
       p.force_x(i) -= force.normal * nx + force.shear * ny;
       p.force_y(i) += force.shear * nx - force.normal * ny;
@@ -61,9 +61,11 @@ struct WallForces {
   /// As between grains, but all of it on the disc's account.
   KOKKOS_INLINE_FUNCTION void add_losses(int i, ContactMotion<Real> const& motion, Real old_shear,
                                          ContactForce<Real> const& now) const {
-    Real const slid = motion.slip + (old_shear - now.shear) / law.shear_stiffness;
-    losses.sliding(i) += 0.5 * (old_shear + now.shear) * slid;
-    if (law.damping_ratio > 0)
+    if (law.friction > 0 && losses.sliding.extent(0) > 0) {
+      Real const slid = motion.slip + (old_shear - now.shear) / law.shear_stiffness;
+      losses.sliding(i) += 0.5 * (old_shear + now.shear) * slid;
+    }
+    if (law.damping_ratio > 0 && losses.dashpot.extent(0) > 0)
       losses.dashpot(i) += (now.normal - lane_max(law.normal_stiffness * motion.overlap, Real(0))) * (motion.approach * dt);
   }
 };
@@ -126,11 +128,12 @@ WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls
 }
 
 WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt, EnergyLosses const& losses, Faults const& faults, SumOverRanks const& over_ranks) {
+                              Real dt, EnergyLosses const& losses, Faults const& faults, Summation const& summation) {
   GrainLaw const as_grain{law.normal_stiffness, law.shear_stiffness, law.friction, 0, law.damping_ratio};
-  Real sums[reaction_count];
+  Real sums[reaction_count], unit[reaction_count];
+  for (int k = 0; k < reaction_count; ++k) unit[k] = k < 2 * wall_count ? summation.unit.force() : 1;
   exact_sums<reaction_count>("wall_forces", contacts.size, WallForces{particles, contacts, walls, as_grain, dt, losses, faults},
-                             sums, over_ranks);
+                             unit, sums, summation.over_ranks);
   WallReactions reactions;
   for (int wall = 0; wall < wall_count; ++wall) {
     reactions.normal[wall] = sums[wall];

@@ -56,9 +56,11 @@ WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& 
 WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, bool friction, WallShear const& shear);
 
 /// Adds the wall forces to the discs near the walls and returns the reactions of all ranks. A wall is a disc of infinite radius
-/// without rolling. A disc more than half a radius deep in a wall is a fault.
+/// without rolling. A disc whose centre lies behind a wall (overlap above its radius) is
+/// a fault, as between discs.
 /// @param losses  sliding and dashpot are written when their fields exist
+/// @throws SumOutOfRange where a reaction is not finite
 WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt, EnergyLosses const& losses, Faults const& faults, SumOverRanks const& over_ranks = {});
+                              Real dt, EnergyLosses const& losses, Faults const& faults, Summation const& sums = {});
 
 }  // namespace clathra
