@@ -83,7 +83,8 @@ template <int Count, class Terms>
 void exact_sums(char const* label, int n, Terms const& terms, Real* result, SumOverRanks const& over_ranks = {}) {
   std::int64_t sums[2 * Count];
   ExactSumKernel<Count, Terms> kernel{2 * Count, terms};
-  Kokkos::parallel_reduce(label, Kokkos::RangePolicy<ExecutionSpace>(0, n), kernel, &sums[0]);
+  Kokkos::View<std::int64_t*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>> const into(&sums[0], 2 * Count);
+  Kokkos::parallel_reduce(label, Kokkos::RangePolicy<ExecutionSpace>(0, n), kernel, into);
   if (over_ranks) over_ranks(&sums[0], 2 * Count);
   for (int c = 0; c < Count; ++c) result[c] = FixedPoint{sums[2 * c], sums[2 * c + 1]}.value();
 }

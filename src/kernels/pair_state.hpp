@@ -16,7 +16,7 @@ struct PairState {
   Real normal_stiffness = 0, shear_stiffness = 0, rolling_stiffness = 0;  ///< tangent stiffness while nothing slips or breaks
   Real grain_energy = 0, bond_energy = 0;                                 ///< elastic [J/m]
   Real width = 0, gap = 0;                                                ///< B and h_cr of the bond [m]
-  bool carries() const { return touching || bonded; }
+  KOKKOS_INLINE_FUNCTION bool carries() const { return touching || bonded; }
 };
 
 /// Half of F^2 / k, 0 for a spring that is not there.
