@@ -28,7 +28,7 @@ nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simul
   double const moved = t.particle_steps_per_s * t.moved_per_step;
   return {{"case", options.what},
           {"discs", simulation.discs()},
-          {"threads", ExecutionSpace::concurrency()},
+          {"threads", ExecutionSpace().concurrency()},
           {"lanes", lane_count},
           {"particle_steps_per_s", t.particle_steps_per_s},
           {"contact_steps_per_s", t.contact_steps_per_s},

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     int const ranks = session.ranks().count();
     std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f,%.3f,%.3f,%lld\n",
                 throughput_case_names[static_cast<int>(options.setup.what)], simulation.discs(), ranks,
-                ExecutionSpace::concurrency(), lane_count, rates.back(), 1e9 / rates.back(), t.contact_steps_per_s,
+                ExecutionSpace().concurrency(), lane_count, rates.back(), 1e9 / rates.back(), t.contact_steps_per_s,
                 static_cast<long long>(t.steps), static_cast<long long>(t.rebuilds), t.rebuild_share, t.bytes_per_disc,
                 static_cast<double>(simulation.contact_entries()) / std::max(simulation.particles().owned, 1),
                 rates.back() * t.moved_per_step / (bandwidth * ranks), t.flops_per_s / (arithmetic * ranks),

@@ -169,7 +169,7 @@ double update_bandwidth(std::size_t bytes) {
 }
 
 double arithmetic_rate() {
-  int const strands = strands_of_a_thread * ExecutionSpace::concurrency();
+  int const strands = strands_of_a_thread * ExecutionSpace().concurrency();
   Field<Real> const result("arithmetic", static_cast<std::size_t>(strands));
   double const operations = 2.0 * links * chains * lane_count * strands;
   double best = 0;
