@@ -82,7 +82,7 @@ std::string exact_text(HistoryRow const& row) {
 
 TEST(Determinism, ASpecimenShearedThroughBreakageHasTheGoldenState) {
   EXPECT_GT(sheared().rows.back().broken_rolling, 100);
-  EXPECT_EQ(sheared().hash, 0x5c2ec50a73667dbdULL) << std::hex << sheared().hash;
+  EXPECT_EQ(sheared().hash, 0x2a4b0fc78fbc25d5ULL) << std::hex << sheared().hash;
 }
 
 TEST(Determinism, TheOrderOfTheInputDoesNotShow) {
@@ -155,21 +155,22 @@ Verdict verdict_on(Scene const& scene) {
 
 TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
   Scene scene = small_test();
-  scene.test.axial_strain = 0.02;
+  scene.hydrate.saturation = 0;  // breaking bonds shake a slow shear, too
+  scene.test.axial_strain = 0.01;
   scene.test.inertial_number = 2e-5;
   Verdict const slow = verdict_on(scene);
   EXPECT_EQ(slow.quasi_static, 1);
-  EXPECT_EQ(slow.looks, 100);
+  EXPECT_EQ(slow.looks, 50);
   EXPECT_TRUE(slow.warnings.empty()) << slow.warnings[0];
   scene.test.inertial_number = 9e-4;  // no warning of the rate
   for (int const records : {1, 7, 300}) {
     scene.output.records = records;
     Verdict const fast = verdict_on(scene);
     EXPECT_EQ(fast.quasi_static, 0);
-    EXPECT_EQ(fast.looks, 100);
-    EXPECT_GT(fast.unbalanced, 1);
+    EXPECT_EQ(fast.looks, 50);
+    EXPECT_GT(fast.unbalanced, 0);
     ASSERT_EQ(fast.warnings.size(), 1u);
-    EXPECT_NE(fast.warnings[0].find("of 100 looks"), std::string::npos) << fast.warnings[0];
+    EXPECT_NE(fast.warnings[0].find("of 50 looks"), std::string::npos) << fast.warnings[0];
   }
 }
 

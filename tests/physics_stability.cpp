@@ -155,8 +155,8 @@ TEST(StableLimit, KnowsDashpots) {
 TEST(StableTimeStep, IsCappedAtTheLimitOfDampingAndDashpots) {
   Simulation const viscous = trembling_sand(0, 1), plain = trembling_sand(0.3, 0);
   EXPECT_LT(viscous.stable_limit(), estimate(viscous));
-  EXPECT_EQ(viscous.stable_time_step(), viscous.stable_limit());
-  EXPECT_EQ(plain.stable_time_step(), estimate(plain));
+  EXPECT_EQ(viscous.stable_time_step(), 0.95 * viscous.stable_limit());
+  EXPECT_EQ(plain.stable_time_step(0.7), 0.7 * estimate(plain));
 }
 
 // A bond in place of the contact is softer than that: when it breaks the grains' own stiffness is back.

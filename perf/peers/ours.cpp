@@ -59,7 +59,7 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
 }
 
 double stable_step(Simulation const& simulation, Scene const& scene) {
-  return scene.run.dt_safety * simulation.stable_time_step();
+  return simulation.stable_time_step(scene.run.dt_safety);
 }
 
 template <class T>

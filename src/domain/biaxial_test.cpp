@@ -165,7 +165,7 @@ void BiaxialTest::State::begin_shear() {
   SimulationLaws laws = s.laws();
   laws.motion.damping = scene.run.damping;
   s.set_laws(laws);
-  s.time_step = scene.run.dt_safety * s.stable_time_step();
+  s.time_step = s.stable_time_step(scene.run.dt_safety);
   double const frequency = s.largest_frequency();
   preparation["time_step_s"] = s.time_step;
   double const damped = 2 / std::sqrt(1 + scene.run.damping);

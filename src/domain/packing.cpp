@@ -80,7 +80,7 @@ void compact(Simulation& simulation, double void_ratio, double stress, double sp
     double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.03, 1.0);
     simulation.loading.y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
     constexpr int look = 200;
-    simulation.time_step = 0.8 * simulation.stable_time_step();
+    simulation.time_step = simulation.stable_time_step(0.8);
     mean_stress = 0;
     for (int n = 0; n < look && simulation.void_ratio() > void_ratio; ++n) {
       simulation.step();

@@ -106,7 +106,7 @@ SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& fri
 }
 
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, double dt_safety) {
-  simulation.time_step = dt_safety * simulation.stable_time_step();
+  simulation.time_step = simulation.stable_time_step(dt_safety);
   if (simulation.periodic()) return;
   Walls const& walls = simulation.walls();
   double const rate = strain_rate_of(inertial_number, stress, simulation.density(), d50);

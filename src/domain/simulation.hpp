@@ -115,8 +115,8 @@ class Simulation {
   LossTotals losses() const;
   Real deepest_overlap() const { return ranks_.max(clathra::deepest_overlap(particles_, rows_)); }
   std::uint64_t hash() const;
-  /// A step to multiply by a safety factor [s]: local_time_step(), but never above stable_limit() with the present damping.
-  Real stable_time_step() const;
+  /// A safety factor times local_time_step(), but never above 0.95 of stable_limit() [s].
+  Real stable_time_step(Real safety = 1) const;
   Real largest_frequency(int iterations = 20) const;  ///< of the present contact network [1/s]
   Real stable_limit() const;                          ///< clathra::stable_limit() with the present damping [s]
   SimulationLaws const& laws() const { return laws_; }
