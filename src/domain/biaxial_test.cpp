@@ -126,7 +126,7 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   prepare_servo(s, stress, inertial_number, d50, scene.run.dt_safety);
   double const squeeze = strain_rate_of(inertial_number, stress, s.density(), d50);
   AxisDrive const servo_x = s.loading.x, servo_y = s.loading.y;
-  std::int64_t const budget = scene.test.consolidation_steps > 0 ? scene.test.consolidation_steps : 200000,
+  std::int64_t const budget = scene.test.consolidation_steps,
                      most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (squeeze * s.time_step)));
   if (mean_stress(s) < 0.95 * stress) {
     s.loading.x = s.loading.y = AxisDrive::at_rate(squeeze);
@@ -154,7 +154,7 @@ void BiaxialTest::State::require_rest(std::int64_t steps) {
                 s.measures().unbalanced_ratio(s.discs()), unbalanced_at_rest, mean_stress(s) * 1e-6,
                 scene.test.confining_stress * 1e-6);
   std::string const text = "consolidation did not come to rest within " + std::to_string(steps) + " steps" + numbers;
-  if (scene.test.consolidation_steps == 0 && !scene.run.force)
+  if (scene.test.consolidation_steps == TestScene::usual_consolidation_steps && !scene.run.force)
     throw Refused(text + "; test.consolidation_steps = N shears it all the same after N steps");
   warnings.push_back(text + ": the test is not quasi-static from its beginning");
 }

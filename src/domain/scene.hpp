@@ -72,7 +72,8 @@ struct TestScene {
   double inertial_number = 1e-4;  ///< I; 0 where strain_rate is given
   double strain_rate = 0;         ///< [1/s]
   double wall_friction = 0;
-  int consolidation_steps = 0;  ///< at most, and then sheared as it is; 0 = until it rests, for at most 200,000
+  static constexpr int usual_consolidation_steps = 200000;
+  int consolidation_steps = usual_consolidation_steps;  ///< at most; another number than the usual one is sheared at rest or not
 };
 
 /// `[run]`

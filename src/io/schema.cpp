@@ -85,7 +85,7 @@ Key const table[] = {
   {"test.inertial_number", quantity, CLATHRA_FIELD(test, inertial_number), "rate of the test as I = strain rate * d50 * sqrt(density / pressure)", ratio, 1e-12, 1, "strain_rate is given instead"},
   {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, instead of inertial_number", rate, 1e-12, 1e6, "test.inertial_number decides"},
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5},
-  {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of consolidation; a specimen that has not come to rest by then is sheared with a warning", ratio, 1, 1e9, "up to 200,000, then it is refused"},
+  {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of consolidation; a specimen that has not come to rest by then is refused, with another number than this sheared with a warning", ratio, 0, 1e9},
 
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},
   {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
