@@ -40,6 +40,8 @@ ExitCode guarded_together(Ranks const& ranks, std::function<ExitCode()> const& w
     throw;
   } catch (FileProblem const&) {
     throw;
+  } catch (TooManyToNumber const& problem) {
+    end_all_ranks(ranks, FileProblem(ExitCode::refused, fmt::format("refused: {}", problem.what())));
   } catch (std::bad_alloc const&) {
     end_all_ranks(ranks, FileProblem(ExitCode::refused, "refused: not enough memory"));
   } catch (std::exception const& problem) {

@@ -1,7 +1,6 @@
 #include "kernels/cell_grid.hpp"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 namespace clathra {
@@ -71,7 +70,7 @@ struct SortCells {
 void require_countable(std::int64_t entries, std::int64_t discs) {
   constexpr std::int64_t most_entries = 2147483647, most_discs = 500000000;
   auto const refuse = [](std::int64_t number, char const* of_what, std::int64_t most) {
-    throw std::length_error(std::to_string(number) + of_what + " on one rank, at most " + std::to_string(most) +
+    throw TooManyToNumber(std::to_string(number) + of_what + " on one rank, at most " + std::to_string(most) +
                             " can be numbered: share the specimen among more ranks");
   };
   if (discs > most_discs) refuse(discs, " discs with those of the neighbours' ranks", most_discs);

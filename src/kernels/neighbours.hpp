@@ -46,7 +46,7 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old);
 /// @param slot  [owned] where the old row of each disc is
 /// @param bonded_gap  widest_bonded_gap() before the search, of all ranks [m]
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
-/// @return the most bytes that it held at once beside particles and old rows;  @throws std::length_error by require_countable()
+/// @return the most bytes that it held at once beside particles and old rows;  @throws TooManyToNumber by require_countable()
 std::size_t find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
                             ContactRows& rows, Faults const& faults, Real bonded_gap);
 
