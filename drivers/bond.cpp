@@ -42,6 +42,7 @@ BondCard evaluate(BondOptions const& options) {
   double const force = read("--normal-force", options.normal_force, Dimension::line_force);
   if (!(d50 > 0) || !(r1 > 0) || !(r2 > 0)) throw CLI::ValidationError("--d50, --r1 and --r2 must be above 0");
   if (std::string const problem = hydrate_problem(scene.hydrate); !problem.empty()) print_error("note: " + problem);
+  if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) print_error("note: " + warning);
   try {
     return evaluate_bond(scene, d50, r1, r2, gap, force);
   } catch (std::invalid_argument const& problem) {  // a saturation in percent

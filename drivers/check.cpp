@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "forecast.hpp"
 #include "io/specimen_file.hpp"
@@ -21,15 +22,15 @@ struct CheckOptions {
 ExitCode check(CheckOptions const& options) {
   LoadedScene const input = options.scene.load();
   Scene scene = input.scene;
+  std::optional<Specimen> specimen;
   if (scene.sample.generator == Generator::file) {
-    Specimen const specimen = read_specimen(scene.sample.file);
-    scene = sized_by(scene, specimen, static_cast<std::int64_t>(specimen.size()));
+    specimen = read_specimen(scene.sample.file);
+    scene = sized_by(scene, *specimen, static_cast<std::int64_t>(specimen->size()));
   }
-  Forecast const result = forecast(scene, options.rate, options.ranks);
-  std::string text = fmt::format("{}: the scene is right\n{}", options.scene.file, forecast_text(scene, result));
-  for (std::string const& warning : input.warnings) text += "warning: " + warning + "\n";
-  for (std::string const& warning : result.warnings) text += "warning: " + warning + "\n";
-  ExitCode const printed = print_result(text);
+  Forecast result = forecast(scene, options.rate, options.ranks);
+  if (specimen) judge_size(result, *specimen);
+  ExitCode const printed = print_result(fmt::format("{}: the scene is right\n{}{}", options.scene.file,
+                                                    forecast_text(scene, result), warnings_text(input, result)));
   refuse_if_needed(scene, result);
   return printed;
 }

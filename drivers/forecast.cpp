@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "domain/hydrate.hpp"
 #include "domain/quasi_static.hpp"
 #include "domain/ranks.hpp"
+#include "domain/sample_design.hpp"
 #include "progress_line.hpp"
 #include "threads.hpp"
 
@@ -47,14 +49,18 @@ Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks) {
   result.disc_steps_per_second =
       disc_steps_per_second > 0 ? disc_steps_per_second : assumed_rate * thread_count(scene.run.threads) * ranks;
   RateNumbers const rate{result.numbers["strain_rate_per_s"], result.numbers["inertial_number"], result.numbers["wave_number"]};
-  Scene forced = scene;
-  forced.run.force = true;
-  result.warnings = judge_rate(forced, rate);
-  if (rate.inertial_number > inertial_limit)
-    result.refusals.push_back(
-        fmt::format("inertial number I = {:.3g} is above {:g}: this is not quasi-static", rate.inertial_number, inertial_limit));
+  result.warnings = rate_warnings(scene, rate);
+  result.refusals = rate_refusals(scene, rate);
   if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty()) result.refusals.push_back(refusal);
   return result;
+}
+
+void judge_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks) {
+  constexpr double settled = 0.95;  // one that was wide enough as it was designed is a little narrower at rest
+  double largest = 0;
+  for (double const radius : specimen.radius) largest = std::max(largest, 2 * radius);
+  std::string const problem = narrowness(specimen.width(), specimen.height(), ranks.max(largest), settled * fewest_grains_across);
+  if (!problem.empty()) forecast.refusals.push_back(problem);
 }
 
 std::string memory_refusal(StageRecord const& numbers) {
@@ -62,6 +68,20 @@ std::string memory_refusal(StageRecord const& numbers) {
                available = usable_memory * free_memory();
   if (memory <= available) return {};
   return fmt::format("it needs about {} of memory, {} are free", bytes_text(memory), bytes_text(available));
+}
+
+std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& forecast) {
+  std::vector<std::string> warnings = input.warnings;
+  warnings.insert(warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
+  if (input.scene.run.force)
+    for (std::string const& refusal : forecast.refusals) warnings.push_back("forced: " + refusal);
+  return warnings;
+}
+
+std::string warnings_text(LoadedScene const& input, Forecast const& forecast) {
+  std::string text;
+  for (std::string const& warning : warnings_of(input, forecast)) text += "warning: " + warning + "\n";
+  return text;
 }
 
 std::string forecast_text(Scene const& scene, Forecast const& forecast) {

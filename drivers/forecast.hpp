@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "domain/experiment.hpp"
+#include "domain/specimen.hpp"
+#include "io/scene_file.hpp"
 
 namespace clathra {
 
@@ -18,8 +20,18 @@ struct Forecast {
 /// @param ranks  that will share the run
 Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks);
 
+/// Adds that a specimen from a file is too narrow, if it is: the checks of the scene know only those that are generated.
+/// @param specimen  this rank's part
+void judge_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks = {});
+
 /// Why there is not enough memory for a scene of these numbers, or nothing.
 std::string memory_refusal(StageRecord const& numbers);
+
+/// All that is wrong with a scene but does not stop it: what `check`, `run --dry-run` and `run` warn of before anything is
+/// computed.
+std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& forecast);
+/// The same as lines.
+std::string warnings_text(LoadedScene const& input, Forecast const& forecast);
 
 /// The table that `check` and `--dry-run` print.
 std::string forecast_text(Scene const& scene, Forecast const& forecast);

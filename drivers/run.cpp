@@ -34,21 +34,19 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& 
     sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
   }
   Forecast cost = forecast(sized, 0, launched_ranks());
+  if (specimen) judge_size(cost, *specimen, ranks);
   share_refusals(ranks, cost.refusals);
   if (options.dry_run) {
-    ExitCode const printed = print_result(forecast_text(sized, cost));
+    ExitCode const printed = print_result(forecast_text(sized, cost) + warnings_text(input, cost));
     refuse_if_needed(sized, cost);
     return printed;
   }
   refuse_if_needed(sized, cost);
   require_enough_discs(ranks, static_cast<std::int64_t>(cost.numbers.at("particles")));
   watch_for_interrupt();
-  std::vector<std::string> const warnings = input.warnings;
+  std::vector<std::string> const warnings = warnings_of(input, cost);
   TestRun now(std::move(input), std::move(specimen), endurance, ranks);
   for (std::string const& warning : warnings) now.warn(warning);
-  for (std::string const& warning : cost.warnings) now.warn(warning);
-  if (sized.run.force)
-    for (std::string const& refusal : cost.refusals) now.warn("forced: " + refusal);
   return now.run();
 }
 

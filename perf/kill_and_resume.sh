@@ -7,6 +7,7 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 clathra="$root/build/release/drivers/clathra" scene=("$root/perf/tiled_bonded.toml")
 discs=${1:-200000} kills=${2:-10}
 source "$root/perf/ranks_environment.sh"
+source "$root/tests/kill_session.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -20,12 +21,12 @@ killed=0
 while ((killed < kills)); do
   for ranks in 1 2 3 4 7; do
     ((killed < kills)) || break
-    mpirun -n "$ranks" "$clathra" "${given[@]}" --output killed --resume --checkpoint-every 4s >log 2>&1 &
+    setsid mpirun -n "$ranks" "$clathra" "${given[@]}" --output killed --resume --checkpoint-every 4s >log 2>&1 &
     job=$!
     # The first one must reach the shear: before it there is nothing to go on from.
     while [ ! -e killed/ckpt/0.json ] && kill -0 "$job" 2>/dev/null; do sleep 1; done
     sleep $((3 + RANDOM % 10)).$((RANDOM % 10))
-    pkill -KILL -f -- "--output killed" || true
+    kill_session "$job"
     if wait "$job" 2>/dev/null; then break 2; fi # it came to its end before
     killed=$((killed + 1))
     echo "kill $killed on $ranks ranks: $(tail -n 1 killed/history.csv 2>/dev/null | cut -d, -f1,3)"

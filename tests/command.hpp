@@ -13,9 +13,12 @@ struct CommandResult {
   std::string output;  ///< stdout and stderr together
 };
 
+/// The program as a shell takes it: the path may hold spaces.
+inline constexpr char const* program_in_shell = "\"" CLATHRA_BINARY "\"";
+
 /// @param arguments  as in a shell, after the program's name
 inline CommandResult run_clathra(std::string const& arguments) {
-  std::string const command = std::string(CLATHRA_BINARY) + " " + arguments + " 2>&1";
+  std::string const command = program_in_shell + (" " + arguments) + " 2>&1";
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   CommandResult result{-1, ""};
   if (!pipe) return result;

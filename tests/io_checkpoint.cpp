@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_content.hpp"
+#include "io/digest.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/run_record.hpp"
 #include "io/scene_file.hpp"
@@ -139,7 +142,7 @@ TEST_F(CheckpointFile, IsTakenFromTheOtherGenerationWhereOneIsDamaged) {
   }
 }
 
-TEST_F(CheckpointFile, OfAnotherSceneOrVersionIsRefusedWithWhatDiffers) {
+TEST_F(CheckpointFile, OfAnotherSceneIsRefusedWithWhatDiffers) {
   (void)two_generations();
   FoundCheckpoint const found = *find_checkpoint(folder);
   Scene other = test_scene();
@@ -152,6 +155,50 @@ TEST_F(CheckpointFile, OfAnotherSceneOrVersionIsRefusedWithWhatDiffers) {
     EXPECT_EQ(problem.code, ExitCode::refused);
     EXPECT_NE(std::string(problem.what()).find("run.damping was 0.3, is 0.2"), std::string::npos) << problem.what();
     EXPECT_EQ(std::string(problem.what()).find("run.threads"), std::string::npos) << problem.what();
+  }
+}
+
+/// What reading says of a file. @param code  that it must have
+std::string problem_of(std::function<void()> const& read, ExitCode code) {
+  try {
+    read();
+  } catch (FileProblem const& problem) {
+    EXPECT_EQ(problem.code, code) << problem.what();
+    return problem.what();
+  }
+  ADD_FAILURE() << "taken";
+  return {};
+}
+
+TEST_F(CheckpointFile, OfAnotherVersionIsRefusedWithBothVersions) {
+  (void)two_generations();
+  fs::path const other = folder / "other.h5";
+  std::string const format = Hdf5File::open(folder / "ckpt/1.h5").text_attribute("format");
+  auto const relabel = [&](char const* name, std::int64_t version) {
+    auto manifest = nlohmann::json::parse(content(folder / name));
+    manifest["content"]["version"] = version;
+    manifest["content_digest_xxh3_128"] = text_digest(manifest["content"].dump());
+    put(folder / name, manifest.dump());
+  };
+  for (std::int64_t const version : {std::int64_t{0}, checkpoint_version + 1}) {
+    std::string const wanted =
+        "has version " + std::to_string(version) + ", this program reads 1 to " + std::to_string(checkpoint_version);
+    {
+      Hdf5File file = Hdf5File::create(other);
+      file.set_attribute("format", format);
+      file.set_attribute("version", version);
+      file.close();
+    }
+    std::string const content_says =
+        problem_of([&] { (void)read_checkpoint_content(other, test_scene(), {}); }, ExitCode::refused);
+    EXPECT_NE(content_says.find(wanted), std::string::npos) << content_says;
+    relabel("ckpt/0.json", checkpoint_version);
+    relabel("ckpt/1.json", version);
+    EXPECT_EQ(find_checkpoint(folder)->generation, 0);
+    relabel("ckpt/0.json", version);
+    std::string const manifests_say = problem_of([&] { (void)find_checkpoint(folder); }, ExitCode::file_missing);
+    EXPECT_NE(manifests_say.find("0.json: " + wanted), std::string::npos) << manifests_say;
+    EXPECT_NE(manifests_say.find("1.json: " + wanted), std::string::npos) << manifests_say;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "comma_locale.hpp"
 #include "io/digest.hpp"
 #include "io/events.hpp"
 #include "io/history.hpp"
@@ -119,14 +120,14 @@ TEST_F(History, AppendsTheEnergyLedgerWhereThereIsOne) {
 }
 
 TEST_F(History, IsTheSameInEveryLocale) {
-  char const* const before = std::setlocale(LC_ALL, nullptr);
-  std::string const saved = before ? before : "C";
-  std::setlocale(LC_ALL, "de_DE.UTF-8");
   HistoryRow row;
   row.eps1 = 0.5;
-  HistoryFile file(folder / "history.csv", false);
-  file.write(row);
-  std::setlocale(LC_ALL, saved.c_str());
+  {
+    CommaLocale const locale;
+    ASSERT_TRUE(locale.works()) << "no locale with a decimal comma: Debian's package locales has one";
+    HistoryFile file(folder / "history.csv", false);
+    file.write(row);
+  }
   EXPECT_NE(content(folder / "history.csv").find("0,0,0.5,0"), std::string::npos);
 }
 

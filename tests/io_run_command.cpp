@@ -118,7 +118,7 @@ TEST_F(RunCommand, ADryRunWritesNothing) {
 TEST_F(RunCommand, ClosedOrFullStandardStreamsChangeNoByteOfTheResults) {
   ASSERT_EQ(run("first").code, 0);
   std::string const program =
-      std::string(CLATHRA_BINARY) + " run " + scene.string() + " --output " + (folder / "second").string();
+      std::string(program_in_shell) + " run " + scene.string() + " --output " + (folder / "second").string();
   ASSERT_EQ(std::system((program + " <&- >&- 2>&-").c_str()), 0);
   EXPECT_EQ(content(folder / "second" / "history.csv"), content(folder / "first" / "history.csv"));
   ASSERT_EQ(std::system((program + " >/dev/full 2>/dev/full").c_str()), 0);
@@ -127,7 +127,7 @@ TEST_F(RunCommand, ClosedOrFullStandardStreamsChangeNoByteOfTheResults) {
 
 TEST_F(RunCommand, AFullDiskEndsWithTheFileAndItsCode) {
   // A limit of 100 blocks of 512 bytes for each file stands for a full disk.
-  CommandResult const full = run_clathra("--version; ulimit -f 100; " + std::string(CLATHRA_BINARY) + " run " + scene.string() +
+  CommandResult const full = run_clathra("--version; ulimit -f 100; " + std::string(program_in_shell) + " run " + scene.string() +
                                          " --output " + (folder / "out").string() + " --set output.records=500");
   EXPECT_EQ(full.code, 74) << full.output;
   EXPECT_NE(full.output.find("out/"), std::string::npos) << full.output;

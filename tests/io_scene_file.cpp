@@ -158,8 +158,18 @@ TEST(SceneFile, TheGuardKeepsHostileTextFromTheParser) {
 TEST(SceneFile, DeeplyNestedAndWronglyShapedTextEndsInAMessage) {
   std::string nested;
   for (int i = 0; i < 200000; ++i) nested += "a.b.c\n";
-  problems_of(nested);
-  problems_of(sized + "layers = " + std::string(400, '[') + "\n");
+  expect_problem(nested, "my.toml: error: has 1200000 bytes, at most 1048576 are allowed");
+  std::string const depth = "exceeded maximum nested value depth of 256";
+  expect_problem(sized + "layers = " + std::string(400, '[') + "\n",
+                 "my.toml:3:266: error: cannot be understood: Error while parsing value: " + depth);
+  std::string lines;
+  for (int i = 0; i < 2000; ++i) lines += std::string(500, '[') + "\n";
+  expect_problem(sized + "layers = [\n" + lines,
+                 "my.toml:4:256: error: cannot be understood: Error while parsing value: " + depth);
+  std::string dotted;
+  for (int i = 0; i < 250; ++i) dotted += "a.";
+  expect_problem(sized + dotted + "a = 1\n", "my.toml:3:1: error: unknown key 'a' in [sample]");
+  expect_problem("[" + dotted + "a]\n" + sized, "my.toml:1:2: error: unknown section [a]");
   expect_problem(sized + "layers = [5]\n", "'layers' needs one value, not a list or a date");
   expect_problem(sized + "layers = 1979-05-27\n", "'layers' needs one value");
   expect_problem(sized + "layers.deep = 5\n", "'layers' is one value, not a section");

@@ -1,5 +1,5 @@
 # Reads the sources and fails on what the architecture forbids. Run by ctest as
-#   cmake -DCHECK=layers|file_size -DSOURCE=<project folder> -P layers_test.cmake
+#   cmake -DCHECK=layers|file_size|kills -DSOURCE=<project folder> -P layers_test.cmake
 cmake_minimum_required(VERSION 3.22)
 
 set(faults "")
@@ -87,6 +87,28 @@ function(check_file_size)
       file(RELATIVE_PATH name ${SOURCE} ${source})
       fault(${name} ${length} "has ${length} lines, more than 400")
     endif()
+  endforeach()
+  set(faults "${faults}" PARENT_SCOPE)
+endfunction()
+
+# kills: scripts end processes that they started, by number. A name or a command line may be that of somebody else's.
+function(check_kills)
+  foreach(folder tests perf scripts .ci share)
+    file(GLOB_RECURSE scripts LIST_DIRECTORIES false ${SOURCE}/${folder}/*)
+    foreach(script ${scripts})
+      file(RELATIVE_PATH name ${SOURCE} ${script})
+      if(name STREQUAL "tests/layers_test.cmake" OR NOT name MATCHES "(\\.(sh|py|cpp|hpp|cmake)|/[a-z_]+)$")
+        continue()
+      endif()
+      read_lines(${script} lines)
+      set(number 0)
+      foreach(line IN LISTS lines)
+        math(EXPR number "${number} + 1")
+        if(line MATCHES "(^|[^a-z_])(pkill|killall|skill)([^a-z_]|$)")
+          fault(${name} ${number} "kills by name: ${CMAKE_MATCH_2}")
+        endif()
+      endforeach()
+    endforeach()
   endforeach()
   set(faults "${faults}" PARENT_SCOPE)
 endfunction()

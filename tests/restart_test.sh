@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A run that is killed and resumed, on any number of ranks, ends as one that was left alone: restart_test.sh CLATHRA SCENE [MPIEXEC]
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/kill_session.sh"
 clathra=$1 scene=$2 mpiexec=${3:-}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -15,27 +16,31 @@ begun=$(date +%s%N)
 quarter=$((($(date +%s%N) - begun) / 4000000)) # of its time [ms]
 seconds() { printf '%d.%03d' $(($1 / 1000)) $(($1 % 1000)); }
 
-# With ranks $1 under the launcher, else alone.
+# Sets `front`: the program on $1 ranks, under the launcher where there is more than one.
+front_for() {
+  front=("$clathra")
+  if [ -n "$mpiexec" ] && [ "$1" -gt 1 ]; then front=("$mpiexec" -n "$1" "$clathra"); fi
+}
 start() {
-  local ranks=$1
+  front_for "$1"
   shift
-  if [ -n "$mpiexec" ] && [ "$ranks" -gt 1 ]; then
-    "$mpiexec" -n "$ranks" "$clathra" "$@"
-  else
-    "$clathra" "$@"
-  fi
+  "${front[@]}" "$@"
 }
 
 # Killed five times at different instants; some come before the first checkpoint, some after the end.
+killed=0
 for round in 1 2 3 4 5; do
   ranks=$((round % 3 + 1))
-  start "$ranks" "${given[@]}" --output killed --resume --checkpoint-every 0.2s >log 2>&1 &
+  front_for "$ranks"
+  setsid "${front[@]}" "${given[@]}" --output killed --resume --checkpoint-every 0.2s >log 2>&1 &
   job=$!
   sleep "$(seconds $((round * quarter)))"
-  # The launcher goes last: it would end its ranks in order.
-  pkill -KILL -f -- "--output killed" || true
-  wait "$job" 2>/dev/null || true
+  kill_session "$job"
+  code=0
+  wait "$job" 2>/dev/null || code=$?
+  if [ "$code" = 137 ]; then killed=$((killed + 1)); fi
 done
+[ "$killed" -gt 0 ] || fail "no run was killed"
 start 2 "${given[@]}" --output killed --resume >log 2>&1 || fail "cannot be resumed"
 compare() {
   cmp "alone/history.csv" "$1/history.csv" || fail "$1: another history"

@@ -58,6 +58,14 @@ double critical_thickness_ratio(double saturation) {
   return 0.1;
 }
 
+std::string saturation_warning(double saturation) {
+  std::string const stated = "a saturation of " + format_number(std::round(saturation * 1e8) / 1e6) + " %";
+  if (saturation > 0 && saturation <= 0.2) return stated + " makes no bonds: Eq. 3 has none up to 20 %";
+  if (saturation > 0.7 && saturation <= 1)
+    return stated + " is above the range of Eq. 3, which ends at 70 %: the critical thickness stays at 0.1 d50";
+  return {};
+}
+
 double stability_temperature(double pore_pressure) {
   if (!(pore_pressure > 0)) return -zero_celsius;
   double const inverse = 3.79e-3 - 2.83e-4 * std::log10(pore_pressure * 1e-6);

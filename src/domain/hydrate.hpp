@@ -24,6 +24,9 @@ HydrateStrength hydrate_strength(double temperature, double pore_pressure, doubl
 /// @throws std::invalid_argument outside [0, 1] (a saturation in percent)
 double critical_thickness_ratio(double saturation);
 
+/// What Eq. 3 does with a saturation outside its range (above 20 % up to 70 %), in words; empty within it and without hydrate.
+std::string saturation_warning(double saturation);
+
 /// Temperature [deg C] up to which hydrate is stable at a pore pressure [Pa] in sea water: 1/T = 3.79e-3 - 2.83e-4 log10(P/MPa)
 /// (Dickens and Quinby-Hunt 1994). Recalled, not re-read: used as a gate only.
 double stability_temperature(double pore_pressure);

@@ -10,11 +10,16 @@ namespace clathra {
 
 namespace {
 
-std::string short_number(double value) {
+std::string short_number(double value, int digits = 3) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
+
+/// W follows the void ratio, which is known only when the specimen is consolidated: with these digits the forecast says the same.
+constexpr int digits_of_wave = 2;
+
+double stiffness_number(Scene const& scene) { return scene.grains.kn / scene.test.confining_stress; }
 
 }  // namespace
 
@@ -29,23 +34,43 @@ RateNumbers rate_numbers(Scene const& scene, double d50, double height, double v
   return n;
 }
 
-std::vector<std::string> judge_rate(Scene const& scene, RateNumbers const& n) {
+std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n) {
+  std::vector<std::string> refusals;
+  if (n.inertial_number > inertial_limit)
+    refusals.push_back("inertial number I = " + short_number(n.inertial_number) + " is above " + short_number(inertial_limit) +
+                       ": the loading is not quasi-static");
+  if (double const stiffness = stiffness_number(scene); stiffness < stiffness_limit)
+    refusals.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_limit) +
+                       ": grains overlap by more than a tenth of their diameter, which no contact law here describes");
+  return refusals;
+}
+
+std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> warnings;
-  if (n.inertial_number > inertial_limit && !scene.run.force) {
-    throw Refused("inertial number I = " + short_number(n.inertial_number) + " is above " + short_number(inertial_limit) +
-                  ": the loading is not quasi-static (use run.force = true to run it all the same)");
-  }
-  if (n.inertial_number > inertial_warning)
+  if (n.inertial_number > inertial_warning && n.inertial_number <= inertial_limit)
     warnings.push_back("inertial number I = " + short_number(n.inertial_number) +
                        " is above 1e-3: rate effects of several percent");
   if (n.wave_number > wave_limit) {
-    warnings.push_back("wave number W = " + short_number(n.wave_number) +
+    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
                        " is above 0.5: this run is not quasi-static, lower the inertial number");
   } else if (n.wave_number > wave_warning) {
-    warnings.push_back("wave number W = " + short_number(n.wave_number) + " is above 0.2: stress varies along the specimen");
+    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
+                       " is above 0.2: stress varies along the specimen");
   }
-  double const stiffness = scene.grains.kn / scene.test.confining_stress;
-  if (stiffness < 50) warnings.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below 50: grains overlap noticeably");
+  if (double const stiffness = stiffness_number(scene); stiffness < stiffness_warning && stiffness >= stiffness_limit)
+    warnings.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_warning) +
+                       ": grains overlap noticeably");
+  return warnings;
+}
+
+std::vector<std::string> judge_rate(Scene const& scene, RateNumbers const& n) {
+  std::vector<std::string> warnings = rate_warnings(scene, n);
+  std::string all;
+  for (std::string const& refusal : rate_refusals(scene, n)) {
+    warnings.push_back("forced: " + refusal);
+    all += (all.empty() ? "" : "; ") + refusal;
+  }
+  if (!all.empty() && !scene.run.force) throw Refused(all + " (use run.force = true to run it all the same)");
   return warnings;
 }
 

@@ -1,6 +1,8 @@
 #include "domain/sample_design.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace clathra {
@@ -42,6 +44,17 @@ SampleDesign design_sample(Scene const& scene) {
         design.grading.scaled(std::sqrt(s.width * s.height / ((1 + s.void_ratio) * static_cast<double>(s.particles) * disc)));
   }
   return design;
+}
+
+std::string narrowness(double width, double height, double largest, double fewest) {
+  constexpr double rounding = 1e-9;
+  double const side = std::min(width, height), across = side / largest;
+  if (across >= fewest * (1 - rounding)) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the specimen is %.4g mm %s, %.3g times its largest grain (%.4g mm): at least %g times are needed", side * 1e3,
+                width < height ? "wide" : "high", across, largest * 1e3, fewest);
+  return text;
 }
 
 }  // namespace clathra

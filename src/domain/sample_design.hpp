@@ -1,5 +1,7 @@
 #pragma once
 /// Which specimen a scene describes: any three of {particles, box, void ratio, grading} fix the fourth.
+#include <string>
+
 #include "domain/grading.hpp"
 
 namespace clathra {
@@ -17,5 +19,11 @@ struct SampleDesign {
 /// d50. A void ratio that is neither given nor follows is 0.24.
 /// @throws std::invalid_argument where all four are given, or fewer than needed
 SampleDesign design_sample(Scene const& scene);
+
+inline constexpr double fewest_grains_across = 3;
+
+/// Why a specimen is too narrow to be one of sand, its smaller side being less than `fewest` of its largest grains; empty where
+/// it is not. @param width, height, largest  [m]
+std::string narrowness(double width, double height, double largest, double fewest = fewest_grains_across);
 
 }  // namespace clathra

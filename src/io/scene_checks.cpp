@@ -84,6 +84,13 @@ std::optional<SampleDesign> check_design(Check& check) {
   if (!check.found.problems.empty()) return {};
   try {
     SampleDesign design = design_sample(scene);
+    double const largest = design.grading.largest();
+    if (std::min(design.width, design.height) < largest)
+      check.error({"sample.width", "sample.height", "sample.particles", "grading.d50"},
+                  fmt::format("no grain of {} fits into a specimen of {} x {}", length_text(largest), length_text(design.width),
+                              length_text(design.height)));
+    else if (std::string const problem = narrowness(design.width, design.height, largest); !problem.empty())
+      check.refusal({"sample.width", "sample.height", "sample.particles", "grading.d50"}, problem);
     if (design.particles < 16 || design.particles > 1'000'000'000)
       check.error({"sample.width", "sample.height", "grading.d50"},
                   fmt::format("the box of {} x {} holds {} discs of this grading; between 16 and 1e9 are possible",
@@ -140,9 +147,10 @@ void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
     return check.error({"bond.mode"}, "mode 'given_thickness' needs 'bond.critical_thickness'");
   if (scene.bond.mode != BondingMode::given_thickness && scene.bond.critical_thickness > 0)
     check.warn("bond.critical_thickness has no effect: bond.mode is not \"given_thickness\"");
-  if (scene.bond.mode == BondingMode::eq3 && critical_thickness_ratio(scene.hydrate.saturation) == 0)
-    return check.warn(
-        fmt::format("a saturation of {} % makes no bonds: Eq. 3 has none up to 20 %", scene.hydrate.saturation * 100));
+  if (scene.bond.mode == BondingMode::eq3) {
+    if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) check.warn(warning);
+    if (critical_thickness_ratio(scene.hydrate.saturation) == 0) return;
+  }
   if (design) check_strength(check, *design);
 }
 

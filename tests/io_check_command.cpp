@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "command.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+using Lines = std::vector<std::string>;
+
+/// What follows "warning: " in the lines of an output.
+Lines warnings_in(std::string const& output) {
+  Lines found;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("warning: ", 0) == 0) found.push_back(line.substr(9));
+  return found;
+}
+
+bool holds(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
+
+class CheckCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder);
+    std::ofstream(scene) << "[sample]\nparticles = 300\n[test]\naxial_strain = \"0.2 %\"\n[output]\nrecords = 10\n";
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  CommandResult clathra(std::string const& verb, std::string const& more) {
+    return run_clathra(verb + " '" + scene.string() + "' " + more);
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_check_" + std::to_string(::getpid()));
+  fs::path const scene = folder / "small.toml";
+};
+
+TEST_F(CheckCommand, WarnsOfTheSameAsADryRunAndTheRunItself) {
+  std::string const worrying =
+      "--force --set hydrate.saturation=0.75 --set grains.kn='40 MPa' --set bond.plate_thickness='1 um' "
+      "--set test.inertial_number=2e-2 --set run.threads=1";
+  CommandResult const check = clathra("check", worrying);
+  ASSERT_EQ(check.code, 0) << check.output;
+  Lines const wanted = warnings_in(check.output);
+  EXPECT_EQ(wanted.size(), 5u) << check.output;
+  CommandResult const dry = clathra("run", worrying + " --dry-run");
+  ASSERT_EQ(dry.code, 0) << dry.output;
+  EXPECT_EQ(warnings_in(dry.output), wanted);
+  CommandResult const run = clathra("run", worrying + " --output '" + (folder / "out").string() + "'");
+  ASSERT_EQ(run.code, 0) << run.output;
+  Lines of_the_run = nlohmann::json::parse(std::ifstream(folder / "out" / "run.json"))["warnings"].get<Lines>();
+  ASSERT_GE(of_the_run.size(), wanted.size());
+  of_the_run.resize(wanted.size());  // what the run itself met comes last
+  EXPECT_EQ(of_the_run, wanted);
+}
+
+TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {
+  std::string const soft = "--set test.confining_stress='100 MPa'";
+  std::string const text = "kn / sigma_3 = 3 is below 10: grains overlap by more than a tenth of their diameter";
+  for (char const* const verb : {"check", "run --dry-run", "run"}) {
+    CommandResult const refused =
+        clathra(verb, soft + (verb == std::string("run") ? " --output '" + folder.string() + "/out'" : ""));
+    EXPECT_EQ(refused.code, 77) << verb << ": " << refused.output;
+    EXPECT_TRUE(holds(refused.output, text)) << refused.output;
+  }
+  EXPECT_FALSE(fs::exists(folder / "out")) << "refused before anything is written";
+  CommandResult const forced = clathra("check", soft + " --force");
+  EXPECT_EQ(forced.code, 0) << forced.output;
+  EXPECT_TRUE(holds(forced.output, "warning: forced: " + text)) << forced.output;
+  EXPECT_EQ(clathra("check", "--set test.confining_stress='29 MPa'").code, 0);
+}
+
+TEST_F(CheckCommand, RefusesASpecimenNarrowerThanThreeGrains) {
+  std::string const narrow = "--set sample.width='0.6 mm'";
+  std::string const text = "the specimen is 0.6 mm wide, 2 times its largest grain (0.3 mm): at least 3 times are needed";
+  for (char const* const verb : {"check", "run --dry-run", "run", "generate"}) {
+    CommandResult const refused = clathra(verb, narrow);
+    EXPECT_EQ(refused.code, 77) << verb << ": " << refused.output;
+    EXPECT_TRUE(holds(refused.output, text)) << refused.output;
+  }
+  CommandResult const forced = clathra("check", narrow + " --force");
+  EXPECT_EQ(forced.code, 0) << forced.output;
+  EXPECT_TRUE(holds(forced.output, "warning: forced: " + text)) << forced.output;
+  EXPECT_EQ(clathra("check", "--set sample.width='0.9 mm'").code, 0);
+  EXPECT_TRUE(holds(clathra("check", "--set sample.height='0.6 mm'").output, "the specimen is 0.6 mm high"));
+  EXPECT_TRUE(holds(clathra("check", "--set sample.width='0.25 mm' --force").output, "no grain of 0.3 mm fits"));
+}
+
+TEST_F(CheckCommand, RefusesASpecimenFileNarrowerThanThreeGrains) {
+  std::string const file = "'" + (folder / "narrow.h5").string() + "'";
+  std::string const loose = "--set sample.particles=100 --set sample.width='0.7 mm' --set sample.void_ratio=0.3 --force";
+  CommandResult const made = clathra("generate", loose + " -o " + file);
+  ASSERT_EQ(made.code, 0) << made.output;
+  std::string const read = "--set sample.generator=file --set sample.file=" + file;
+  for (char const* const verb : {"check", "run --dry-run"}) {
+    CommandResult const refused = clathra(verb, read);
+    EXPECT_EQ(refused.code, 77) << verb << ": " << refused.output;
+    EXPECT_TRUE(holds(refused.output, "mm wide, 2.")) << refused.output;
+    EXPECT_TRUE(holds(refused.output, "times its largest grain")) << refused.output;
+    EXPECT_EQ(clathra(verb, read + " --force").code, 0);
+  }
+}
+
+TEST_F(CheckCommand, AndBondWarnOfSaturationsThatEq3DoesNotCover) {
+  struct Case {
+    char const *saturation, *warning;
+  };
+  for (Case const& c :
+       {Case{"0.2", "a saturation of 20 % makes no bonds: Eq. 3 has none up to 20 %"}, Case{"0.21", ""}, Case{"0.7", ""},
+        Case{"0.71",
+             "a saturation of 71 % is above the range of Eq. 3, which ends at 70 %: the critical thickness stays at 0.1 d50"}}) {
+    CommandResult const check = clathra("check", std::string("--set hydrate.saturation=") + c.saturation);
+    CommandResult const bond = run_clathra(std::string("bond --saturation ") + c.saturation);
+    EXPECT_EQ(check.code, 0);
+    EXPECT_EQ(bond.code, 0);
+    if (*c.warning) {
+      EXPECT_EQ(warnings_in(check.output), Lines{c.warning}) << c.saturation;
+      EXPECT_TRUE(holds(bond.output, std::string("note: ") + c.warning)) << bond.output;
+    } else {
+      EXPECT_EQ(warnings_in(check.output), Lines{}) << c.saturation;
+      EXPECT_FALSE(holds(bond.output, "note: ")) << bond.output;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clathra
