@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <sstream>
 #include <thread>
 
 #include "clathra_version.hpp"
@@ -36,7 +37,7 @@ ExitCode run_guarded(Verb const& verb) {
   try {
     return verb();
   } catch (SceneProblems const& problems) {
-    print_error(problems.what());
+    for (Problem const& problem : problems.problems) print_error(problem.message());
     return problems.code();
   } catch (FileProblem const& problem) {
     return say(problem.code, problem.what());
@@ -64,6 +65,15 @@ std::string unknown_verb(CLI::App& program, int argc, char** argv) {
   return fmt::format("there is no verb '{}'{}; `clathra --help` lists them", name, name_suggestion(name, views));
 }
 
+/// Help and version, which end the parsing too, go to stdout, what is wrong with the command line to stderr.
+ExitCode say_of_parser(CLI::App const& program, CLI::ParseError const& error) {
+  std::ostringstream out, problem;
+  if (program.exit(error, out, problem) == 0) return print_result(out.str());
+  std::istringstream lines(problem.str());
+  for (std::string line; std::getline(lines, line);) print_error(line);
+  return ExitCode::usage;
+}
+
 ExitCode choose_and_run(int argc, char** argv) {
   CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
   program.set_version_flag("--version", fmt::format("clathra {} ({})", CLATHRA_VERSION, CLATHRA_GIT_HASH));
@@ -89,7 +99,7 @@ ExitCode choose_and_run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
     if (std::string const text = unknown_verb(program, argc, argv); !text.empty()) return say(ExitCode::usage, text);
-    return program.exit(error) == 0 ? ExitCode::done : ExitCode::usage;  // --help and --version end here too
+    return say_of_parser(program, error);
   }
   std::string const verb = program.get_subcommands().front()->get_name();
   if (launched_ranks() > 1 && verb != "run" && verb != "generate")

@@ -7,6 +7,8 @@
 #include "forecast.hpp"
 #include "interrupt.hpp"
 #include "io/specimen_file.hpp"
+#include "io/text_file.hpp"
+#include "io/together.hpp"
 #include "print.hpp"
 #include "rank_checks.hpp"
 #include "scene_options.hpp"
@@ -34,6 +36,7 @@ std::string record_text(RunRecord const& record) {
 ExitCode generate_on(Ranks const& ranks, std::string const& output, RunRecord& record) {
   Scene const& scene = record.input.scene;
   require_same_everywhere(ranks, record.input);
+  on_root(ranks, [&] { require_creatable(output); });
   StageRecord const cost = predict(scene, launched_ranks());
   std::vector<std::string> refusals;
   if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) refusals.push_back(refusal);
@@ -69,7 +72,10 @@ void add_generate(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<GenerateOptions>();
   CLI::App* const verb = program.add_subcommand("generate", "Make a specimen file that later runs can read");
   options->scene.add_to(*verb);
-  verb->add_option("-o,--output", options->output, "specimen file to write")->capture_default_str()->type_name("FILE");
+  verb->add_option("-o,--output", options->output, "specimen file to write")
+      ->capture_default_str()
+      ->type_name("FILE")
+      ->check(CLI::Validator(name_problem, ""));
   verb->footer(
       "Example: clathra generate examples/quick.toml -o specimen.h5\n"
       "         clathra run examples/quick.toml --set sample.generator=file --set sample.file=specimen.h5");

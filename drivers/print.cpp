@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "domain/ranks.hpp"
+#include "io/printable.hpp"
 
 namespace clathra {
 namespace {
@@ -26,14 +27,14 @@ int put(int descriptor, std::string_view text) {
 
 ExitCode print_result(std::string const& text) {
   if (launched_rank() != 0) return ExitCode::done;
-  int const error = put(STDOUT_FILENO, text);
+  int const error = put(STDOUT_FILENO, printable(text, "\n\t"));
   if (error == 0 || error == EPIPE) return ExitCode::done;
   print_error("clathra: cannot write to standard output: " + std::generic_category().message(error));
   return ExitCode::io_error;
 }
 
 void print_error(std::string const& line) {
-  if (launched_rank() == 0) put(STDERR_FILENO, line + "\n");
+  if (launched_rank() == 0) put(STDERR_FILENO, printable(line) + "\n");
 }
 
 }  // namespace clathra

@@ -1,13 +1,14 @@
 #pragma once
-/// The two standard streams. Of several ranks only the first one speaks.
+/// The two standard streams. Of several ranks only the first one speaks. Control characters, which may come from a scene or a
+/// file, are written as "\x1b": a terminal would obey them.
 #include <string>
 
 #include "io/problems.hpp"
 
 namespace clathra {
 
-/// Writes a verb's result to stdout. @return io_error, with a message, where it cannot be written (a full disk); a reader that
-/// went away is none
+/// Writes a verb's result, of any number of lines, to stdout. @return io_error, with a message, where it cannot be written (a
+/// full disk); a reader that went away is none
 ExitCode print_result(std::string const& text);
 
 /// Writes a line to stderr; failure is ignored, for there is nobody left to tell.

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "domain/ranks.hpp"
+#include "io/printable.hpp"
 
 namespace clathra {
 namespace {
@@ -70,21 +71,23 @@ void ProgressLine::show(std::string const& stage, double fraction, std::string c
   line_shown_ = true;
 }
 
-void ProgressLine::note(std::string const& text) {
+void ProgressLine::put_line(std::string const& begin, std::string const& text) {
   erase();
-  put(text + "\n");
+  put(begin + printable(text) + "\n");  // a file's name in it may hold control characters
 }
+
+void ProgressLine::note(std::string const& text) { put_line("", text); }
 
 void ProgressLine::warn(std::string const& text) {
   if (std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end()) return;
   warnings_.push_back(text);
-  note(coloured("warning: ", "33") + text);
+  put_line(coloured("warning: ", "33"), text);
 }
 
 void ProgressLine::repeat_warnings() {
   if (warnings_.empty()) return;
   note(fmt::format("{} warning{}:", warnings_.size(), warnings_.size() == 1 ? "" : "s"));
-  for (std::string const& text : warnings_) note(coloured("  - ", "33") + text);
+  for (std::string const& text : warnings_) put_line(coloured("  - ", "33"), text);
 }
 
 std::string duration_text(double seconds) {

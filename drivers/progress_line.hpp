@@ -23,6 +23,7 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
   void erase();
+  void put_line(std::string const& begin, std::string const& text);
   std::string coloured(std::string const& text, char const* code) const;
 
   bool terminal_, colour_, line_shown_ = false;

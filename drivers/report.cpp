@@ -31,7 +31,8 @@ void add_report(CLI::App& program, Verb& chosen) {
   verb->add_option("runs", options->runs, "folders of runs")->required()->type_name("DIR");
   verb->add_option("-o,--output", options->html,
                    "page to write (default: report.html in the folder of the run; for several runs in the current folder)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(CLI::Validator(name_problem, ""));
   verb->footer("Example: clathra report out/s26 out/s41 out/s55 -o out/compared.html");
   verb->callback([options, &chosen] { chosen = [options] { return report(*options); }; });
 }

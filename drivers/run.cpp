@@ -68,7 +68,9 @@ void add_run(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<RunOptions>();
   CLI::App* const verb = program.add_subcommand("run", "Generate, consolidate and shear the specimen of a scene");
   options->scene.add_to(*verb);
-  verb->add_option("--output", options->output, "folder of the results (output.folder)")->type_name("DIR");
+  verb->add_option("--output", options->output, "folder of the results (output.folder)")
+      ->type_name("DIR")
+      ->check(CLI::Validator(name_problem, ""));
   verb->add_flag("--dry-run", options->dry_run, "only say what the run will cost");
   verb->add_flag("--resume", options->resume, "go on from the newest checkpoint in the folder of the results, if there is one");
   verb->add_option("--max-walltime", options->most_time, "stop after this time with a checkpoint (3h50m, 90s)")

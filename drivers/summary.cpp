@@ -8,11 +8,11 @@
 namespace clathra {
 
 void Summary::add(HistoryRow const& row) {
-  constexpr double residual_part = 0.8, tolerance = 0.01;
+  constexpr double tolerance = 0.01;
   last_ = row;
   ++count_;
   if (count_ == 1 || row.q_Pa > peak_.q_Pa) peak_ = row;
-  if (row.eps1 >= residual_part * axial_strain_) residual_sum_ += row.q_Pa, ++residual_count_;
+  if (row.eps1 >= residual_from()) residual_sum_ += row.q_Pa, ++residual_count_;
   if (std::fabs(row.sigma3_Pa - confining_stress_) <= tolerance * confining_stress_) ++held_;
   double const contact_q = row.contact_sigma1_Pa - row.contact_sigma3_Pa;
   if (row.p_Pa > 0) mismatch_ = std::max(mismatch_, std::fabs(row.q_Pa - contact_q) / row.p_Pa);
@@ -25,7 +25,10 @@ StageRecord Summary::numbers() const {
   numbers["peak_q_Pa"] = peak_.q_Pa;
   numbers["peak_eps1"] = peak_.eps1;
   numbers["peak_eps_v"] = peak_.eps_v;
-  if (residual_count_ > 0) numbers["residual_q_Pa"] = residual_sum_ / residual_count_;
+  if (residual_count_ > 0) {
+    numbers["residual_q_Pa"] = residual_sum_ / residual_count_;
+    numbers["residual_from_eps1"] = residual_from();
+  }
   numbers["end_eps1"] = last_.eps1;
   numbers["end_eps_v"] = last_.eps_v;
   numbers["end_intact_initial_pct"] = last_.intact_initial_pct;
@@ -40,8 +43,8 @@ std::string Summary::text() const {
   std::string text = fmt::format("peak      q {:.4g} MPa at eps1 {:.3g} %, eps_v {:.3g} %\n", peak_.q_Pa * 1e-6, peak_.eps1 * 100,
                                  peak_.eps_v * 100);
   if (residual_count_ > 0)
-    text += fmt::format("residual  q {:.4g} MPa, eps_v {:.3g} % at eps1 {:.3g} %\n", residual_sum_ / residual_count_ * 1e-6,
-                        last_.eps_v * 100, last_.eps1 * 100);
+    text += fmt::format("residual  q {:.4g} MPa (mean from eps1 {:.3g} % on), eps_v {:.3g} % at eps1 {:.3g} %\n",
+                        residual_sum_ / residual_count_ * 1e-6, residual_from() * 100, last_.eps_v * 100, last_.eps1 * 100);
   std::int64_t const broken = last_.broken_tension + last_.broken_compression + last_.broken_shear + last_.broken_rolling;
   if (last_.bonds_intact + broken > 0)
     text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {} tension, {} compression, {} shear, {} rolling\n",

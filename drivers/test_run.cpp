@@ -151,7 +151,8 @@ class TestRun::Running {
     summary_.emplace(scene_.test.confining_stress, scene_.test.axial_strain);
     Speedometer const preparing;
     std::unique_ptr<BiaxialTest> const test = prepared_test();
-    record_.wall_seconds["prepare"] = preparing.seconds();
+    auto const generating = record_.wall_seconds.find("generate");
+    record_.wall_seconds["prepare"] = preparing.seconds() - (generating == record_.wall_seconds.end() ? 0 : generating->second);
     record_.stages["prepare"] = test->preparation();
     record_.stages["plan"] = test->plan();
     for (std::string const& warning : test->warnings()) warn(warning);
@@ -179,7 +180,9 @@ class TestRun::Running {
         if (events) events_.emplace(folder_ / "events.csv");
       }
     });
-    if (scene_.output.snapshots > 0) snapshots_.emplace(folder_, ranks_, before);
+    if (scene_.output.snapshots > 0)
+      snapshots_.emplace(folder_, ranks_, before,
+                         scene_.output.full_precision ? SnapshotNumbers::full : SnapshotNumbers::rounded);
     if (resumed_ && snapshots_) since_snapshot_ = test.events_after(before.empty() ? -1 : before.back().step);
   }
 

@@ -10,6 +10,9 @@ namespace clathra {
 /// Set by the verb that the command line chose; run after all options are known.
 using Verb = std::function<ExitCode()>;
 
+/// What is wrong with the name of a file or folder that an option gives: that there is none. For CLI::Validator.
+inline std::string name_problem(std::string const& name) { return name.empty() ? "the name is empty" : ""; }
+
 void add_run(CLI::App& program, Verb& chosen);
 void add_check(CLI::App& program, Verb& chosen);
 void add_generate(CLI::App& program, Verb& chosen);

@@ -196,6 +196,26 @@ TEST(CommandLine, HasOneCodeForEachKindOfFailure) {
   EXPECT_EQ(run_clathra("run '" CLATHRA_EXAMPLES "/quick.toml' --output /proc/none").code, 73);
 }
 
+TEST(CommandLine, ListsTheFormatsOfAnExport) {
+  CommandResult const result = run_clathra("export . --to vtk");
+  EXPECT_EQ(result.code, 64);
+  EXPECT_NE(
+      result.output.find("there is no format 'vtk'; there are lammpsdump (discs as a LAMMPS text dump), vtu (VTK), csv (tables)"),
+      std::string::npos)
+      << result.output;
+  EXPECT_EQ(run_clathra("export . --to VTU").code, 66) << "in any case; there are no snapshots here";
+}
+
+TEST(CommandLine, TakesNoEmptyNameForWhatItWrites) {
+  std::string const scene = CLATHRA_EXAMPLES "/quick.toml";
+  for (std::string const& arguments : {"run " + scene + " --dry-run --output \"\"", "generate " + scene + " -o \"\"",
+                                       std::string("report . -o \"\""), std::string("export . --to csv -o \"\"")}) {
+    CommandResult const result = run_clathra(arguments);
+    EXPECT_EQ(result.code, 64) << arguments << result.output;
+    EXPECT_NE(result.output.find("--output: the name is empty"), std::string::npos) << arguments << result.output;
+  }
+}
+
 TEST(CommandLine, PricesThePapersStrainRate) {
   CommandResult const result =
       run_clathra("check '" CLATHRA_EXAMPLES "/paper/literal-s55-1mpa.toml' --set test.strain_rate=\"5 %/min\"");

@@ -1,72 +1,16 @@
 /// The report: what its curves and numbers show of a history, what it does with several runs, and with damaged ones.
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <regex>
-
 #include "command.hpp"
 #include "io/report/plot.hpp"
-#include "io/report/report.hpp"
 #include "io/report/run_results.hpp"
-#include "io/report/strength.hpp"
 #include "io/report/test_numbers.hpp"
-#include "report_runs.hpp"
+#include "report_page.hpp"
 
 namespace clathra {
 namespace {
 
-namespace fs = std::filesystem;
-
-class Report : public testing::Test {
- protected:
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-
-  std::string page_on(std::vector<fs::path> const& runs) const {
-    write_report(runs, folder / "report.html");
-    return content_of(folder / "report.html");
-  }
-  fs::path made(std::string const& name, MadeUpTest const& test = {}) const {
-    write_made_up_run(folder / name, test);
-    return folder / name;
-  }
-  static ExitCode code_of(std::function<void()> const& act, std::string* message = nullptr) {
-    try {
-      act();
-    } catch (FileProblem const& problem) {
-      if (message) *message = problem.what();
-      return problem.code;
-    }
-    return ExitCode::done;
-  }
-
-  fs::path const folder = fs::temp_directory_path() / ("clathra_report_" + std::to_string(::getpid()));
-};
-
-/// The curves of the plot with this title, back in the units of its axes.
-std::vector<std::vector<std::pair<double, double>>> curves_of(std::string const& page, std::string const& title) {
-  auto const numbers = [](std::string const& text) {
-    std::vector<double> list;
-    std::istringstream stream(std::regex_replace(text, std::regex(","), " "));
-    for (double value; stream >> value;) list.push_back(value);
-    return list;
-  };
-  std::string const from = page.substr(page.find("<title>" + title));
-  std::string const plot = from.substr(0, from.find("</svg>"));
-  std::smatch found;
-  if (!std::regex_search(plot, found, std::regex("data-x=\"(.*?)\" data-y=\"(.*?)\" data-frame=\"(.*?)\""))) return {};
-  auto const x = numbers(found[1]), y = numbers(found[2]), frame = numbers(found[3]);
-  std::vector<std::vector<std::pair<double, double>>> curves;
-  std::regex const polyline("<polyline [^>]*points=\"(.*?)\"");
-  for (std::sregex_iterator match(plot.begin(), plot.end(), polyline), end; match != end; ++match) {
-    auto const places = numbers((*match)[1]);
-    curves.emplace_back();
-    for (std::size_t i = 0; i + 1 < places.size(); i += 2)
-      curves.back().emplace_back(x[0] + (places[i] - frame[0]) / frame[2] * (x[1] - x[0]),
-                                 y[1] - (places[i + 1] - frame[1]) / frame[3] * (y[1] - y[0]));
-  }
-  return curves;
-}
+using Report = ReportPageTest;
 
 TEST_F(Report, DrawsTheHistoryWhereItsAxesSay) {
   MadeUpTest const test;
@@ -189,61 +133,6 @@ TEST_F(Report, OfEightRunsWithPicturesFitsIntoFiveMegabytes) {
   EXPECT_NE(page.find("Pictures are shown of the first 8 runs"), std::string::npos);
 }
 
-/// sigma_1 at failure by Mohr and Coulomb.
-double failure_stress(double cohesion, double friction_angle, double sigma3) {
-  double const n = (1 + std::sin(friction_angle)) / (1 - std::sin(friction_angle));
-  return 2 * cohesion * std::sqrt(n) + n * sigma3;
-}
-
-TEST_F(Report, FindsCohesionAndFrictionAngleOfTwoConfiningStresses) {
-  double const degree = std::acos(-1.0) / 180;
-  std::vector<fs::path> runs;
-  for (double const sigma3 : {1e6, 3e6}) {
-    MadeUpTest test;
-    test.sigma3 = sigma3;
-    test.peak_q = failure_stress(0.8e6, 32 * degree, sigma3) - sigma3;
-    test.residual_q = failure_stress(0.1e6, 28.5 * degree, sigma3) - sigma3;
-    runs.push_back(made("s" + std::to_string(sigma3), test));
-  }
-  std::string const page = page_on(runs);
-  EXPECT_NE(page.find("c = 0.8 MPa and φ = 32.0°"), std::string::npos);
-  EXPECT_NE(page.find("c = 0.1 MPa and φ = 28.5°"), std::string::npos);
-  EXPECT_EQ(curves_of(page, "Strength at 55 % hydrate, at the peak").size(), 3u) << "two circles and the line";
-  MadeUpTest other;
-  other.sigma3 = 3e6;
-  other.saturation = 0.26;
-  EXPECT_EQ(page_on({runs[0], made("other", other)}).find("Mohr"), std::string::npos) << "another saturation is another material";
-}
-
-TEST_F(Report, DrawsCohesionAndFrictionAngleAgainstTheSaturation) {
-  std::vector<fs::path> runs;
-  for (double const saturation : {0.0, 0.26, 0.55})
-    for (double const sigma3 : {1e6, 2e6}) {
-      MadeUpTest test;
-      test.saturation = saturation;
-      test.sigma3 = sigma3;
-      test.peak_q = failure_stress(2e6 * saturation, 0.5, sigma3) - sigma3;
-      test.residual_q = test.peak_q / 2;
-      runs.push_back(made(std::to_string(saturation) + "-" + std::to_string(sigma3), test));
-    }
-  auto const curves = curves_of(page_on(runs), "Cohesion against hydrate saturation");
-  ASSERT_EQ(curves.size(), 2u);
-  ASSERT_EQ(curves[0].size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(curves[0][i].second, 2 * curves[0][i].first / 100, 0.01) << i;
-  EXPECT_NEAR(curves[0][2].first, 55, 0.2);
-}
-
-TEST(ReportEnvelope, IsTheLeastSquaresLineAndKnowsWhenThereIsNone) {
-  std::vector<FailureStress> tests;
-  for (double const sigma3 : {0.5e6, 1e6, 2e6, 4e6}) tests.push_back({failure_stress(0.3e6, 0.5, sigma3), sigma3});
-  auto const fit = fitted_envelope(tests);
-  ASSERT_TRUE(fit);
-  EXPECT_NEAR(fit->cohesion, 0.3e6, 1);
-  EXPECT_NEAR(fit->friction_angle, 0.5, 1e-9);
-  EXPECT_FALSE(fitted_envelope({{3e6, 1e6}, {3.1e6, 1e6}}));
-  EXPECT_FALSE(fitted_envelope({{5e6, 1e6}, {3e6, 2e6}})) << "strength that falls with the stress";
-}
-
 TEST_F(Report, NamesWhatIsWrongWithARun) {
   std::string message;
   EXPECT_EQ(code_of([&] { page_on({folder / "none"}); }), ExitCode::file_missing);
@@ -257,8 +146,12 @@ TEST_F(Report, NamesWhatIsWrongWithARun) {
   EXPECT_NE(message.find("line 303: 3 cells, the header has 22"), std::string::npos) << message;
   EXPECT_EQ(with_history(std::regex_replace(history, std::regex("\n100,0,"), "\n100,zero,")), ExitCode::bad_input);
   EXPECT_NE(message.find("line 3: 'zero' in column time_s is no number"), std::string::npos) << message;
-  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("q_Pa"), "r_Pa")), ExitCode::bad_input);
-  EXPECT_NE(message.find("one column q_Pa"), std::string::npos) << message;
+  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("q_Pa|,sigma3_Pa"), ",r_Pa")), ExitCode::bad_input);
+  EXPECT_NE(message.find("line 1: there is no column q_Pa, nor sigma1_Pa and sigma3_Pa"), std::string::npos) << message;
+  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("eps1"), "e1")), ExitCode::bad_input);
+  EXPECT_NE(message.find("line 1: there is no column eps1"), std::string::npos) << message;
+  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("p_Pa"), "q_Pa")), ExitCode::bad_input);
+  EXPECT_NE(message.find("line 1: two columns have the name 'q_Pa'"), std::string::npos) << message;
   EXPECT_EQ(with_history(history.substr(0, history.find('\n') + 1)), ExitCode::bad_input) << "no rows";
   EXPECT_EQ(with_history(""), ExitCode::bad_input);
   EXPECT_EQ(with_history(history + "1,2,3"), ExitCode::done) << "a row that is being written";
@@ -268,6 +161,63 @@ TEST_F(Report, NamesWhatIsWrongWithARun) {
   EXPECT_EQ(code_of([&] { page_on({run}); }), ExitCode::file_missing);
   std::ofstream(run / "run.json") << record;
   EXPECT_EQ(code_of([&] { write_report({run}, folder / "none" / "r.html"); }), ExitCode::cannot_create);
+}
+
+/// A table of some columns of a history, which lines of a spreadsheet or an older program could be.
+std::string columns_of(std::string const& history, std::vector<std::string> const& wanted) {
+  std::istringstream lines(history);
+  std::vector<std::size_t> places;
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    if (places.empty())
+      for (std::string const& name : wanted)
+        places.push_back(static_cast<std::size_t>(std::find(cells.begin(), cells.end(), name) - cells.begin()));
+    for (std::size_t i = 0; i < places.size(); ++i) text += (i > 0 ? "," : "") + cells.at(places[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+TEST_F(Report, DrawsWhatAHistoryWithFewerColumnsHasAndSaysWhatIsLeftOut) {
+  fs::path const run = made("a");
+  std::string const history = content_of(run / "history.csv");
+  std::ofstream(run / "history.csv") << columns_of(history, {"step", "eps1", "sigma1_Pa", "sigma3_Pa", "eps_v"});
+  std::string const page = page_on({run});
+  EXPECT_NE(page.find("The history.csv of a has no void_ratio, bonds_intact, intact_initial_pct, broken_tension, "), page.npos);
+  EXPECT_NEAR(curves_of(page, "Deviator stress").at(0)[40].second, 5, 0.01) << "sigma1 - sigma3";
+  EXPECT_NE(page.find("<td>5.000</td>"), page.npos) << "peak q";
+  EXPECT_EQ(page.find("<title>Share of intact bonds"), page.npos);
+  EXPECT_EQ(page.find("nan"), page.npos);
+  EXPECT_NE(page.find("55 % hydrate"), page.npos) << "that it was bonded is known from run.json";
+  std::ofstream(run / "history.csv") << columns_of(history, {"eps1", "q_Pa", "step"});
+  std::string const least = page_on({run});
+  EXPECT_EQ(least.find("<title>Volumetric strain"), least.npos);
+  EXPECT_EQ(least.find("nan"), least.npos);
+  fs::path const other = made("b", {.sigma3 = 3e6});
+  EXPECT_EQ(page_on({run, other}).find("Mohr circles"), least.npos) << "without the lateral stress there is no circle";
+}
+
+TEST_F(Report, PassesOverColumnsThatItDoesNotKnow) {
+  fs::path const run = made("a");
+  std::string const page = page_on({run});
+  std::istringstream lines(content_of(run / "history.csv"));
+  std::ofstream file(run / "history.csv");
+  std::string line;
+  std::getline(lines, line);
+  file << "remark,remark," << line << ",band_width_m\n";
+  while (std::getline(lines, line)) file << "good, ," << line << ",wide\n";
+  file.close();
+  EXPECT_EQ(page_on({run}), page);
+}
+
+TEST_F(Report, NamesTheRunInEachCellOfATableOfSeveral) {
+  std::string const page = page_on({made("a"), made("b")});
+  EXPECT_NE(page.find("<div class=\"scroll several\">"), page.npos);
+  EXPECT_NE(page.find("<td data-run=\"a\">5.000</td><td data-run=\"b\">5.000</td>"), page.npos);
+  EXPECT_NE(page.find(".several td::before{content:attr(data-run)"), page.npos) << "narrow screens show it";
 }
 
 TEST_F(Report, BearsARecordAndAHistoryWithHolesInThem) {

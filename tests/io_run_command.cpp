@@ -63,6 +63,36 @@ TEST_F(RunCommand, LeavesEverythingThatARunPromises) {
   EXPECT_NE(result.output.find("peak "), std::string::npos);
 }
 
+TEST_F(RunCommand, SaysOverWhatItsResidualIsTakenAndWhatItsSecondsCount) {
+  CommandResult const result = run("out");
+  ASSERT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find(" MPa (mean from eps1 0.4 % on), eps_v "), std::string::npos) << result.output;
+  auto const json = record("out");
+  EXPECT_DOUBLE_EQ(json["stages"]["shear"]["residual_from_eps1"], 0.004);
+  EXPECT_NE(json["meaning"]["stages.shear.residual_q_Pa"].get<std::string>().find("residual_from_eps1"), std::string::npos);
+  for (char const* const stage : {"generate", "prepare", "shear"})
+    EXPECT_TRUE(json["meaning"].contains("wall_seconds." + std::string(stage))) << stage;
+  // 300 discs are made in ten times the time in which they are bonded and consolidated.
+  EXPECT_LT(json["wall_seconds"]["prepare"].get<double>(), json["wall_seconds"]["generate"].get<double>());
+}
+
+TEST_F(RunCommand, GenerateFindsOutThatItCannotWriteBeforeItStarts) {
+  fs::create_directories(folder / "in the way");
+  for (std::string const& name : {"none/specimen.h5", "'in the way'", "'in the way'/"}) {
+    CommandResult const result = run_clathra("generate " + scene.string() + " -o " + folder.string() + "/" + name);
+    EXPECT_EQ(result.code, 73) << result.output;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+  }
+}
+
+TEST_F(RunCommand, FullPrecisionIsAKeyOfTheScene) {
+  ASSERT_EQ(run("out", "--set output.full_precision=true --set output.snapshots=2").code, 0);
+  EXPECT_NE(content(folder / "out" / "contacts.xdmf")
+                .find("Precision=\"8\" Format=\"HDF\">snap/000000000000.h5:/contacts/normal_force"),
+            std::string::npos);
+  EXPECT_EQ(run_clathra("report " + (folder / "out").string()).code, 0);
+}
+
 TEST_F(RunCommand, AReportThatCannotBeWrittenIsAWarningAndLosesNothing) {
   fs::create_directories(folder / "out" / "report.html" / "in the way");
   std::ofstream(folder / "out" / ".lock");

@@ -155,6 +155,14 @@ TEST(SceneFile, TheGuardKeepsHostileTextFromTheParser) {
   EXPECT_EQ(load(sized + "file = \"a#nan.h5\"\n").scene.sample.file, "folder/a#nan.h5");
 }
 
+TEST(SceneFile, AByteOrderMarkIsOneErrorThatSaysWhatToDo) {
+  EXPECT_EQ(problems_of("\xef\xbb\xbf[sample]\n"),
+            "my.toml:1:1: error: begins with a byte order mark: save it as UTF-8 without one, or as ASCII");
+  for (std::string const mark : {"\xff\xfe", "\xfe\xff"})
+    EXPECT_EQ(problems_of(mark + std::string("[\0s\0\n\0", 6)),
+              "my.toml:1:1: error: is UTF-16 text: save it as UTF-8, or as ASCII");
+}
+
 TEST(SceneFile, DeeplyNestedAndWronglyShapedTextEndsInAMessage) {
   std::string nested;
   for (int i = 0; i < 200000; ++i) nested += "a.b.c\n";

@@ -1,7 +1,9 @@
 /// Snapshots: what they hold of a simulation, the way through their file, their XDMF index, and other programs' formats.
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -106,7 +108,7 @@ TEST_F(SnapshotFile, ReadsBackWithinItsStatedResolution) {
   EXPECT_EQ(back.coordination, snapshot.coordination);
   EXPECT_EQ(back.events.size(), snapshot.events.size());
   double force = 0;
-  for (float const f : snapshot.normal_force) force += std::abs(f) / static_cast<double>(snapshot.normal_force.size());
+  for (double const f : snapshot.normal_force) force += std::abs(f) / static_cast<double>(snapshot.normal_force.size());
   for (std::size_t i = 0; i < back.x.size(); ++i) {
     ASSERT_NEAR(back.x[i], snapshot.x[i], grain_d50 / 4096);
     ASSERT_NEAR(back.uy[i], snapshot.uy[i], grain_d50 / 512);
@@ -116,6 +118,46 @@ TEST_F(SnapshotFile, ReadsBackWithinItsStatedResolution) {
     ASSERT_NEAR(back.normal_force[k], snapshot.normal_force[k], force / 16);
     ASSERT_NEAR(back.gap[k], snapshot.gap[k], grain_d50 / 8192);
   }
+}
+
+TEST_F(SnapshotFile, KeepsEveryDigitOfPositionsAndForcesInFullPrecision) {
+  write_snapshot(folder / "s.h5", snapshot, {}, SnapshotNumbers::full);
+  Snapshot const back = read_snapshot(folder / "s.h5");
+  EXPECT_EQ(back.x, snapshot.x);
+  EXPECT_EQ(back.y, snapshot.y);
+  EXPECT_EQ(back.radius, snapshot.radius);
+  EXPECT_EQ(back.uy, snapshot.uy);
+  EXPECT_EQ(back.stress_yy, snapshot.stress_yy);
+  EXPECT_EQ(back.normal_force, snapshot.normal_force);
+  EXPECT_EQ(back.shear_force, snapshot.shear_force);
+  EXPECT_EQ(back.moment, snapshot.moment);
+  EXPECT_EQ(back.gap, snapshot.gap);
+  EXPECT_EQ(back.width, snapshot.width);
+}
+
+TEST_F(SnapshotFile, IsTakenWithMoreDigitsThanSinglePrecisionHolds) {
+  std::size_t finer = 0;
+  for (double const force : snapshot.normal_force) finer += double(float(force)) != force ? 1 : 0;
+  EXPECT_GT(finer, snapshot.normal_force.size() / 2) << "more digits than single precision holds";
+}
+
+TEST_F(SnapshotFile, AFullDiskIsToldInTheWordsOfTheSystem) {
+  rlimit unlimited{};
+  ::getrlimit(RLIMIT_FSIZE, &unlimited);
+  rlimit limited = unlimited;
+  limited.rlim_cur = 5000;
+  auto const previous = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &limited);
+  std::string text = "written";
+  try {
+    write_snapshot(folder / "s.h5", snapshot);
+  } catch (FileProblem const& problem) {
+    text = problem.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &unlimited);
+  std::signal(SIGXFSZ, previous);
+  EXPECT_EQ(text.find((folder / "s.h5").string() + ": cannot "), 0u) << text;
+  EXPECT_TRUE(text.ends_with(": File too large")) << text;
 }
 
 TEST_F(SnapshotFile, DamageAndStrangersAreNamed) {
@@ -179,9 +221,9 @@ TEST_F(SnapshotFile, ExportsUnderNamesOfTheStep) {
   EXPECT_EQ(static_cast<std::size_t>(std::count(pairs.begin(), pairs.end(), '\n')), snapshot.a.size() + 1);
   EXPECT_NE(pairs.find(",broken_"), std::string::npos);
   std::string const grid = content(folder / "x" / "contacts_000000004000.vtu");
-  // 3 doubles a disc, 2 + 1 integers and 1 + 1 bytes and 5 floats a pair, and ten lengths of 8 bytes lie behind the XML.
+  // 3 doubles a disc, 2 + 1 integers and 1 + 1 bytes and 5 doubles a pair, and ten lengths of 8 bytes lie behind the XML.
   std::size_t const raw = grid.rfind("\n</AppendedData>") - grid.find("_", grid.find("<AppendedData")) - 1;
-  EXPECT_EQ(raw, snapshot.id.size() * 24 + snapshot.a.size() * (12 + 2 + 20) + 10 * 8);
+  EXPECT_EQ(raw, snapshot.id.size() * 24 + snapshot.a.size() * (12 + 2 + 40) + 10 * 8);
 }
 
 /// A million bonded discs under stress, with the noise of real forces: a packed cell of 2,000 repeated.

@@ -191,6 +191,7 @@ TEST_F(SpecimenFile, AFullDiskIsReportedAndTheEarlierFileKept) {
   std::signal(SIGXFSZ, previous);
   EXPECT_EQ(code, ExitCode::io_error) << text;
   EXPECT_EQ(text.find(file.string() + ": "), 0u) << text;
+  EXPECT_TRUE(text.ends_with(": File too large")) << "and nothing of HDF5's: " << text;
   EXPECT_EQ(specimen_hash(read_specimen(file)), specimen_hash(earlier));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }

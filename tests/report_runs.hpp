@@ -20,6 +20,7 @@ struct MadeUpTest {
   double sigma3 = 1e6, peak_q = 5e6, peak_eps1 = 0.02, residual_q = 2e6;
   double saturation = 0.55;
   bool energy = false;
+  std::vector<std::string> overrides = {};  ///< of the scene in run.json
 
   double q(double eps1) const {
     constexpr double residual_eps1 = 0.08;
@@ -54,7 +55,7 @@ inline void write_made_up_record(std::filesystem::path const& folder, MadeUpTest
   RunRecord record;
   record.version = "0.1.0";
   record.git_hash = "abc";
-  record.input = parse_scene("[sample]\nparticles = 2000\n", "my.toml", "", {});
+  record.input = parse_scene("[sample]\nparticles = 2000\n", "my.toml", "", test.overrides);
   record.input.scene.hydrate.saturation = test.saturation;
   record.input.scene.test.confining_stress = test.sigma3;
   record.stages["plan"]["discs"] = 2000;

@@ -97,7 +97,7 @@ StageRecord predict(Scene const& scene, int ranks) {
   p["steps"] = std::ceil(scene.test.axial_strain / (rate.strain_rate * p["time_step_s"]));
   p["disc_steps"] = p["steps"] * discs;
   p["memory_bytes"] = memory_of_run(scene, bonded, discs, ranks);
-  constexpr double snapshot_bytes = 35;  // a disc, compressed
+  double const snapshot_bytes = scene.output.full_precision ? 120 : 35;  // a disc, compressed
   p["disk_bytes"] = discs * 2 * 150 + scene.output.records * 400 + (bonded ? discs * 40 : 0) +
                     (scene.output.snapshots > 0 ? discs * snapshot_bytes * (scene.output.snapshots + 1) : 0);
   return p;

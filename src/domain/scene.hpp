@@ -89,10 +89,11 @@ struct RunScene {
 /// `[output]`
 struct OutputScene {
   std::string folder = "out";
-  int records = 750;    ///< history rows over the whole strain
-  int snapshots = 15;   ///< over the whole strain, besides the one at its start; 0 = none at all
-  bool energy = false;  ///< keep the energy ledger
-  bool events = true;   ///< events.csv: each broken bond
+  int records = 750;            ///< history rows over the whole strain
+  int snapshots = 15;           ///< over the whole strain, besides the one at its start; 0 = none at all
+  bool energy = false;          ///< keep the energy ledger
+  bool events = true;           ///< events.csv: each broken bond
+  bool full_precision = false;  ///< snapshots as they are computed, not rounded
 };
 
 struct Scene {

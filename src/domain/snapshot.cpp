@@ -91,11 +91,11 @@ void copy_pairs(Snapshot& s, Simulation const& simulation) {
   s.a = numbered(list.a);
   s.b = numbered(list.b);
   s.state = listed<std::uint8_t>(list.bonded, n);  // 0 = contact, 1 = bonded
-  s.normal_force = listed<float>(list.normal, n);
-  s.shear_force = listed<float>(list.shear, n);
-  s.moment = listed<float>(list.moment, n);
-  s.gap = listed<float>(list.gap, n);
-  s.width = listed<float>(list.width, n);
+  s.normal_force = listed<double>(list.normal, n);
+  s.shear_force = listed<double>(list.shear, n);
+  s.moment = listed<double>(list.moment, n);
+  s.gap = listed<double>(list.gap, n);
+  s.width = listed<double>(list.width, n);
 }
 
 /// A broken bond as the rank that owns its first disc needs to know it; positions and radii are those of now.
@@ -165,7 +165,7 @@ void add_broken_pairs(Snapshot& s, BrokenHere const& broken) {
     s.b.push_back(b);
     s.state.push_back(broken_state(static_cast<int>(pair.mode)));
     for (auto* force : {&s.normal_force, &s.shear_force, &s.moment, &s.width}) force->push_back(0);
-    s.gap.push_back(static_cast<float>(std::sqrt(dx * dx + dy * dy) - double(s.radius[i]) - pair.r));
+    s.gap.push_back(std::sqrt(dx * dx + dy * dy) - double(s.radius[i]) - pair.r);
   }
 }
 

@@ -32,12 +32,12 @@ struct Snapshot {
   std::vector<std::uint8_t> coordination;                 ///< pairs that carry force
   std::vector<std::uint8_t> bonds_intact, bonds_initial;  ///< bonds now, and with those that broke since they were installed
 
-  std::vector<std::int32_t> a, b;                ///< numbers of the discs of a pair: places in the lists above, plus first_disc
-  std::vector<std::uint8_t> state;               ///< ContactState
-  std::vector<float> normal_force, shear_force;  ///< [N/m]
-  std::vector<float> moment;                     ///< on disc a [N m/m]
-  std::vector<float> gap;                        ///< surface to surface [m], negative = overlap
-  std::vector<float> width;                      ///< B of an intact bond [m], else 0
+  std::vector<std::int32_t> a, b;                 ///< numbers of the discs of a pair: places in the lists above, plus first_disc
+  std::vector<std::uint8_t> state;                ///< ContactState
+  std::vector<double> normal_force, shear_force;  ///< [N/m]
+  std::vector<double> moment;                     ///< on disc a [N m/m]
+  std::vector<double> gap;                        ///< surface to surface [m], negative = overlap
+  std::vector<double> width;                      ///< B of an intact bond [m], else 0
 
   std::vector<BreakEvent> events;  ///< bonds broken since the snapshot before
 };

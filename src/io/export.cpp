@@ -51,6 +51,12 @@ std::vector<float> vectors(std::vector<float> const& x, std::vector<float> const
   return v;
 }
 
+/// The shortest digits from which the number is read back: fewer where it was rounded to what single precision holds.
+std::string shortest(double value) {
+  auto const single = static_cast<float>(value);
+  return static_cast<double>(single) == value ? fmt::format("{}", single) : fmt::format("{}", value);
+}
+
 /// The cells of a grid whose cell k has `width` points.
 void add_cells(VtuFile& file, std::vector<std::int32_t> const& connectivity, std::size_t width, std::uint8_t type) {
   std::vector<std::int32_t> offsets(connectivity.size() / width);
@@ -115,11 +121,11 @@ std::string pairs_vtu(Snapshot const& s) {
   VtuFile file;
   file.xml("<CellData>\n");
   file.add("state", "UInt8", s.state);
-  file.add("normal_force", "Float32", s.normal_force);
-  file.add("shear_force", "Float32", s.shear_force);
-  file.add("moment", "Float32", s.moment);
-  file.add("gap", "Float32", s.gap);
-  file.add("width", "Float32", s.width);
+  file.add("normal_force", "Float64", s.normal_force);
+  file.add("shear_force", "Float64", s.shear_force);
+  file.add("moment", "Float64", s.moment);
+  file.add("gap", "Float64", s.gap);
+  file.add("width", "Float64", s.width);
   file.xml("</CellData>\n");
   add_points(file, s);
   std::vector<std::int32_t> ends;
@@ -144,8 +150,8 @@ std::string pairs_csv(Snapshot const& s) {
   std::string text = "id_a,id_b,state,normal_force_N_per_m,shear_force_N_per_m,moment_Nm_per_m,gap_m,width_m\n";
   for (std::size_t k = 0; k < s.a.size(); ++k)
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", s.id[static_cast<std::size_t>(s.a[k])],
-                   s.id[static_cast<std::size_t>(s.b[k])], contact_state_name(s.state[k]), s.normal_force[k], s.shear_force[k],
-                   s.moment[k], s.gap[k], s.width[k]);
+                   s.id[static_cast<std::size_t>(s.b[k])], contact_state_name(s.state[k]), shortest(s.normal_force[k]),
+                   shortest(s.shear_force[k]), shortest(s.moment[k]), shortest(s.gap[k]), shortest(s.width[k]));
   return text;
 }
 

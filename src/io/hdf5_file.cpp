@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <cstdlib>
+#include <string_view>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -54,10 +55,14 @@ herr_t keep_innermost(unsigned, H5E_error2_t const* error, void* text) {
   return 0;
 }
 
+/// What the system said where HDF5 tells it among addresses, sizes and the date ("..., errno = 28, error message = ...").
 std::string hdf5_reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &text);
-  return text.empty() ? "no reason given" : text;
+  constexpr std::string_view before = "errno = ";
+  if (auto const at = text.find(before); at != text.npos)
+    if (int const error = std::atoi(text.c_str() + at + before.size()); error > 0) return std::generic_category().message(error);
+  return text.empty() ? "no reason given" : text.substr(0, text.find('\n'));
 }
 
 template <class T>
@@ -329,7 +334,8 @@ void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf
   } catch (FileProblem const& problem) {
     if (ranks.root()) ::unlink(temporary.c_str());
     std::string text = problem.what();  // named after the file that the user knows
-    if (auto const at = text.find(": "); text.compare(0, at, temporary.string()) == 0) text = text.substr(at + 2);
+    for (std::string const& name : {temporary.string(), path.string()})
+      if (text.starts_with(name + ": ")) text = text.substr(name.size() + 2);
     FileProblem const named(problem.code, path, text);
     // Where one rank fails half way the others wait for it in the next collective call, and would wait for ever.
     if (!ranks.alone() && problem.code == ExitCode::io_error) end_all_ranks(ranks, named);

@@ -38,6 +38,15 @@ Json program_json(RunRecord const& record) {
           {"threads", record.threads}};
 }
 
+/// What the keys do not say of themselves.
+Json meaning_json() {
+  return {{"stages.shear.residual_q_Pa", "mean of q over the records from residual_from_eps1 on"},
+          {"wall_seconds.generate", "making the specimen"},
+          {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; of a resumed run reading its checkpoint"},
+          {"wall_seconds.shear",
+           "steps, records and snapshots, since the last resume; neighbour_searches and checkpoints are parts of it"}};
+}
+
 Json input_json(RunRecord const& record) {
   Json input = {{"digest_xxh3_128", text_digest(record.input.source)}, {"overrides", record.input.overrides}};
   if (!record.specimen_digest.empty()) input["specimen_digest_xxh3_128"] = record.specimen_digest;
@@ -86,6 +95,7 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   json["stages"] = record.stages;
   if (!record.layer_void_ratios.empty()) json["layer_void_ratios"] = record.layer_void_ratios;
   json["wall_seconds"] = record.wall_seconds;
+  json["meaning"] = meaning_json();
   json["disc_steps"] = record.disc_steps;
   json["disc_steps_per_second"] = record.disc_steps_per_second;
   json["warnings"] = record.warnings;

@@ -61,7 +61,8 @@ class SceneReader {
   void read_file(std::string const& source) {
     GuardedText const guarded = guard_scene_text(source, file_);
     problems_.insert(problems_.end(), guarded.problems.begin(), guarded.problems.end());
-    if (!guarded.problems.empty()) return;
+    readable_ = guarded.problems.empty();
+    if (!readable_) return;
     try {
       toml::table const root = toml::parse(guarded.text);
       read_table(root, "");

@@ -17,6 +17,13 @@ bool is_not_finite(std::string_view line, std::size_t at) {
   return at + 3 >= line.size() || !is_word(line[at + 3]);
 }
 
+/// What is wrong with a text that begins with a byte order mark, or nothing.
+std::string byte_order_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) return "begins with a byte order mark: save it as UTF-8 without one, or as ASCII";
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return "is UTF-16 text: save it as UTF-8, or as ASCII";
+  return {};
+}
+
 /// Checks one line, appends it to the result with its comment blanked out. Reports the first problem only.
 /// One loop over the characters with the state of the quotes; cutting it up would hide that.
 void guard_line(std::string_view line, int number, std::string const& file, GuardedText& result) {
@@ -54,6 +61,10 @@ GuardedText guard_scene_text(std::string_view text, std::string const& file) {
   GuardedText result;
   if (text.size() > largest_scene_file) {
     result.problems.push_back({file, 0, 0, fmt::format("has {} bytes, at most {} are allowed", text.size(), largest_scene_file)});
+    return result;
+  }
+  if (std::string const mark = byte_order_mark(text); !mark.empty()) {
+    result.problems.push_back({file, 1, 1, mark});
     return result;
   }
   result.text.reserve(text.size());

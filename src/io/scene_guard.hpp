@@ -17,8 +17,8 @@ struct GuardedText {
   std::vector<Problem> problems;  ///< where there are any, the text must not be parsed
 };
 
-/// Checks the size, the length of the lines, that all outside comments is printable ASCII, and that there is no multi-line string
-/// and no nan or inf.
+/// Checks the size, that there is no byte order mark, the length of the lines, that all outside comments is printable ASCII, and
+/// that there is no multi-line string and no nan or inf.
 /// @param file  name for the messages
 GuardedText guard_scene_text(std::string_view text, std::string const& file);
 

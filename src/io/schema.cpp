@@ -99,6 +99,7 @@ Key const table[] = {
   {"output.snapshots", integer, CLATHRA_FIELD(output, snapshots), "snapshots for ParaView and the report over the whole strain, besides the one at its start", ratio, 1, 1e5, "none at all"},
   {"output.energy", boolean, CLATHRA_FIELD(output, energy), "keep the energy ledger in history.csv"},
   {"output.events", boolean, CLATHRA_FIELD(output, events), "write every broken bond to events.csv"},
+  {"output.full_precision", boolean, CLATHRA_FIELD(output, full_precision), "write snapshots without rounding: forces, moments and gaps with all their digits"},
 };
 // clang-format on
 #undef CLATHRA_FIELD

@@ -45,44 +45,60 @@ double mean_size(Ranks const& ranks, std::vector<T> const& values) {
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// Writes vectors of equal length as a table of rounded numbers, a column each; columns without a vector hold 0.
-/// @param resolution  a power of two in the unit of the column, or 0 to round nothing
-template <class T>
-void write_rounded(Hdf5File& file, std::string const& name, std::vector<std::vector<T> const*> const& parts, double resolution,
-                   char const* unit, std::size_t width) {
-  std::size_t const rows = parts.front()->size();
-  std::vector<T> table(rows * width);
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    for (std::size_t i = 0; i < rows; ++i) {
-      double const value = (*parts[k])[i];
-      table[i * width + k] = static_cast<T>(resolution > 0 ? std::nearbyint(value / resolution) * resolution : value);
-    }
-  }
-  file.write(name, table, unit, width);
-  file.set_column_attribute(name, "resolution", resolution);
-}
+/// Writes the numbers of a snapshot, rounded or not.
+struct NumberWriter {
+  Hdf5File& file;
+  SnapshotNumbers numbers;
 
-void write_discs(Hdf5File& file, Snapshot const& s, Ranks const& ranks) {
+  /// Vectors of equal length as a table, a column each; columns without a vector hold 0.
+  /// @param resolution  a power of two in the unit of the column, or 0 to round nothing
+  template <class Stored, class Value = Stored>
+  void write(std::string const& name, std::vector<std::vector<Value> const*> const& parts, double resolution, char const* unit,
+             std::size_t width) const {
+    double const step = numbers == SnapshotNumbers::rounded ? resolution : 0;
+    std::size_t const rows = parts.front()->size();
+    std::vector<Stored> table(rows * width);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      for (std::size_t i = 0; i < rows; ++i) {
+        double const value = (*parts[k])[i];
+        table[i * width + k] = static_cast<Stored>(step > 0 ? std::nearbyint(value / step) * step : value);
+      }
+    }
+    file.write(name, table, unit, width);
+    file.set_column_attribute(name, "resolution", step);
+  }
+  /// A column of the pairs: single precision holds all digits of a rounded number.
+  void of_pairs(std::string const& name, std::vector<double> const& values, double resolution, char const* unit) const {
+    if (numbers == SnapshotNumbers::rounded)
+      write<float, double>(name, {&values}, resolution, unit, 1);
+    else
+      write<double>(name, {&values}, resolution, unit, 1);
+  }
+};
+
+void write_discs(NumberWriter const& out, Snapshot const& s, Ranks const& ranks) {
+  Hdf5File& file = out.file;
   double const length = power_of_two(s.d50);
   auto const speed = [&](std::vector<float> const& v) { return power_of_two(mean_size(ranks, v)) / 8; };
   file.write("particles/id", s.id, "");
   std::vector<std::int32_t> index(s.id.size());
   std::iota(index.begin(), index.end(), static_cast<std::int32_t>(s.first_disc));
   file.write("particles/index", index, "");
-  write_rounded<double>(file, "particles/position", {&s.x, &s.y}, length / 4096, "m", 2);
-  write_rounded<float>(file, "particles/displacement", {&s.ux, &s.uy}, length / 512, "m", 3);
-  write_rounded<float>(file, "particles/velocity", {&s.vx, &s.vy}, std::max(speed(s.vx), speed(s.vy)), "m/s", 3);
-  write_rounded<float>(file, "particles/angular_velocity", {&s.omega}, speed(s.omega), "rad/s", 1);
-  write_rounded<float>(file, "particles/angle", {&s.angle}, 1.0 / 1024, "rad", 1);
-  write_rounded<float>(file, "particles/radius", {&s.radius}, length / 8192, "m", 1);
+  out.write<double>("particles/position", {&s.x, &s.y}, length / 4096, "m", 2);
+  out.write<float>("particles/displacement", {&s.ux, &s.uy}, length / 512, "m", 3);
+  out.write<float>("particles/velocity", {&s.vx, &s.vy}, std::max(speed(s.vx), speed(s.vy)), "m/s", 3);
+  out.write<float>("particles/angular_velocity", {&s.omega}, speed(s.omega), "rad/s", 1);
+  out.write<float>("particles/angle", {&s.angle}, 1.0 / 1024, "rad", 1);
+  out.write<float>("particles/radius", {&s.radius}, length / 8192, "m", 1);
   double const stress = power_of_two(mean_size(ranks, s.stress_yy)) / 16;
-  write_rounded<float>(file, "particles/stress", {&s.stress_xx, &s.stress_yy, &s.stress_xy}, stress, "Pa (xx, yy, xy)", 3);
+  out.write<float>("particles/stress", {&s.stress_xx, &s.stress_yy, &s.stress_xy}, stress, "Pa (xx, yy, xy)", 3);
   file.write("particles/coordination", s.coordination, "");
   file.write("particles/bonds_intact", s.bonds_intact, "");
   file.write("particles/bonds_initial", s.bonds_initial, "");
 }
 
-void write_pairs(Hdf5File& file, Snapshot const& s, Ranks const& ranks) {
+void write_pairs(NumberWriter const& out, Snapshot const& s, Ranks const& ranks) {
+  Hdf5File& file = out.file;
   double const length = power_of_two(s.d50), force = power_of_two(mean_size(ranks, s.normal_force)) / 16;
   std::size_t const count = s.a.size();
   std::vector<std::uint32_t> pairs(2 * count);
@@ -92,11 +108,11 @@ void write_pairs(Hdf5File& file, Snapshot const& s, Ranks const& ranks) {
   }
   file.write("contacts/pair", pairs, "index into particles", 2);
   file.write("contacts/state", s.state, "0 contact, 1 bonded, bond broken by: 2 tension, 3 compression, 4 shear, 5 rolling");
-  write_rounded<float>(file, "contacts/normal_force", {&s.normal_force}, force, "N/m", 1);
-  write_rounded<float>(file, "contacts/shear_force", {&s.shear_force}, force, "N/m", 1);
-  write_rounded<float>(file, "contacts/moment", {&s.moment}, power_of_two(mean_size(ranks, s.moment)) / 8, "N m/m", 1);
-  write_rounded<float>(file, "contacts/gap", {&s.gap}, length / 8192, "m", 1);
-  write_rounded<float>(file, "contacts/width", {&s.width}, length / 256, "m", 1);
+  out.of_pairs("contacts/normal_force", s.normal_force, force, "N/m");
+  out.of_pairs("contacts/shear_force", s.shear_force, force, "N/m");
+  out.of_pairs("contacts/moment", s.moment, power_of_two(mean_size(ranks, s.moment)) / 8, "N m/m");
+  out.of_pairs("contacts/gap", s.gap, length / 8192, "m");
+  out.of_pairs("contacts/width", s.width, length / 256, "m");
 }
 
 void write_events(Hdf5File& file, Snapshot const& s) {
@@ -145,11 +161,11 @@ void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
   s.state = file.read<std::uint8_t>("contacts/state", count);
   for (std::uint8_t const state : s.state)
     if (state >= contact_state_count) file.fail(ExitCode::bad_input, fmt::format("contacts/state holds {}", state));
-  read_table<float>(file, "contacts/normal_force", count, {&s.normal_force}, 1);
-  read_table<float>(file, "contacts/shear_force", count, {&s.shear_force}, 1);
-  read_table<float>(file, "contacts/moment", count, {&s.moment}, 1);
-  read_table<float>(file, "contacts/gap", count, {&s.gap}, 1);
-  read_table<float>(file, "contacts/width", count, {&s.width}, 1);
+  read_table<double>(file, "contacts/normal_force", count, {&s.normal_force}, 1);
+  read_table<double>(file, "contacts/shear_force", count, {&s.shear_force}, 1);
+  read_table<double>(file, "contacts/moment", count, {&s.moment}, 1);
+  read_table<double>(file, "contacts/gap", count, {&s.gap}, 1);
+  read_table<double>(file, "contacts/width", count, {&s.width}, 1);
 }
 
 void read_events(Hdf5File const& file, Snapshot& s) {
@@ -164,7 +180,7 @@ void read_events(Hdf5File const& file, Snapshot& s) {
 
 }  // namespace
 
-void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot, Ranks const& ranks) {
+void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot, Ranks const& ranks, SnapshotNumbers numbers) {
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
   auto const write_content = [&](Hdf5File& file) {
     file.set_attribute("format", std::string(format_name));
@@ -173,8 +189,8 @@ void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot,
     file.set_attribute("particles", total(snapshot.id.size()));
     file.set_attribute("contacts", total(snapshot.a.size()));
     for_each_scalar(snapshot, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
-    write_discs(file, snapshot, ranks);
-    write_pairs(file, snapshot, ranks);
+    write_discs({file, numbers}, snapshot, ranks);
+    write_pairs({file, numbers}, snapshot, ranks);
     write_events(file, snapshot);
     std::vector<double> walls;
     if (ranks.root()) walls = {snapshot.left, snapshot.right, snapshot.bottom, snapshot.top};

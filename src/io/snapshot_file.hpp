@@ -7,11 +7,16 @@
 
 namespace clathra {
 
+/// What becomes of the numbers of a snapshot in its file. `rounded`: to the resolution that stands beside each column as the
+/// attribute `resolution`; a snapshot shows a state, a specimen file (specimen.h5, final.h5) continues it. `full`: every digit of
+/// positions, forces, moments, gaps and widths, the other columns in single precision; `resolution` is 0.
+enum class SnapshotNumbers { rounded, full };
+
 /// Writes a snapshot. Discs and pairs keep their spatial order, in which they compress best; `particles/id` is their identity.
-/// Numbers are rounded to a resolution that stands beside each column as the attribute `resolution`: a snapshot shows a state, a
-/// specimen file (specimen.h5, final.h5) continues it. @throws FileProblem cannot_create or io_error
+/// @throws FileProblem cannot_create or io_error
 /// @param snapshot  this rank's part; events on rank 0 only
-void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot, Ranks const& ranks = {});
+void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot, Ranks const& ranks = {},
+                    SnapshotNumbers numbers = SnapshotNumbers::rounded);
 
 /// @throws FileProblem file_missing, or bad_input where the file is damaged, no snapshot, or of another version
 Snapshot read_snapshot(std::filesystem::path const& path);
@@ -34,7 +39,8 @@ struct SnapshotEntry {
 class SnapshotSeries {
  public:
   /// @param before  those that a resumed run has already;  @throws FileProblem cannot_create
-  explicit SnapshotSeries(std::filesystem::path run_folder, Ranks ranks = {}, std::vector<SnapshotEntry> before = {});
+  explicit SnapshotSeries(std::filesystem::path run_folder, Ranks ranks = {}, std::vector<SnapshotEntry> before = {},
+                          SnapshotNumbers numbers = SnapshotNumbers::rounded);
   std::vector<SnapshotEntry> const& entries() const { return entries_; }
   void write(Snapshot const& snapshot);  ///< @throws FileProblem
 
@@ -45,6 +51,7 @@ class SnapshotSeries {
   std::filesystem::path folder_;
   Ranks ranks_;
   std::vector<SnapshotEntry> entries_;
+  SnapshotNumbers numbers_;  ///< of all of them
 };
 
 }  // namespace clathra

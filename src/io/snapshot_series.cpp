@@ -14,12 +14,13 @@ struct Attribute {
   char const* dataset;  ///< in the snapshot
   char const* kind;     ///< XDMF's AttributeType
   int width;
-  char const* number;  ///< XDMF's NumberType and Precision
+  char const* number;  ///< XDMF's NumberType and Precision; `as_rounded`: 4 bytes, or 8 where nothing is rounded
 };
 
 constexpr char float4[] = "NumberType=\"Float\" Precision=\"4\"", uchar1[] = "NumberType=\"UChar\" Precision=\"1\"",
                int4[] = "NumberType=\"Int\" Precision=\"4\"", uint4[] = "NumberType=\"UInt\" Precision=\"4\"",
                float8[] = "NumberType=\"Float\" Precision=\"8\"";
+constexpr char const* as_rounded = nullptr;
 
 constexpr Attribute of_discs[] = {{"id", "particles/id", "Scalar", 1, int4},
                                   {"radius", "particles/radius", "Scalar", 1, float4},
@@ -32,11 +33,11 @@ constexpr Attribute of_discs[] = {{"id", "particles/id", "Scalar", 1, int4},
                                   {"bonds_intact", "particles/bonds_intact", "Scalar", 1, uchar1},
                                   {"bonds_initial", "particles/bonds_initial", "Scalar", 1, uchar1}};
 constexpr Attribute of_pairs[] = {{"state", "contacts/state", "Scalar", 1, uchar1},
-                                  {"normal_force", "contacts/normal_force", "Scalar", 1, float4},
-                                  {"shear_force", "contacts/shear_force", "Scalar", 1, float4},
-                                  {"moment", "contacts/moment", "Scalar", 1, float4},
-                                  {"gap", "contacts/gap", "Scalar", 1, float4},
-                                  {"width", "contacts/width", "Scalar", 1, float4}};
+                                  {"normal_force", "contacts/normal_force", "Scalar", 1, as_rounded},
+                                  {"shear_force", "contacts/shear_force", "Scalar", 1, as_rounded},
+                                  {"moment", "contacts/moment", "Scalar", 1, as_rounded},
+                                  {"gap", "contacts/gap", "Scalar", 1, as_rounded},
+                                  {"width", "contacts/width", "Scalar", 1, as_rounded}};
 
 std::string data_item(std::string const& file, char const* dataset, std::size_t rows, int width, char const* number) {
   std::string const shape = width == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, width);
@@ -44,11 +45,13 @@ std::string data_item(std::string const& file, char const* dataset, std::size_t 
 }
 
 template <std::size_t Count>
-std::string attributes(Attribute const (&list)[Count], char const* centre, std::string const& file, std::size_t rows) {
+std::string attributes(Attribute const (&list)[Count], char const* centre, std::string const& file, std::size_t rows,
+                       SnapshotNumbers numbers) {
+  char const* const real = numbers == SnapshotNumbers::full ? float8 : float4;
   std::string text;
   for (Attribute const& a : list)
     text += fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", a.name, a.kind,
-                        centre, data_item(file, a.dataset, rows, a.width, a.number));
+                        centre, data_item(file, a.dataset, rows, a.width, a.number ? a.number : real));
   return text;
 }
 
@@ -69,8 +72,9 @@ std::string collection(std::string const& name, std::string const& grids) {
 
 }  // namespace
 
-SnapshotSeries::SnapshotSeries(std::filesystem::path run_folder, Ranks ranks, std::vector<SnapshotEntry> before)
-    : folder_(std::move(run_folder)), ranks_(std::move(ranks)), entries_(std::move(before)) {
+SnapshotSeries::SnapshotSeries(std::filesystem::path run_folder, Ranks ranks, std::vector<SnapshotEntry> before,
+                               SnapshotNumbers numbers)
+    : folder_(std::move(run_folder)), ranks_(std::move(ranks)), entries_(std::move(before)), numbers_(numbers) {
   on_root(ranks_, [this] {
     std::error_code error;
     std::filesystem::create_directories(folder_ / "snap", error);
@@ -80,7 +84,7 @@ SnapshotSeries::SnapshotSeries(std::filesystem::path run_folder, Ranks ranks, st
 
 void SnapshotSeries::write(Snapshot const& snapshot) {
   std::string const name = fmt::format("snap/{:012d}.h5", snapshot.step);
-  write_snapshot(folder_ / name, snapshot, ranks_);
+  write_snapshot(folder_ / name, snapshot, ranks_, numbers_);
   auto const total = [&](std::size_t count) { return static_cast<std::size_t>(ranks_.sum(static_cast<std::int64_t>(count))); };
   entries_.push_back({name, snapshot.step, snapshot.eps1, total(snapshot.id.size()), total(snapshot.a.size())});
   on_root(ranks_, [this] {
@@ -97,7 +101,7 @@ std::string SnapshotSeries::particles_index() const {
         fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>", e.discs,
                     data_item(e.file, "particles/index", e.discs, 1, int4));
     grids += grid("discs", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8),
-                  attributes(of_discs, "Node", e.file, e.discs));
+                  attributes(of_discs, "Node", e.file, e.discs, numbers_));
   }
   return collection("discs", grids);
 }
@@ -109,7 +113,7 @@ std::string SnapshotSeries::contacts_index() const {
         fmt::format("<Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>", e.pairs,
                     data_item(e.file, "contacts/pair", e.pairs, 2, uint4));
     grids += grid("contacts", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8),
-                  attributes(of_pairs, "Cell", e.file, e.pairs));
+                  attributes(of_pairs, "Cell", e.file, e.pairs, numbers_));
   }
   return collection("contacts", grids);
 }

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -33,23 +35,57 @@ void write_all(int descriptor, std::string_view text, std::filesystem::path cons
 
 }  // namespace
 
-std::string read_text_file(std::filesystem::path const& path, std::size_t limit) {
-  int const descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw FileProblem(ExitCode::file_missing, path, reason("cannot be opened"));
+namespace {
+
+/// A file that is open for reading until the end of the scope.
+struct OpenFile {
+  /// Does not wait for a writer of a named pipe.
+  explicit OpenFile(std::filesystem::path const& path) : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  OpenFile(OpenFile const&) = delete;
+  OpenFile& operator=(OpenFile const&) = delete;
+  ~OpenFile() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+  int descriptor;
+};
+
+/// Whether what is open is a pipe. @throws FileProblem where it is neither that nor a file
+bool is_pipe(int descriptor, std::filesystem::path const& path) {
+  struct stat kind {};
+  if (::fstat(descriptor, &kind) != 0) throw FileProblem(ExitCode::io_error, path, reason("cannot be read"));
+  if (S_ISDIR(kind.st_mode)) throw FileProblem(ExitCode::file_missing, path, "is a folder, not a file");
+  if (!S_ISREG(kind.st_mode) && !S_ISFIFO(kind.st_mode))
+    throw FileProblem(ExitCode::file_missing, path, "is a device, not a file");
+  return S_ISFIFO(kind.st_mode);
+}
+
+/// Waits until a pipe has something to read or has ended. @throws FileProblem file_missing when it gave nothing for that long
+void wait_for_text(int descriptor, std::filesystem::path const& path, std::chrono::milliseconds patience) {
+  pollfd pipe{descriptor, POLLIN, 0};
+  int ready = 0;
+  while ((ready = ::poll(&pipe, 1, static_cast<int>(patience.count()))) < 0 && errno == EINTR) {
+  }
+  if (ready == 0)
+    throw FileProblem(ExitCode::file_missing, path,
+                      fmt::format("is a pipe that gave nothing for {:g} s", static_cast<double>(patience.count()) / 1000));
+}
+
+}  // namespace
+
+std::string read_text_file(std::filesystem::path const& path, std::size_t limit, std::chrono::milliseconds patience) {
+  OpenFile const file(path);
+  if (file.descriptor < 0) throw FileProblem(ExitCode::file_missing, path, reason("cannot be opened"));
+  bool const pipe = is_pipe(file.descriptor, path);
   std::string text;
   char buffer[65536];
   while (text.size() < limit) {
-    ssize_t const count = ::read(descriptor, buffer, std::min(sizeof buffer, limit - text.size()));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      FileProblem const problem(errno == EISDIR ? ExitCode::file_missing : ExitCode::io_error, path, reason("cannot be read"));
-      ::close(descriptor);
-      throw problem;
-    }
+    if (pipe) wait_for_text(file.descriptor, path, patience);
+    ssize_t const count = ::read(file.descriptor, buffer, std::min(sizeof buffer, limit - text.size()));
+    if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (count < 0) throw FileProblem(ExitCode::io_error, path, reason("cannot be read"));
     if (count == 0) break;
     text.append(buffer, static_cast<std::size_t>(count));
   }
-  ::close(descriptor);
   return text;
 }
 
@@ -69,6 +105,18 @@ void replace_text_file(std::filesystem::path const& path, std::string_view text)
     ::unlink(temporary.c_str());
     throw problem;
   }
+}
+
+void require_creatable(std::filesystem::path const& path) {
+  std::error_code error;
+  if (!path.has_filename() || std::filesystem::is_directory(path, error))
+    throw FileProblem(ExitCode::cannot_create, path, "is a folder; name a file");
+  std::filesystem::path const temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
+  ::unlink(temporary.c_str());
+  int const descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor < 0) throw FileProblem(ExitCode::cannot_create, path, reason("cannot be created"));
+  ::close(descriptor);
+  ::unlink(temporary.c_str());
 }
 
 RowFile::RowFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(create(path_)) {}

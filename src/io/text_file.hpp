@@ -1,18 +1,25 @@
 #pragma once
 /// Plain files with every call checked: read at once, written row by row, or replaced as a whole.
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace clathra {
 
-/// Reads a whole file, at most `limit` bytes of it.
-/// @throws FileProblem file_missing if it cannot be opened, io_error if it cannot be read
-std::string read_text_file(std::filesystem::path const& path, std::size_t limit);
+/// Reads a whole file, or a pipe to its end (`<(command)`, /dev/stdin), at most `limit` bytes of it.
+/// @param patience  how long a pipe may keep silent
+/// @throws FileProblem file_missing if it cannot be opened, is no file, or a pipe without a word; io_error if it cannot be read
+std::string read_text_file(std::filesystem::path const& path, std::size_t limit,
+                           std::chrono::milliseconds patience = std::chrono::seconds(10));
 
 /// Puts a file with this text in place of whatever has that name: written under a temporary name, flushed to the disk, renamed. A
 /// reader sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error
 void replace_text_file(std::filesystem::path const& path, std::string_view text);
+
+/// Whether a file of this name could be put there, without doing it: for work that takes long before it writes.
+/// @throws FileProblem cannot_create where the name is that of a folder, or nothing can be made beside it
+void require_creatable(std::filesystem::path const& path);
 
 /// Makes renamed files of a folder survive a power cut. @throws FileProblem io_error
 void flush_folder(std::filesystem::path const& folder);

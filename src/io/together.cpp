@@ -4,6 +4,8 @@
 #include <new>
 #include <optional>
 
+#include "io/printable.hpp"
+
 namespace clathra {
 
 void on_root(Ranks const& ranks, std::function<void()> const& action) {
@@ -38,7 +40,7 @@ void on_each(Ranks const& ranks, std::function<void()> const& action) {
 }
 
 void end_all_ranks(Ranks const& ranks, FileProblem const& problem) {
-  std::fprintf(stderr, "clathra: rank %d: %s\n", ranks.rank(), problem.what());
+  std::fprintf(stderr, "clathra: rank %d: %s\n", ranks.rank(), printable(problem.what()).c_str());
   ranks.abort(static_cast<int>(problem.code));
 }
 

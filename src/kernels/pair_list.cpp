@@ -43,11 +43,11 @@ struct FillPairs {
       list.a(at) = i;
       list.b(at) = s.other;
       list.bonded(at) = s.bonded ? 1 : 0;
-      list.normal(at) = static_cast<float>(s.normal);
-      list.shear(at) = static_cast<float>(s.shear);
-      list.moment(at) = static_cast<float>(s.moment);
-      list.gap(at) = static_cast<float>(-s.overlap);
-      list.width(at) = static_cast<float>(s.width);
+      list.normal(at) = s.normal;
+      list.shear(at) = s.shear;
+      list.moment(at) = s.moment;
+      list.gap(at) = -s.overlap;
+      list.width(at) = s.width;
       ++at;
     }
   }
@@ -100,7 +100,7 @@ PairList list_pairs(ParticleSoA const& particles, ContactRows const& rows, Conta
                         CountPairs{particles, rows, laws, first}, list.size);
   auto const size = static_cast<std::size_t>(list.size);
   for (auto* field : {&list.a, &list.b, &list.bonded}) *field = Field<int>("pair_list", size);
-  for (auto* field : {&list.normal, &list.shear, &list.moment, &list.gap, &list.width}) *field = Field<float>("pair_list", size);
+  for (auto* field : {&list.normal, &list.shear, &list.moment, &list.gap, &list.width}) *field = Field<Real>("pair_list", size);
   Kokkos::parallel_for("fill_pairs", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        FillPairs{particles, rows, laws, first, list});
   return list;

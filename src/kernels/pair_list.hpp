@@ -10,12 +10,12 @@ namespace clathra {
 /// pair is then listed by the rank that owns the disc with the smaller id.
 struct PairList {
   int size = 0;
-  Field<int> a, b;             ///< [size]
-  Field<int> bonded;           ///< [size] 1 where a bond is intact
-  Field<float> normal, shear;  ///< [size] total force of grain contact and bond [N/m], compression positive
-  Field<float> moment;         ///< [size] on disc a [N m/m]
-  Field<float> gap;            ///< [size] surface to surface [m], negative = overlap
-  Field<float> width;          ///< [size] B of the bond [m], 0 without one
+  Field<int> a, b;            ///< [size]
+  Field<int> bonded;          ///< [size] 1 where a bond is intact
+  Field<Real> normal, shear;  ///< [size] total force of grain contact and bond [N/m], compression positive
+  Field<Real> moment;         ///< [size] on disc a [N m/m]
+  Field<Real> gap;            ///< [size] surface to surface [m], negative = overlap
+  Field<Real> width;          ///< [size] B of the bond [m], 0 without one
 };
 PairList list_pairs(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws);
 

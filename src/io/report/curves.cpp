@@ -18,12 +18,13 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-/// A column of every run against its axial strain.
+/// A column of every run that has it against its axial strain.
 Plot plot_of(std::vector<RunResults> const& runs, std::string const& column, double factor, std::string axis) {
   Plot plot;
   Range strains, values;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     HistoryTable const& history = runs[i].history;
+    if (!history.has(column)) continue;
     plot.curves.push_back({run_label(runs[i]), scaled(history["eps1"], percent), scaled(history[column], factor), run_stroke(i)});
     strains.include(plot.curves.back().x);
     values.include(plot.curves.back().y);
@@ -48,28 +49,37 @@ std::string stress_figure(std::vector<RunResults> const& runs) {
 
 std::string volume_figure(std::vector<RunResults> const& runs) {
   Plot plot = plot_of(runs, "eps_v", percent, "volumetric strain εᵥ [%]");
+  if (plot.curves.empty()) return "";
   plot.title = "Volumetric strain against axial strain";
-  for (RunResults const& run : runs)
-    plot.description += fmt::format("{}: {:+.3g} % at the end. ", run_label(run), run.history["eps_v"].back() * percent);
+  for (Curve const& curve : plot.curves)
+    plot.description += fmt::format("{}: {:+.3g} % at the end. ", curve.name, curve.y.back());
   return figure("Change of volume", svg(plot) + legend(plot.curves),
                 "Compression is positive: a rising curve means that the specimen gets denser, a falling one that it dilates. "
                 "Below zero it takes more room than before the test. Strains are natural (logarithmic) ones.");
 }
 
 std::string intact_figure(std::vector<RunResults> const& runs) {
-  std::vector<RunResults> bonded;
-  std::copy_if(runs.begin(), runs.end(), std::back_inserter(bonded), [](RunResults const& run) { return run.has_bonds(); });
-  if (bonded.empty()) return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
+  if (std::none_of(runs.begin(), runs.end(), [](RunResults const& run) { return run.has_bonds(); }))
+    return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
   Plot plot = plot_of(runs, "intact_initial_pct", 1, "intact bonds [% of those installed]");
-  for (std::size_t i = runs.size(); i-- > 0;)
-    if (!runs[i].has_bonds()) plot.curves.erase(plot.curves.begin() + static_cast<std::ptrdiff_t>(i));
+  std::erase_if(plot.curves, [&](Curve const& curve) {
+    return std::none_of(runs.begin(), runs.end(),
+                        [&](RunResults const& run) { return run.has_bonds() && run_label(run) == curve.name; });
+  });
+  if (plot.curves.empty()) return "";
   plot.title = "Share of intact bonds against axial strain";
   plot.y = {plot.y.title, 0, percent};
-  for (RunResults const& run : bonded)
-    plot.description += fmt::format("{}: {:.3g} % at the end. ", run_label(run), run.history["intact_initial_pct"].back());
+  for (Curve const& curve : plot.curves) plot.description += fmt::format("{}: {:.3g} % at the end. ", curve.name, curve.y.back());
   return figure("Intact bonds", svg(plot) + legend(plot.curves),
                 "Bonds of hydrate between grains that still hold, as a share of those that were installed. A broken bond "
                 "does not heal.");
+}
+
+/// Whether a history says what broke the bonds.
+bool has_modes(HistoryTable const& history) {
+  std::vector<std::string> columns{"bonds_intact"};
+  for (ModeStyle const& mode : mode_styles()) columns.push_back(mode.column);
+  return history.has_all(columns);
 }
 
 /// What broke the bonds of a run: a curve for each mode.
@@ -92,10 +102,11 @@ std::vector<Curve> mode_curves(HistoryTable const& history) {
 std::string mode_figures(std::vector<RunResults> const& runs) {
   Range strains, shares;
   for (RunResults const& run : runs)
-    for (Curve const& curve : mode_curves(run.history)) strains.include(curve.x), shares.include(curve.y);
+    for (Curve const& curve : has_modes(run.history) ? mode_curves(run.history) : std::vector<Curve>())
+      strains.include(curve.x), shares.include(curve.y);
   std::string figures;
   for (RunResults const& run : runs) {
-    if (!run.has_bonds()) continue;
+    if (!run.has_bonds() || !has_modes(run.history)) continue;
     Plot plot;
     plot.title = "Broken bonds by mode against axial strain, " + run_label(run);
     plot.curves = mode_curves(run.history);

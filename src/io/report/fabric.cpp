@@ -96,18 +96,30 @@ std::string diagram(Values const& now, Values const& before, double anisotropy, 
 
 }  // namespace
 
+namespace {
+
+/// Whether the discs of a pair hold or press each other. That is why contacts and bonds are listed at all, however weak: their
+/// force may be rounded to 0. A pair whose bond broke is listed in any case; it presses where the discs overlap, and the sign of
+/// the gap says that also of one that is rounded to -0.
+bool carries(Snapshot const& s, std::size_t pair) {
+  auto const state = static_cast<ContactState>(s.state[pair]);
+  return state == ContactState::contact || state == ContactState::bonded || std::signbit(s.gap[pair]);
+}
+
+}  // namespace
+
 Rose rose_of(Snapshot const& s) {
   Rose rose;
   std::array<double, Rose::bins> counts{}, sums{};
   double cosine = 0, sine = 0, force = 0;
   for (std::size_t k = 0; k < s.a.size(); ++k) {
-    if (s.normal_force[k] == 0) continue;
+    if (!carries(s, k)) continue;
     auto const a = static_cast<std::size_t>(s.a[k]), b = static_cast<std::size_t>(s.b[k]);
     double angle = std::atan2(s.y[b] - s.y[a], s.x[b] - s.x[a]);
     if (angle < 0) angle += half_turn;
     auto const bin = std::min(static_cast<std::size_t>(angle / bin_angle), Rose::bins - 1);
-    counts[bin] += 1, sums[bin] += double(s.normal_force[k]);
-    cosine += std::cos(2 * angle), sine += std::sin(2 * angle), force += double(s.normal_force[k]);
+    counts[bin] += 1, sums[bin] += s.normal_force[k];
+    cosine += std::cos(2 * angle), sine += std::sin(2 * angle), force += s.normal_force[k];
     ++rose.pairs;
   }
   if (rose.pairs == 0) return rose;

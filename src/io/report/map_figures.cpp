@@ -188,7 +188,8 @@ std::string rose_figure(Shown const& shown) {
       strip(titled(normal_rose(now, before, label), "number of contacts") +
             titled(force_rose(now, before, label), "mean normal force")),
       fmt::format(
-          "How many of the {} pairs that carry force point in each direction, and how large their mean normal force is "
+          "How many of the {} pairs that press or hold each other point in each direction, and how large their mean normal force "
+          "is "
           "there, both relative to the mean over all directions (ring 1), at {}. Dashed: at the start. Red line: the fit "
           "1 + a cos 2(θ − θₐ), with a = {:.2f} at θₐ = {:.0f}° for the contacts and a = {:.2f} at {:.0f}° for the forces; "
           "90° is vertical, the direction of σ₁.",

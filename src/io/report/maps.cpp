@@ -89,7 +89,7 @@ Canvas detail_map(Snapshot const& s, MapView const& view) {
   Canvas canvas = view.canvas();
   constexpr double rim_pixels = 1.4;
   for (std::size_t k = 0; k < s.a.size(); ++k)
-    if (state_of(s, k) == ContactState::bonded) draw(canvas, view, Branch(s, k), double(s.width[k]) * view.scale(), hydrate);
+    if (state_of(s, k) == ContactState::bonded) draw(canvas, view, Branch(s, k), s.width[k] * view.scale(), hydrate);
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     double const radius = double(s.radius[i]) * view.scale(), x = view.x(s.x[i]), y = view.y(s.y[i]);
     canvas.disc(x, y, radius, rim);
@@ -118,13 +118,13 @@ Canvas bond_map(Snapshot const& s, MapView const& view) {
 Canvas force_map(Snapshot const& s, MapView const& view) {
   Canvas canvas = view.canvas();
   double sum = 0, count = 0;
-  for (float const force : s.normal_force)
-    if (force > 0) sum += double(force), count += 1;
+  for (double const force : s.normal_force)
+    if (force > 0) sum += force, count += 1;
   double const mean = count > 0 ? sum / count : 1, unit = mean_diameter(s) * view.scale();
   constexpr double width_of_mean = 0.16, widest = 0.8;  // in diameters
   auto const draw_those = [&](auto const& chosen, Rgb colour) {
     for (std::size_t k = 0; k < s.a.size(); ++k)
-      if (double const part = double(s.normal_force[k]) / mean; chosen(part))
+      if (double const part = s.normal_force[k] / mean; chosen(part))
         draw(canvas, view, Branch(s, k), unit * std::min(widest, width_of_mean * std::abs(part)), colour);
   };
   draw_those([](double part) { return part > 0 && part < 1; }, weak);

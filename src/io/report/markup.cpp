@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/printable.hpp"
 #include "io/report/png.hpp"
 
 namespace clathra {
@@ -51,23 +52,13 @@ figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-w
 .strip img,.strip .rose{display:block;width:100%;height:auto;max-height:88vh;object-fit:contain}
 .strip .stack img{max-height:42vh}.strip .rose{max-height:26rem}
 @media(max-width:520px){.strip{grid-template-columns:repeat(auto-fit,minmax(150px,1fr))}figure{padding:.6rem .55rem}
-th,td{padding:.3rem .45rem}.plot{font-size:16.5px}.rose{font-size:22px}}
+th,td{padding:.3rem .45rem}.plot{font-size:16.5px}.rose{font-size:22px}
+thead th,td{white-space:normal;overflow-wrap:anywhere}
+.several{width:auto}.several :is(table,tbody,tr,th){display:block}.several thead{display:none}
+.several tbody th{position:static;font-weight:650}.several td{display:flex;justify-content:space-between;gap:1rem;border-top:0}
+.several td::before{content:attr(data-run);flex:0 1 auto;min-width:30%;text-align:left;color:var(--soft)}}
 @media print{body{max-width:none}.beside{grid-template-columns:1fr 1fr}}
 )css";
-
-/// Length of the UTF-8 sequence at the beginning of the text, 0 where there is none.
-std::size_t sequence_length(std::string_view text) {
-  auto const lead = static_cast<unsigned char>(text.front());
-  std::size_t const length = lead < 0x80                   ? 1
-                             : lead >= 0xc2 && lead < 0xe0 ? 2
-                             : lead >= 0xe0 && lead < 0xf0 ? 3
-                             : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                           : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return 0;
-  return length;
-}
 
 }  // namespace
 

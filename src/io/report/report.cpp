@@ -73,7 +73,7 @@ std::string pictures(std::vector<RunResults> const& runs, std::size_t room) {
 void write_report(std::vector<std::filesystem::path> const& run_folders, std::filesystem::path const& html) {
   std::vector<RunResults> const runs = read_runs(run_folders);
   std::string body = "<h1>" + escaped(title_of(runs)) + "</h1>\n<p class=\"lead\">" + escaped(summary_sentence(runs)) + "</p>\n";
-  body += warning_list(runs) + everything_but_pictures(runs);
+  body += warning_list(runs) + note_on_missing_columns(runs) + everything_but_pictures(runs);
   constexpr std::size_t least_room = 1'000'000, text_of_pictures = 100'000;
   std::size_t const taken = body.size() + text_of_pictures * runs.size();
   body += pictures(runs, taken + least_room < largest_page ? largest_page - taken : least_room);

@@ -11,26 +11,32 @@
 
 namespace clathra {
 
-/// The columns of a history.csv. Numbers may be inf or nan where the run diverged.
+/// The columns of a history.csv that the program knows; others are passed over. Numbers may be inf or nan where the run diverged.
 class HistoryTable {
  public:
   /// A last line without its end is a row that is being written, and is left out.
   /// @throws FileProblem file_missing, or bad_input with the line: a row with too few or too many cells, a cell that is no
-  /// number, a column that the report needs missing
+  /// number; step, eps1, or q_Pa together with what it could be made of (sigma1_Pa, sigma3_Pa) missing
   explicit HistoryTable(std::filesystem::path const& path);
 
   std::size_t rows() const { return rows_; }
   bool has(std::string const& column) const { return columns_.count(column) > 0; }
-  std::vector<double> const& operator[](std::string const& column) const { return columns_.at(column); }
+  bool has_all(std::vector<std::string> const& columns) const;
+  /// A column; nan in each row where there is none of this name.
+  std::vector<double> const& operator[](std::string const& column) const;
+  /// The columns that this one has not and of which something would be drawn; those of the energy ledger only if it has some.
+  std::vector<std::string> missing() const;
 
  private:
   std::map<std::string, std::vector<double>> columns_;
+  std::vector<double> unknown_;
   std::size_t rows_ = 0;
 };
 
 /// A folder that `clathra run` wrote.
 struct RunResults {
   std::string name;  ///< of the folder
+  std::filesystem::path folder;
   HistoryTable history;
   nlohmann::json record;                         ///< run.json
   std::vector<std::filesystem::path> snapshots;  ///< in the order of their steps

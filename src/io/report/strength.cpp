@@ -8,6 +8,7 @@
 #include <set>
 
 #include "io/report/curves.hpp"
+#include "io/report/likeness.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/test_numbers.hpp"
 
@@ -16,16 +17,44 @@ namespace {
 
 constexpr double mega = 1e-6, half_turn = 3.14159265358979323846;
 
-/// Runs of the same saturation and bond law, by their place in the list of runs.
-using Groups = std::map<std::pair<long, std::string>, std::vector<std::size_t>>;
+constexpr char stress_key[] = "test.confining_stress", saturation_key[] = "hydrate.saturation";
 
-Groups groups_of(std::vector<RunResults> const& runs) {
-  Groups groups;
+/// Tests of one material, which differ in confining stress and seed only.
+struct Group {
+  SceneValues material;              ///< without the confining stress
+  std::vector<std::size_t> members;  ///< places in the list of runs
+  double saturation = 0;             ///< [%]
+};
+
+/// By saturation, then in the order of the runs. Runs whose history has no lateral stress are in none.
+std::vector<Group> groups_of(std::vector<RunResults> const& runs) {
+  std::vector<Group> groups;
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].history.has("sigma3_Pa")) continue;
+    SceneValues material = material_of(runs[i]);
+    material.erase(stress_key);
+    auto const same = std::find_if(groups.begin(), groups.end(), [&](Group const& group) { return group.material == material; });
     double const saturation = runs[i].has_bonds() ? runs[i].number("/scene/hydrate/saturation").value_or(0) : 0;
-    groups[{std::lround(saturation * 1e6), runs[i].has_bonds() ? runs[i].bond_variant() : "clean sand"}].push_back(i);
+    if (same == groups.end())
+      groups.push_back({std::move(material), {i}, static_cast<double>(std::lround(saturation * 1e6)) * 1e-4});
+    else
+      same->members.push_back(i);
   }
+  std::stable_sort(groups.begin(), groups.end(), [](Group const& a, Group const& b) { return a.saturation < b.saturation; });
   return groups;
+}
+
+/// "a" or "a, b and c"
+std::string listed(std::vector<std::string> const& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::vector<std::string> names_of(std::vector<RunResults> const& runs, std::vector<std::size_t> const& members) {
+  std::vector<std::string> names;
+  for (std::size_t const i : members) names.push_back(runs[i].name);
+  return names;
 }
 
 /// The upper half of a Mohr circle [MPa].
@@ -48,29 +77,49 @@ double end_of_line(std::vector<FailureStress> const& tests) {
   return end;
 }
 
-std::string mohr_figure(std::vector<Curve> circles, std::vector<FailureStress> const& tests, std::string const& heading,
+/// Principal stresses of the tests of a group in one state, the peak or the residual one.
+struct TestStresses {
+  std::vector<FailureStress> all;      ///< each a circle
+  std::vector<FailureStress> reached;  ///< of those whose q has passed its peak: only they say what the strength is
+  std::vector<std::string> rising;     ///< the names of the others
+};
+
+/// c and phi, or why there are none.
+std::string envelope_text(std::optional<Envelope> const& fit, TestStresses const& tests) {
+  std::string text, why;
+  if (!tests.rising.empty())
+    why = fmt::format(
+        "he deviator stress of {} still rises where the test ends; the largest so far is drawn, which is no strength.",
+        listed(tests.rising));
+  if (fit) {
+    text = fmt::format("Line: Mohr-Coulomb envelope τ = c + σ tan φ with c = {} MPa and φ = {:.1f}°",
+                       with_minus(fmt::format("{:.3g}", fit->cohesion * mega)), fit->friction_angle * 180 / half_turn);
+    text +=
+        tests.reached.size() > 2 ? fmt::format(", fitted to {} tests.", tests.reached.size()) : ", which touches two circles.";
+    return why.empty() ? text : text + " It leaves out what has no peak: t" + why;
+  }
+  return why.empty() ? "They have no common Mohr-Coulomb envelope." : "c and φ are not given: t" + why;
+}
+
+std::string mohr_figure(std::vector<Curve> circles, TestStresses const& tests, std::string const& heading,
                         std::string const& which) {
   Plot plot;
   Range sigma, tau;
-  for (FailureStress const& test : tests) {
+  for (FailureStress const& test : tests.all) {
     sigma.include(test.sigma1 * mega);
     tau.include((test.sigma1 - test.sigma3) / 2 * mega * 1.12);
   }
   plot.title = heading + ", " + which;
   plot.curves = std::move(circles);
   plot.x = sigma.axis("normal stress σ [MPa]");
-  std::string caption = "Mohr circles of the stresses " + which + ". ";
-  if (std::optional<Envelope> const fit = fitted_envelope(tests)) {
+  std::optional<Envelope> const fit = fitted_envelope(tests.reached);
+  if (fit) {
     double const slope = std::tan(fit->friction_angle), cohesion = fit->cohesion * mega;
-    double const from = std::max(0.0, -cohesion / slope), to = end_of_line(tests);
+    double const from = std::max(0.0, -cohesion / slope), to = end_of_line(tests.reached);
     plot.curves.push_back({"envelope", {from, to}, {cohesion + slope * from, cohesion + slope * to}, {colours::black, "", 1.8}});
     tau.include(plot.curves.back().y);
-    caption += fmt::format("Line: Mohr-Coulomb envelope τ = c + σ tan φ with c = {} MPa and φ = {:.1f}°",
-                           with_minus(fmt::format("{:.3g}", cohesion)), fit->friction_angle * 180 / half_turn);
-    caption += tests.size() > 2 ? fmt::format(", fitted to {} tests.", tests.size()) : ", which touches both circles.";
-  } else {
-    caption += "They have no common Mohr-Coulomb envelope.";
   }
+  std::string const caption = "Mohr circles of the stresses " + which + ". " + envelope_text(fit, tests);
   plot.y = tau.axis("shear stress τ [MPa]");
   plot.y.from = 0;
   plot.height = height_for_equal_scales(plot.x, plot.y);
@@ -82,58 +131,147 @@ std::string mohr_figure(std::vector<Curve> circles, std::vector<FailureStress> c
 FailureStress peak_stress(TestNumbers const& n) { return {n.peak_sigma3 + n.peak_q, n.peak_sigma3}; }
 FailureStress residual_stress(TestNumbers const& n) { return {n.residual_sigma3 + n.residual_q, n.residual_sigma3}; }
 
-/// What the tests at one saturation say.
+/// What the tests of a group say.
 struct GroupStrength {
-  double saturation = 0;  ///< [%]
+  Group group;
+  TestStresses peaks, residuals;
+  std::vector<Curve> peak_circles, residual_circles;
   std::optional<Envelope> at_peak, residual;
-  std::string figures;
+
+  /// Whether there is something to draw: tests at several confining stresses.
+  bool drawn() const { return fitted_envelope(peaks.all) || fitted_envelope(residuals.all); }
 };
 
-GroupStrength strength_of(long saturation_millionths, std::vector<RunResults> const& runs,
-                          std::vector<std::size_t> const& members) {
-  std::vector<FailureStress> peaks, residuals;
-  std::vector<Curve> at_peak, at_residual;
-  for (std::size_t const i : members) {
+GroupStrength strength_of(Group const& group, std::vector<RunResults> const& runs) {
+  GroupStrength strength{group, {}, {}, {}, {}, {}, {}};
+  for (std::size_t const i : group.members) {
     TestNumbers const n = test_numbers(runs[i].history);
-    peaks.push_back(peak_stress(n));
-    residuals.push_back(residual_stress(n));
-    at_peak.push_back(circle(peaks.back(), run_label(runs[i]), run_stroke(i)));
-    at_residual.push_back(circle(residuals.back(), run_label(runs[i]), run_stroke(i)));
+    auto const add = [&](FailureStress const& stress, TestStresses& tests, std::vector<Curve>& circles) {
+      tests.all.push_back(stress);
+      if (n.passed_peak)
+        tests.reached.push_back(stress);
+      else
+        tests.rising.push_back(runs[i].name);
+      circles.push_back(circle(stress, run_label(runs[i]), run_stroke(i)));
+    };
+    add(peak_stress(n), strength.peaks, strength.peak_circles);
+    add(residual_stress(n), strength.residuals, strength.residual_circles);
   }
-  GroupStrength group{static_cast<double>(saturation_millionths) * 1e-4, fitted_envelope(peaks), fitted_envelope(residuals), ""};
-  std::string const heading =
-      group.saturation > 0 ? fmt::format("Strength at {:g} % hydrate", group.saturation) : "Strength of clean sand";
-  group.figures =
-      mohr_figure(at_peak, peaks, heading, "at the peak") + mohr_figure(at_residual, residuals, heading, "in the residual state");
-  return group;
+  strength.at_peak = fitted_envelope(strength.peaks.reached);
+  strength.residual = fitted_envelope(strength.residuals.reached);
+  return strength;
+}
+
+/// The circles of a group. Where others have the same saturation the heading says what it differs in from them.
+std::string circle_figures(GroupStrength const& strength, std::vector<GroupStrength> const& all) {
+  double const saturation = strength.group.saturation;
+  std::vector<SceneValues> same;
+  for (GroupStrength const& other : all)
+    if (other.group.saturation == saturation) same.push_back(other.group.material);
+  std::string heading = saturation > 0 ? fmt::format("Strength at {:g} % hydrate", saturation) : "Strength of clean sand";
+  if (std::string const words = in_words(strength.group.material, differing_keys(same)); !words.empty()) heading += ", " + words;
+  return mohr_figure(strength.peak_circles, strength.peaks, heading, "at the peak") +
+         mohr_figure(strength.residual_circles, strength.residuals, heading, "in the residual state");
+}
+
+/// Groups that differ in nothing but the saturation, in its order.
+struct Series {
+  SceneValues material;  ///< without the saturation
+  std::vector<GroupStrength const*> points;
+};
+
+/// Whether clean sand is the sand between the bonds of the other.
+bool is_sand_of(SceneValues const& clean, SceneValues const& bonded) {
+  return std::all_of(clean.begin(), clean.end(), [&](auto const& entry) {
+    auto const found = bonded.find(entry.first);
+    return entry.first == saturation_key || (found != bonded.end() && found->second == entry.second);
+  });
+}
+
+std::vector<Series> series_of(std::vector<GroupStrength> const& groups) {
+  std::vector<Series> all;
+  for (GroupStrength const& strength : groups) {
+    if (strength.group.saturation == 0 || !(strength.at_peak || strength.residual)) continue;
+    SceneValues material = strength.group.material;
+    material.erase(saturation_key);
+    auto same = std::find_if(all.begin(), all.end(), [&](Series const& series) { return series.material == material; });
+    if (same == all.end()) same = all.insert(all.end(), {std::move(material), {}});
+    same->points.push_back(&strength);
+  }
+  for (Series& series : all)
+    for (GroupStrength const& strength : groups)
+      if (strength.group.saturation == 0 && (strength.at_peak || strength.residual) &&
+          is_sand_of(strength.group.material, series.material))
+        series.points.insert(series.points.begin(), &strength);
+  std::erase_if(all, [](Series const& series) { return series.points.size() < 2; });
+  return all;
 }
 
 /// One number of the envelopes against the saturation, at the peak and in the residual state.
-std::string saturation_figure(std::vector<GroupStrength> const& groups, std::string const& heading, std::string const& axis,
+std::string saturation_figure(std::vector<Series> const& all, std::string const& heading, std::string const& axis,
                               double (*number)(Envelope const&)) {
   Plot plot;
   plot.title = heading + " against hydrate saturation";
-  plot.curves = {{"at the peak", {}, {}, {colours::vermilion, ""}, true}, {"residual", {}, {}, {colours::blue, "8 3"}, true}};
   Range saturations, values;
-  for (GroupStrength const& group : groups)
-    for (std::size_t k = 0; k < 2; ++k) {
-      std::optional<Envelope> const& envelope = k == 0 ? group.at_peak : group.residual;
+  std::vector<SceneValues> materials;
+  for (Series const& series : all) materials.push_back(series.material);
+  std::vector<std::string> const different = differing_keys(materials);
+  for (std::size_t k = 0; k < 2 * all.size(); ++k) {
+    Series const& series = all[k / 2];
+    bool const peak = k % 2 == 0;
+    Rgb const colour = all.size() > 1 ? run_stroke(k / 2).colour : peak ? colours::vermilion : colours::blue;
+    std::string const words = in_words(series.material, different);
+    Curve curve{
+        (words.empty() ? "" : words + ", ") + (peak ? "at the peak" : "residual"), {}, {}, {colour, peak ? "" : "8 3"}, true};
+    for (GroupStrength const* const point : series.points) {
+      std::optional<Envelope> const& envelope = peak ? point->at_peak : point->residual;
       if (!envelope) continue;
-      plot.curves[k].x.push_back(group.saturation);
-      plot.curves[k].y.push_back(number(*envelope));
-      saturations.include(group.saturation);
-      values.include(number(*envelope));
-      plot.description += fmt::format("{} % hydrate, {}: {:.3g}. ", group.saturation, plot.curves[k].name, number(*envelope));
+      curve.x.push_back(point->group.saturation);
+      curve.y.push_back(number(*envelope));
+      plot.description += fmt::format("{} % hydrate, {}: {:.3g}. ", curve.x.back(), curve.name, curve.y.back());
     }
+    saturations.include(curve.x);
+    values.include(curve.y);
+    plot.curves.push_back(std::move(curve));
+  }
   plot.x = saturations.axis("hydrate saturation [%]");
   plot.y = values.axis(axis);
-  return figure(plot.title, svg(plot) + legend(plot.curves), "From the Mohr-Coulomb envelopes above, one for each saturation.");
+  return figure(
+      plot.title, svg(plot) + legend(plot.curves),
+      "From the Mohr-Coulomb envelopes above, one for each saturation. A line joins materials that differ in nothing but "
+      "the saturation.");
 }
 
 std::string strength_against_saturation(std::vector<GroupStrength> const& groups) {
-  return saturation_figure(groups, "Cohesion", "cohesion c [MPa]", [](Envelope const& e) { return e.cohesion * mega; }) +
-         saturation_figure(groups, "Friction angle", "friction angle φ [°]",
+  std::vector<Series> const all = series_of(groups);
+  if (all.empty()) return "";
+  return saturation_figure(all, "Cohesion", "cohesion c [MPa]", [](Envelope const& e) { return e.cohesion * mega; }) +
+         saturation_figure(all, "Friction angle", "friction angle φ [°]",
                            [](Envelope const& e) { return e.friction_angle * 180 / half_turn; });
+}
+
+/// Says why runs of one saturation at several confining stresses are not all in one figure.
+std::string note_on_unlike_runs(std::vector<RunResults> const& runs, std::vector<Group> const& groups) {
+  std::map<double, std::vector<Group const*>> by_saturation;
+  for (Group const& group : groups) by_saturation[group.saturation].push_back(&group);
+  std::string note;
+  for (auto const& [saturation, unlike] : by_saturation) {
+    std::set<double> stresses;
+    std::vector<SceneValues> materials;
+    for (Group const* const group : unlike) {
+      materials.push_back(group->material);
+      for (std::size_t const i : group->members) stresses.insert(runs[i].number("/scene/test/confining_stress").value_or(0));
+    }
+    if (unlike.size() < 2 || stresses.size() < 2) continue;
+    std::vector<std::string> const different = differing_keys(materials);
+    std::string parts;
+    for (Group const* const group : unlike)
+      parts += (parts.empty() ? "" : "; ") + listed(names_of(runs, group->members)) + " (" +
+               in_words(group->material, different) + ")";
+    note += fmt::format("The tests {} differ in more than confining stress and seed and have no common envelope: {}. ",
+                        saturation > 0 ? fmt::format("at {:g} % hydrate", saturation) : "of clean sand", parts);
+  }
+  return note.empty() ? "" : "<p class=\"soft\">" + escaped(note) + "</p>\n";
 }
 
 }  // namespace
@@ -154,18 +292,13 @@ std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests)
 }
 
 std::string strength_figures(std::vector<RunResults> const& runs) {
+  std::vector<Group> const groups = groups_of(runs);
+  std::vector<GroupStrength> drawn;
+  for (Group const& group : groups)
+    if (GroupStrength strength = strength_of(group, runs); strength.drawn()) drawn.push_back(std::move(strength));
   std::string figures;
-  std::vector<GroupStrength> groups;
-  std::set<std::string> variants;
-  for (auto const& [key, members] : groups_of(runs)) {
-    GroupStrength const group = strength_of(key.first, runs, members);
-    if (!group.at_peak && !group.residual) continue;
-    figures += group.figures;
-    groups.push_back(group);
-    if (key.first > 0) variants.insert(key.second);
-  }
-  if (groups.size() > 1 && variants.size() < 2) figures += strength_against_saturation(groups);
-  return figures;
+  for (GroupStrength const& strength : drawn) figures += circle_figures(strength, drawn);
+  return figures + strength_against_saturation(drawn) + note_on_unlike_runs(runs, groups);
 }
 
 }  // namespace clathra

@@ -23,8 +23,9 @@ struct Envelope {
 /// squares. Exact for two. Nothing where all have the same sigma_3, or sigma_1 falls with sigma_3.
 std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests);
 
-/// Circles at the peak and in the residual state for each saturation and bond law that was tested at two confining stresses or
-/// more; empty where none was. HTML.
+/// Circles at the peak and in the residual state for each material (see likeness.hpp) that was tested at two confining stresses
+/// or more, with the envelope of the tests whose q has passed its peak; what comes of it against the saturation; and why runs are
+/// not joined. Empty where there is nothing of that. HTML.
 std::string strength_figures(std::vector<RunResults> const& runs);
 
 }  // namespace clathra

@@ -104,7 +104,7 @@ std::string sentence_on_one(RunResults const& run) {
               ? fmt::format("the deviator stress peaked at {:.3g} MPa at {:.3g} % strain and averaged {:.3g} MPa at the end",
                             n.peak_q * mega, n.peak_eps1 * percent, n.residual_q * mega)
               : fmt::format("the deviator stress was still rising at {:.3g} MPa", n.peak_q * mega);
-  if (run.has_bonds()) text += fmt::format("; {:.3g} % of the bonds still held", n.intact_end);
+  if (run.has_bonds() && std::isfinite(n.intact_end)) text += fmt::format("; {:.3g} % of the bonds still held", n.intact_end);
   return text + ".";
 }
 
@@ -128,6 +128,11 @@ std::string summary_sentence(std::vector<RunResults> const& runs) {
 }
 
 std::string summary_table(std::vector<RunResults> const& runs) {
+  bool const several = runs.size() > 1;
+  // On a narrow screen the cells of several runs stand below each other, each with the name of its run.
+  auto const cell = [&](RunResults const& run, std::string const& text) {
+    return several ? "<td data-run=\"" + escaped(run.name) + "\">" + text + "</td>" : "<td>" + text + "</td>";
+  };
   std::vector<TestNumbers> numbers;
   std::string head = "<th>quantity</th>", rows;
   for (RunResults const& run : runs) {
@@ -138,10 +143,11 @@ std::string summary_table(std::vector<RunResults> const& runs) {
     for (Quantity const& quantity : group) {
       rows += fmt::format("<tr><th>{}{}</th>", quantity.name,
                           *quantity.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", quantity.unit) : "");
-      for (std::size_t i = 0; i < runs.size(); ++i) rows += "<td>" + quantity.text(runs[i], numbers[i]) + "</td>";
+      for (std::size_t i = 0; i < runs.size(); ++i) rows += cell(runs[i], quantity.text(runs[i], numbers[i]));
       rows += "</tr>\n";
     }
-  return "<div class=\"scroll\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+  return std::string(several ? "<div class=\"scroll several\">" : "<div class=\"scroll\">") + "<table><thead><tr>" + head +
+         "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string warning_list(std::vector<RunResults> const& runs) {
@@ -155,6 +161,17 @@ std::string warning_list(std::vector<RunResults> const& runs) {
         if (warning.is_string()) items += "<li>" + from + escaped(warning.get<std::string>()) + "</li>\n";
   }
   return items.empty() ? "" : "<div class=\"warn\"><b>Warnings of the run</b><ul>\n" + items + "</ul></div>\n";
+}
+
+std::string note_on_missing_columns(std::vector<RunResults> const& runs) {
+  std::string note;
+  for (RunResults const& run : runs) {
+    std::string names;
+    for (std::string const& name : run.history.missing()) names += (names.empty() ? "" : ", ") + name;
+    if (names.empty()) continue;
+    note += fmt::format("The history.csv of {} has no {}: what is made of that is left out. ", run.name, names);
+  }
+  return note.empty() ? "" : "<p class=\"soft\">" + escaped(note) + "</p>\n";
 }
 
 }  // namespace clathra

@@ -16,4 +16,7 @@ std::string summary_table(std::vector<RunResults> const& runs);
 /// What the runs warned of, and runs that ended before their time; empty where there is nothing. HTML.
 std::string warning_list(std::vector<RunResults> const& runs);
 
+/// Which columns histories lack, so that something is left out; empty where nothing is. HTML.
+std::string note_on_missing_columns(std::vector<RunResults> const& runs);
+
 }  // namespace clathra

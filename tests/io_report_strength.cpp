@@ -1,0 +1,194 @@
+/// The report: which tests it takes for one material, and what it says of their strength.
+#include "io/report/strength.hpp"
+#include "report_page.hpp"
+
+namespace clathra {
+namespace {
+
+using ReportStrength = ReportPageTest;
+
+/// sigma_1 at failure by Mohr and Coulomb.
+double failure_stress(double cohesion, double friction_angle, double sigma3) {
+  double const n = (1 + std::sin(friction_angle)) / (1 - std::sin(friction_angle));
+  return 2 * cohesion * std::sqrt(n) + n * sigma3;
+}
+
+TEST_F(ReportStrength, FindsCohesionAndFrictionAngleOfTwoConfiningStresses) {
+  double const degree = std::acos(-1.0) / 180;
+  std::vector<fs::path> runs;
+  for (double const sigma3 : {1e6, 3e6}) {
+    MadeUpTest test;
+    test.sigma3 = sigma3;
+    test.peak_q = failure_stress(0.8e6, 32 * degree, sigma3) - sigma3;
+    test.residual_q = failure_stress(0.1e6, 28.5 * degree, sigma3) - sigma3;
+    runs.push_back(made("s" + std::to_string(sigma3), test));
+  }
+  std::string const page = page_on(runs);
+  EXPECT_NE(page.find("c = 0.8 MPa and φ = 32.0°"), std::string::npos);
+  EXPECT_NE(page.find("c = 0.1 MPa and φ = 28.5°"), std::string::npos);
+  EXPECT_EQ(curves_of(page, "Strength at 55 % hydrate, at the peak").size(), 3u) << "two circles and the line";
+  MadeUpTest other;
+  other.sigma3 = 3e6;
+  other.saturation = 0.26;
+  EXPECT_EQ(page_on({runs[0], made("other", other)}).find("Mohr"), std::string::npos) << "another saturation is another material";
+}
+
+TEST_F(ReportStrength, DrawsCohesionAndFrictionAngleAgainstTheSaturation) {
+  std::vector<fs::path> runs;
+  for (double const saturation : {0.0, 0.26, 0.55})
+    for (double const sigma3 : {1e6, 2e6}) {
+      MadeUpTest test;
+      test.saturation = saturation;
+      test.sigma3 = sigma3;
+      test.peak_q = failure_stress(2e6 * saturation, 0.5, sigma3) - sigma3;
+      test.residual_q = test.peak_q / 2;
+      runs.push_back(made(std::to_string(saturation) + "-" + std::to_string(sigma3), test));
+    }
+  auto const curves = curves_of(page_on(runs), "Cohesion against hydrate saturation");
+  ASSERT_EQ(curves.size(), 2u);
+  ASSERT_EQ(curves[0].size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(curves[0][i].second, 2 * curves[0][i].first / 100, 0.01) << i;
+  EXPECT_NEAR(curves[0][2].first, 55, 0.2);
+}
+
+TEST(ReportEnvelope, IsTheLeastSquaresLineAndKnowsWhenThereIsNone) {
+  std::vector<FailureStress> tests;
+  for (double const sigma3 : {0.5e6, 1e6, 2e6, 4e6}) tests.push_back({failure_stress(0.3e6, 0.5, sigma3), sigma3});
+  auto const fit = fitted_envelope(tests);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->cohesion, 0.3e6, 1);
+  EXPECT_NEAR(fit->friction_angle, 0.5, 1e-9);
+  EXPECT_FALSE(fitted_envelope({{3e6, 1e6}, {3.1e6, 1e6}}));
+  EXPECT_FALSE(fitted_envelope({{5e6, 1e6}, {3e6, 2e6}})) << "strength that falls with the stress";
+}
+
+/// Two tests at 1 and 3 MPa whose envelopes are known; the second one, and with `both` the first one too, is of another scene.
+struct Pair {
+  std::string name;
+  std::vector<std::string> overrides = {};
+  bool both = false;
+  double saturation = 0.55, cohesion = 0.8e6;
+};
+
+class ReportLikeness : public ReportPageTest {
+ protected:
+  std::vector<fs::path> pair(Pair const& wanted) const {
+    std::vector<fs::path> runs;
+    for (double const sigma3 : {1e6, 3e6}) {
+      MadeUpTest test;
+      test.sigma3 = sigma3;
+      test.saturation = wanted.saturation;
+      test.peak_q = failure_stress(wanted.cohesion, 0.5, sigma3) - sigma3;
+      test.residual_q = failure_stress(0.1e6, 0.5, sigma3) - sigma3;
+      if (wanted.both || sigma3 > 2e6) test.overrides = wanted.overrides;
+      runs.push_back(made(wanted.name + (sigma3 > 2e6 ? "-3" : "-1"), test));
+    }
+    return runs;
+  }
+  std::string page_on_pairs(std::vector<Pair> const& pairs) const {
+    std::vector<fs::path> runs;
+    for (Pair const& each : pairs)
+      for (fs::path const& run : pair(each)) runs.push_back(run);
+    return page_on(runs);
+  }
+};
+
+TEST_F(ReportLikeness, WhatOnlyChoosesHowItIsComputedOrWrittenDoesNotPartTests) {
+  std::string const page = page_on_pairs({{"a",
+                                           {"run.seed=7", "run.threads=2", "run.force=true", "run.skin=10 um",
+                                            "output.records=20", "output.energy=true", "output.full_precision=true"}}});
+  EXPECT_NE(page.find("c = 0.8 MPa and φ = 28.6°"), std::string::npos);
+  EXPECT_EQ(page.find("have no common envelope"), std::string::npos);
+}
+
+TEST_F(ReportLikeness, AnyOtherDifferencePartsThemAndIsNamed) {
+  for (auto const& [override, words] :
+       std::vector<std::pair<std::string, std::string>>{{"grains.friction=0.3", "friction 0.3"},
+                                                        {"grains.shape_factor=1", "shape factor 1"},
+                                                        {"hydrate.temperature=6 degC", "temperature 6 degC"},
+                                                        {"hydrate.density=910 kg/m^3", "hydrate density 910 kg/m^3"},
+                                                        {"test.inertial_number=5e-5", "inertial number 5e-05"},
+                                                        {"sample.void_ratio=0.22", "void ratio 0.22"},
+                                                        {"bond.composite=replace", "bond composite replace"},
+                                                        {"bond.stress=60 kPa", "bond stress 60 kPa"},
+                                                        {"run.damping=0.2", "damping 0.2"}}) {
+    std::string const page = page_on_pairs({{"a", {override}}});
+    EXPECT_EQ(page.find("Mohr circles"), std::string::npos) << override;
+    EXPECT_NE(page.find("differ in more than confining stress and seed and have no common envelope: a-1 ("), std::string::npos)
+        << override;
+    EXPECT_NE(page.find("a-3 (" + words + ")"), std::string::npos) << override;
+  }
+}
+
+TEST_F(ReportLikeness, OfCleanSandHydrateAndBondsDoNotMatterButTheStressOfItsMakingDoes) {
+  EXPECT_NE(page_on_pairs({{"a", {"hydrate.temperature=6 degC", "bond.composite=replace"}, false, 0}}).find("Mohr circles"),
+            std::string::npos);
+  EXPECT_EQ(page_on_pairs({{"b", {"bond.stress=60 kPa"}, false, 0}}).find("Mohr circles"), std::string::npos);
+}
+
+TEST_F(ReportLikeness, HeadingsSayWhatMaterialsOfTheSameSaturationDifferIn) {
+  std::string const page = page_on_pairs({{"a"}, {"b", {"grains.friction=0.3"}, true, 0.55, 0.4e6}});
+  EXPECT_EQ(curves_of(page, "Strength at 55 % hydrate, friction 0.5, at the peak").size(), 3u);
+  EXPECT_EQ(curves_of(page, "Strength at 55 % hydrate, friction 0.3, at the peak").size(), 3u);
+  EXPECT_NE(page.find("c = 0.8 MPa"), std::string::npos);
+  EXPECT_NE(page.find("c = 0.4 MPa"), std::string::npos);
+  EXPECT_NE(page_on_pairs({{"a"}}).find("Strength at 55 % hydrate, at the peak"), std::string::npos) << "alone it needs no more";
+}
+
+TEST_F(ReportLikeness, ALineOverTheSaturationJoinsOnlyMaterialsThatDifferInIt) {
+  std::vector<std::string> const smooth{"grains.friction=0.3"};
+  std::string const unlike = page_on_pairs({{"a", {}, true, 0.26}, {"b", smooth, true, 0.55}});
+  EXPECT_EQ(unlike.find("Cohesion against hydrate saturation"), std::string::npos);
+  std::string const two = page_on_pairs({{"a", {}, true, 0.26},
+                                         {"b", smooth, true, 0.26, 0.3e6},
+                                         {"c", {}, true, 0.55},
+                                         {"d", smooth, true, 0.55, 0.3e6},
+                                         {"sand", {}, true, 0, 0.1e6}});
+  auto const curves = curves_of(two, "Cohesion against hydrate saturation");
+  ASSERT_EQ(curves.size(), 4u);
+  EXPECT_EQ(curves[0].size(), 3u) << "with the sand of the same friction";
+  EXPECT_NEAR(curves[0][0].second, 0.1, 0.01);
+  EXPECT_NEAR(curves[0][2].second, 0.8, 0.01);
+  EXPECT_EQ(curves[2].size(), 2u);
+  EXPECT_NEAR(curves[2][1].second, 0.3, 0.01);
+  EXPECT_NE(two.find("friction 0.3, residual"), std::string::npos);
+}
+
+TEST_F(ReportLikeness, AReadSpecimenCountsByItsDiscsAndVoidRatioNotByItsPath) {
+  std::vector<fs::path> const runs = pair({"a"});
+  auto const made_from_file = [&](std::size_t i, std::string const& file, double ratio) {
+    nlohmann::json record = nlohmann::json::parse(content_of(runs[i] / "run.json"));
+    record["scene"]["sample"]["generator"] = "file";
+    record["scene"]["sample"]["file"] = file;
+    record["stages"]["prepare"]["void_ratio_before_consolidation"] = ratio;
+    std::ofstream(runs[i] / "run.json") << record;
+  };
+  made_from_file(0, "one.h5", 0.24001);
+  made_from_file(1, "two.h5", 0.23996);
+  EXPECT_NE(page_on(runs).find("Mohr circles"), std::string::npos);
+  made_from_file(1, "one.h5", 0.22);
+  EXPECT_NE(page_on(runs).find("a-3 (void ratio 0.220)"), std::string::npos);
+}
+
+TEST_F(ReportStrength, IsNotGivenForTestsWhoseDeviatorStressStillRises) {
+  auto const at = [&](double sigma3, bool rising) {
+    MadeUpTest test;
+    test.sigma3 = sigma3;
+    test.peak_q = failure_stress(0.8e6, 0.5, sigma3) - sigma3;
+    if (rising) test.peak_eps1 = 2 * made_up_strain;
+    return made(std::to_string(sigma3 * 1e-6).substr(0, 1) + "mpa", test);
+  };
+  std::string const two = page_on({at(1e6, false), at(3e6, true)});
+  EXPECT_EQ(two.find("c = "), std::string::npos);
+  EXPECT_EQ(two.find("<polyline data-name=\"envelope"), std::string::npos);
+  std::string const why = "c and φ are not given: the deviator stress of 3mpa still rises where the test ends";
+  EXPECT_NE(two.find(why), std::string::npos);
+  EXPECT_NE(two.find(why, two.find(why) + 1), std::string::npos) << "at the peak and in the residual state";
+  std::string const three = page_on({at(1e6, false), at(2e6, false), at(3e6, true)});
+  EXPECT_NE(
+      three.find("c = 0.8 MPa and φ = 28.6°, which touches two circles. It leaves out what has no peak: the deviator stress"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace clathra
