@@ -6,6 +6,7 @@
 
 #include "forecast.hpp"
 #include "io/specimen_file.hpp"
+#include "io/specimen_label.hpp"
 #include "print.hpp"
 #include "scene_options.hpp"
 #include "verbs.hpp"
@@ -20,11 +21,13 @@ struct CheckOptions {
 };
 
 ExitCode check(CheckOptions const& options) {
-  LoadedScene const input = options.scene.load();
+  LoadedScene input = options.scene.load();
   Scene scene = input.scene;
   std::optional<Specimen> specimen;
   if (scene.sample.generator == Generator::file) {
     specimen = read_specimen(scene.sample.file);
+    std::vector<std::string> const found = compare_with_scene(scene.sample.file, *specimen, scene);
+    input.warnings.insert(input.warnings.end(), found.begin(), found.end());
     scene = sized_by(scene, *specimen, static_cast<std::int64_t>(specimen->size()));
   }
   Forecast result = forecast(scene, options.rate, options.ranks);

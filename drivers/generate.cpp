@@ -46,6 +46,7 @@ ExitCode generate_on(Ranks const& ranks, std::string const& output, RunRecord& r
   watch_for_interrupt();
   ProgressLine line;
   for (std::string const& warning : record.input.warnings) line.warn(warning);
+  if (std::string const warning = thread_warning(scene.run.threads); !warning.empty()) line.warn(warning);
   KokkosSession const kokkos;
   Specimen const specimen = generate_recorded(scene, show_stage(line, ranks), record, ranks);
   write_specimen(output, specimen, ranks);

@@ -55,6 +55,7 @@ std::string snapshot_text(Snapshot const& s) {
 }
 
 std::string number_text(nlohmann::json const& value) {
+  if (value.is_string()) return value.get<std::string>();
   return value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
 }
 
@@ -90,6 +91,8 @@ std::string specimen_text(Specimen const& specimen) {
   text += row("grading", fmt::format("d10 {:.4g} mm, d50 {:.4g} mm, d60 {:.4g} mm", diameter(0.1), diameter(0.5), diameter(0.6)));
   text += row("grain density", fmt::format("{:g} kg/m^3", specimen.density));
   text += row("rests under", fmt::format("{:.6g} MPa", specimen.stress * 1e-6));
+  if (specimen.axial_strain.value_or(0) != 0)
+    text += row("sheared", fmt::format("to an axial strain of {:.4g} %", *specimen.axial_strain * 100));
   text += row("contacts", fmt::format("{}", specimen.contacts.size()));
   text += row("bonds", fmt::format("{}", bonds));
   if (specimen.critical_thickness > 0) text += row("h_max", fmt::format("{:.4g} um", specimen.critical_thickness * 1e6));

@@ -8,6 +8,7 @@
 #include "forecast.hpp"
 #include "interrupt.hpp"
 #include "io/specimen_file.hpp"
+#include "io/specimen_label.hpp"
 #include "print.hpp"
 #include "rank_checks.hpp"
 #include "scene_options.hpp"
@@ -21,16 +22,19 @@ namespace {
 struct RunOptions {
   SceneOptions scene;
   std::string output;
-  bool dry_run = false, resume = false;
+  bool dry_run = false, resume = false, overwrite = false;
   std::string most_time, checkpoint_every = "10m";
 };
 
 ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& endurance, LoadedScene input) {
   require_same_everywhere(ranks, input);
+  if (std::string warning = thread_warning(input.scene.run.threads); !warning.empty()) input.warnings.push_back(std::move(warning));
   std::optional<Specimen> specimen;
   Scene sized = input.scene;
   if (input.scene.sample.generator == Generator::file) {
     specimen = read_specimen(input.scene.sample.file, ranks);
+    std::vector<std::string> const found = compare_with_scene(input.scene.sample.file, *specimen, input.scene);
+    input.warnings.insert(input.warnings.end(), found.begin(), found.end());
     sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
   }
   Forecast cost = forecast(sized, 0, launched_ranks());
@@ -51,7 +55,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& 
 }
 
 ExitCode run(RunOptions const& options) {
-  Endurance const endurance{options.resume, options.most_time.empty() ? 0 : duration_of(options.most_time),
+  Endurance const endurance{options.resume, options.overwrite, options.most_time.empty() ? 0 : duration_of(options.most_time),
                             duration_of(options.checkpoint_every)};
   std::vector<std::string> more;
   if (!options.output.empty()) more.push_back("output.folder=" + options.output);
@@ -72,7 +76,10 @@ void add_run(CLI::App& program, Verb& chosen) {
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
   verb->add_flag("--dry-run", options->dry_run, "only say what the run will cost");
-  verb->add_flag("--resume", options->resume, "go on from the newest checkpoint in the folder of the results, if there is one");
+  CLI::Option* const resume = verb->add_flag("--resume", options->resume,
+                                             "go on from the newest checkpoint in the folder of the results, if there is one");
+  verb->add_flag("--overwrite", options->overwrite, "delete the unfinished run in the folder of the results, if there is one")
+      ->excludes(resume);
   verb->add_option("--max-walltime", options->most_time, "stop after this time with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
       ->check(CLI::Validator(duration_problem, ""));

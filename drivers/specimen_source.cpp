@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/digest.hpp"
+#include "io/specimen_label.hpp"
 #include "stage_progress.hpp"
 
 namespace clathra {
@@ -13,17 +14,18 @@ Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress,
   record.wall_seconds["generate"] = clock.seconds();
   record.stages["generate"] = generated.record;
   record.layer_void_ratios = generated.layer_void_ratios;
-  if (generated.specimen.provenance.empty()) generated.specimen.provenance = provenance_text(record);
+  generated.specimen.provenance = provenance_text(record, specimen_label(scene, false));
   return std::move(generated.specimen);
 }
 
-std::string provenance_text(RunRecord const& record) {
+std::string provenance_text(RunRecord const& record, SceneTexts const& label) {
   nlohmann::ordered_json json;
   json["program"] = "clathra " + record.version;
   json["git_hash"] = record.git_hash;
   json["scene_digest_xxh3_128"] = text_digest(record.input.source);
   json["overrides"] = record.input.overrides;
-  json["seed"] = record.input.scene.run.seed;
+  json["made_of"] = label;
+  if (!record.specimen_digest.empty()) json["specimen_digest_xxh3_128"] = record.specimen_digest;
   if (auto const stage = record.stages.find("generate"); stage != record.stages.end()) json["generate"] = stage->second;
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

@@ -2,6 +2,7 @@
 /// Where a run's specimen comes from: generated now, or read from a file.
 #include "domain/experiment.hpp"
 #include "io/run_record.hpp"
+#include "io/scene_comparison.hpp"
 
 namespace clathra {
 
@@ -9,7 +10,7 @@ namespace clathra {
 /// @throws Refused, Diverged, Stopped
 Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record, Ranks const& ranks);
 
-/// JSON text: program, digest of the scene, seed; what a specimen file says of its making.
-std::string provenance_text(RunRecord const& record);
+/// JSON text: program, digest of the scene, what the specimen is made of; what a specimen file says of its making.
+std::string provenance_text(RunRecord const& record, SceneTexts const& label);
 
 }  // namespace clathra

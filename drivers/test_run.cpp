@@ -10,20 +10,19 @@
 #include <cmath>
 
 #include "clathra_version.hpp"
-#include "domain/hydrate.hpp"
 #include "interrupt.hpp"
-#include "io/checkpoint.hpp"
 #include "io/digest.hpp"
-#include "io/events.hpp"
-#include "io/history.hpp"
+#include "io/earlier_run.hpp"
 #include "io/output_folder.hpp"
 #include "io/report/report.hpp"
 #include "io/run_check.hpp"
-#include "io/snapshot_file.hpp"
 #include "io/specimen_file.hpp"
+#include "io/specimen_label.hpp"
 #include "io/text_file.hpp"
 #include "io/together.hpp"
 #include "print.hpp"
+#include "resumption.hpp"
+#include "run_files.hpp"
 #include "specimen_source.hpp"
 #include "stage_progress.hpp"
 #include "summary.hpp"
@@ -47,6 +46,8 @@ class TestRun::Running {
  public:
   Running(LoadedScene input, std::optional<Specimen> specimen, Endurance const& endurance, Ranks const& ranks)
       : ranks_(ranks), endurance_(endurance), scene_(input.scene), specimen_(std::move(specimen)) {
+    label_before_ = specimen_ ? label_of(*specimen_) : specimen_label(scene_, false);
+    strain_before_ = specimen_ ? specimen_->axial_strain.value_or(0) : 0;
     record_.version = CLATHRA_VERSION;
     record_.git_hash = CLATHRA_GIT_HASH;
     record_.input = std::move(input);
@@ -57,21 +58,14 @@ class TestRun::Running {
       if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
     });
     folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");
-    if (endurance_.resume) {
-      resumed_ = find_checkpoint(folder_, ranks_);
-      on_root(ranks_, [&] { finished_ = !resumed_ && is_finished_run(folder_, resolved_scene(scene_, folder_)); });
-      finished_ = ranks_.any(finished_);
-    }
+    if (endurance_.resume) look_for_an_earlier_part();
+    if (finished_ || resumes()) return;
     on_root(ranks_, [&] {
-      if (!resumed_ && !finished_) lock_->clear(scene_.sample.file);
+      if (!endurance_.resume && !endurance_.overwrite) require_no_unfinished_run();
+      lock_->clear(scene_.sample.file);
     });
-    checkpoints_.emplace(folder_, ranks_, resumed_);
-    if (resumed_) {
-      record_.checkpoint_digest = resumed_->digest;
-      line_.note(fmt::format("clathra: goes on from step {} of the shear", resumed_->step));
-    } else if (endurance_.resume && !finished_) {
-      line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
-    }
+    checkpoints_.emplace(folder_, ranks_, std::nullopt);
+    if (endurance_.resume) line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
   }
 
   void warn(std::string const& text) { line_.warn(text); }
@@ -79,7 +73,7 @@ class TestRun::Running {
   /// @throws whatever ended the run, after run.json says so
   ExitCode run() {
     if (finished_) return print_result(fmt::format("this run is finished: {}\n", folder_.string()));
-    if (!resumed_) begin_record();
+    if (!resumes()) begin_record();
     try {
       KokkosSession const kokkos;
       shear();
@@ -98,13 +92,32 @@ class TestRun::Running {
       return fail_here(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
     }
     conclude(ExitCode::done, "finished");
-    on_root(ranks_, [&] { remove_checkpoints(folder_); });  // last: what is finished needs them no more
+    on_root(ranks_, [&] {
+      flush_run_folder(folder_);
+      remove_checkpoints(folder_);  // last: what is finished and on the disk needs them no more
+    });
     line_.repeat_warnings();
     print_result(summary_->text() + fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
     return ExitCode::done;
   }
 
  private:
+  bool resumes() const { return !found_.usable.empty(); }
+
+  void look_for_an_earlier_part() {
+    found_ = find_checkpoints(folder_, ranks_);
+    on_root(ranks_, [&] { finished_ = !resumes() && is_finished_run(folder_, scene_, record_.specimen_digest); });
+    finished_ = ranks_.any(finished_);
+  }
+
+  void require_no_unfinished_run() const {
+    if (std::optional<std::string> const reason = unfinished_run(folder_))
+      throw FileProblem(ExitCode::refused, folder_,
+                        fmt::format("holds a run that is not finished ({}): --resume goes on with it, --overwrite deletes it, "
+                                    "--output names another folder",
+                                    *reason));
+  }
+
   /// From here on the folder is that of this run. A run that is resumed must first have understood its checkpoint.
   void begin_record() {
     on_root(ranks_, [&] {
@@ -122,28 +135,28 @@ class TestRun::Running {
   }
 
   std::unique_ptr<BiaxialTest> prepared_test() {
-    if (resumed_) {
-      auto test = std::make_unique<BiaxialTest>(scene_, read_checkpoint(*resumed_, scene_, ranks_), ranks_);
-      std::string const hash = hash_text(test->state_hash());
-      std::vector<HistoryEntry> history;
-      on_each(ranks_, [&] {
-        if (hash != checkpoint_state_hash(resumed_->file))
-          throw FileProblem(ExitCode::bad_input, resumed_->file, "does not give the state that it was written with");
-        history = read_history(folder_ / "history.csv", resumed_->progress.history_bytes);
-      });
-      for (HistoryEntry const& entry : history) {
-        last_ = entry.row;
-        summary_->add(entry.row);
-        if (entry.energy) summary_->add(*entry.energy);
-      }
-      begin_record();
-      return test;
-    }
+    if (resumes()) return resumed_test();
     make_specimen();
     auto test = std::make_unique<BiaxialTest>(scene_, std::move(*specimen_), show_stage(line_, ranks_), ranks_);
     specimen_.reset();
     return_free_memory();
     return test;
+  }
+
+  std::unique_ptr<BiaxialTest> resumed_test() {
+    Resumption resumed = resume_run(found_, folder_, scene_, ranks_);
+    resumed_ = resumed.checkpoint;
+    for (std::string const& problem : resumed.passed_over) warn("a checkpoint is passed over: " + problem);
+    line_.note(fmt::format("clathra: goes on from step {} of the shear", resumed_->step));
+    record_.checkpoint_digest = resumed_->digest;
+    checkpoints_.emplace(folder_, ranks_, resumed_);
+    for (HistoryEntry const& entry : resumed.history) {
+      last_ = entry.row;
+      summary_->add(entry.row);
+      if (entry.energy) summary_->add(*entry.energy);
+    }
+    begin_record();
+    return std::move(resumed.test);
   }
 
   /// Bonds, consolidates, shears and writes what comes out.
@@ -165,38 +178,27 @@ class TestRun::Running {
     record_.stages["shear"] = summary_->numbers();
     record_.state_hash = test->state_hash();
     return_free_memory();
-    write_specimen(folder_ / "final.h5", test->specimen(), ranks_);
+    write_specimen(folder_ / "final.h5", sheared_specimen(*test), ranks_);
   }
 
-  void open_files(BiaxialTest& test) {
-    std::vector<SnapshotEntry> const before = resumed_ ? resumed_->progress.snapshots : std::vector<SnapshotEntry>();
-    on_root(ranks_, [&] {
-      bool const events = scene_.output.events && has_bonds(scene_);
-      if (resumed_) {
-        history_.emplace(folder_ / "history.csv", resumed_->progress.history_bytes);
-        if (events) events_.emplace(folder_ / "events.csv", resumed_->progress.events_bytes);
-      } else {
-        history_.emplace(folder_ / "history.csv", scene_.output.energy);
-        if (events) events_.emplace(folder_ / "events.csv");
-      }
-    });
-    if (scene_.output.snapshots > 0)
-      snapshots_.emplace(folder_, ranks_, before,
-                         scene_.output.full_precision ? SnapshotNumbers::full : SnapshotNumbers::rounded);
-    if (resumed_ && snapshots_) since_snapshot_ = test.events_after(before.empty() ? -1 : before.back().step);
+  Specimen sheared_specimen(BiaxialTest const& test) const {
+    Specimen specimen = test.specimen();
+    specimen.axial_strain = strain_before_ + last_.eps1;
+    specimen.provenance = provenance_text(record_, label_after(label_before_, scene_, specimen.critical_thickness > 0));
+    return specimen;
   }
 
   void write_curves(BiaxialTest& test, double preparing_seconds) {
-    open_files(test);
+    files_.emplace(folder_, scene_, ranks_, test, resumed_ ? std::optional(resumed_->progress) : std::nullopt);
     Speedometer const clock(test.strain_fraction());
     std::int64_t const steps_before = test.disc_steps();
     double const searching_before = test.search_seconds();
-    if (!resumed_) write_all(test);
+    if (!resumed_) write_record_of(test);
     // What took long to prepare is kept at once.
     if (!resumed_ && endurance_.checkpoint_every > 0 && ranks_.any(preparing_seconds > 0.05 * endurance_.checkpoint_every))
       write_checkpoint(test);
     while (!test.finished()) {
-      if (test.advance(pace_)) write_all(test);
+      if (test.advance(pace_)) write_record_of(test);
       record_.disc_steps = test.disc_steps() - steps_before;
       record_.wall_seconds["shear"] = clock.seconds();
       record_.wall_seconds["neighbour_searches"] = test.search_seconds() - searching_before;
@@ -204,15 +206,15 @@ class TestRun::Running {
       show(test, clock.text(test.strain_fraction(), record_.disc_steps));
       attend(test);
     }
-    on_root(ranks_, [&] {
-      history_->close();
-      if (events_) events_->close();
-    });
+    files_->close();
   }
 
-  void write_all(BiaxialTest& test) {
-    write_row(test);
-    if (snapshots_) write_snapshot_if_due(test);
+  void write_record_of(BiaxialTest& test) {
+    last_ = test.record();
+    summary_->add(last_);
+    EnergyRow const energy = scene_.output.energy ? test.energy() : EnergyRow();
+    if (scene_.output.energy) summary_->add(energy);
+    files_->write(test, last_, energy);
   }
 
   /// Looks, about four times a second, whether the run is to stop or a checkpoint is due. All ranks decide alike.
@@ -235,40 +237,11 @@ class TestRun::Running {
 
   void write_checkpoint(BiaxialTest& test) {
     Speedometer const clock;
-    RunProgress progress;
-    on_root(ranks_, [&] {
-      progress.history_bytes = history_->flushed_bytes();
-      if (events_) progress.events_bytes = events_->flushed_bytes();
-    });
-    if (snapshots_) progress.snapshots = snapshots_->entries();
+    RunProgress const progress = files_->flushed();
     return_free_memory();
     checkpoints_->write(scene_, test.state(), last_.step, progress);
     record_.wall_seconds["checkpoints"] += clock.seconds();
     last_checkpoint_ = wall_.seconds();
-  }
-
-  void write_row(BiaxialTest& test) {
-    last_ = test.record();
-    summary_->add(last_);
-    EnergyRow const energy = scene_.output.energy ? test.energy() : EnergyRow();
-    if (scene_.output.energy) summary_->add(energy);
-    std::vector<BreakEvent> const broken = test.take_events();
-    on_root(ranks_, [&] {
-      if (scene_.output.energy)
-        history_->write(last_, energy);
-      else
-        history_->write(last_);
-      if (events_) events_->write(broken);
-      if (scene_.output.snapshots > 0) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
-    });
-  }
-
-  void write_snapshot_if_due(BiaxialTest& test) {
-    double const next = static_cast<double>(snapshots_->entries().size()) / scene_.output.snapshots;
-    if (test.strain_fraction() < next - 1e-9) return;
-    Snapshot snapshot = test.snapshot();
-    snapshot.events = std::exchange(since_snapshot_, {});
-    snapshots_->write(snapshot);
   }
 
   void show(BiaxialTest const& test, std::string const& speed) {
@@ -307,7 +280,7 @@ class TestRun::Running {
   }
 
   ExitCode stopped(std::string const& cause) {
-    bool const kept = checkpoints_->written() > 0 || resumed_;
+    bool const kept = resumes() || checkpoints_->written() > 0;
     ExitCode const code = kept ? ExitCode::to_be_resumed : ExitCode::interrupted;
     std::string const where = kept ? fmt::format("stopped {} at an axial strain of {:.3g} %", cause, last_.eps1 * 100) : cause;
     conclude(code, where);
@@ -333,17 +306,17 @@ class TestRun::Running {
   Endurance endurance_;
   Scene scene_;
   std::optional<Specimen> specimen_;
-  std::optional<OutputFolder> lock_;    // on rank 0
-  std::optional<HistoryFile> history_;  // on rank 0
-  std::optional<EventsFile> events_;    // on rank 0
+  SceneTexts label_before_;           // of the specimen before this test
+  double strain_before_ = 0;          // axial, of earlier tests
+  std::optional<OutputFolder> lock_;  // on rank 0
   std::filesystem::path folder_;
   RunRecord record_;
   ProgressLine line_;
   std::optional<Summary> summary_;
   HistoryRow last_;
-  std::vector<BreakEvent> since_snapshot_;
-  std::optional<SnapshotSeries> snapshots_;
-  std::optional<FoundCheckpoint> resumed_;
+  std::optional<RunFiles> files_;
+  FoundCheckpoints found_;                  // none where the run begins anew
+  std::optional<FoundCheckpoint> resumed_;  // the one of them that it goes on from
   std::optional<CheckpointSeries> checkpoints_;
   Speedometer wall_;
   double last_glance_ = 0, last_checkpoint_ = 0;  // [s]

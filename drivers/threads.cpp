@@ -1,9 +1,13 @@
 #include "threads.hpp"
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 #include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -14,10 +18,60 @@
 namespace clathra {
 namespace {
 
-int core_count() {
+// Of a waiting thread before it sleeps, about 0.1 ms. Below 1,000 threads fall asleep between the kernels of a step, above 30,000 a
+// thread keeps a core from the program that its partner waits for (table in docs/performance.md).
+constexpr int spins = 10000;
+
+/// What was found before the program started itself anew: OMP_NUM_THREADS is no longer the user's since.
+struct Found {
+  int cores = 1;  ///< that this process may use
+  int asked = 0;  ///< threads, by OMP_NUM_THREADS; 0 = not
+};
+constexpr char found_name[] = "CLATHRA_FOUND";
+
+Found look() {
+  Found found;
+#ifdef _OPENMP
+  found.cores = std::max(1, omp_get_num_procs());  // knows them where OMP_PROC_BIND has bound this thread to one of them already
+#else
   cpu_set_t cores;
   CPU_ZERO(&cores);
-  return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
+  if (::sched_getaffinity(0, sizeof cores, &cores) == 0) found.cores = std::max(1, CPU_COUNT(&cores));
+#endif
+  if (char const* const set = std::getenv("OMP_NUM_THREADS")) found.asked = std::max(0, std::atoi(set));
+  return found;
+}
+
+/// Takes back that OpenMP has bound this thread to one core: the program that is started anew would have no other.
+void unbind() {
+#ifdef _OPENMP
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  for (int place = 0; place < omp_get_num_places(); ++place) {
+    std::vector<int> of_place(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+    omp_get_place_proc_ids(place, of_place.data());
+    for (int const core : of_place) CPU_SET(static_cast<std::size_t>(core), &cores);
+  }
+  if (CPU_COUNT(&cores) > 0) ::sched_setaffinity(0, sizeof cores, &cores);
+#endif
+}
+
+Found const& found() {
+  static Found const found = [] {
+    // The number of the process says that it was this one: a child inherits the variable, too.
+    long process = 0;
+    Found before;
+    char const* const text = std::getenv(found_name);
+    bool const mine =
+        text && std::sscanf(text, "%ld %d %d", &process, &before.cores, &before.asked) == 3 && process == ::getpid();
+    return mine ? before : look();
+  }();
+  return found;
+}
+
+void keep_for_the_new_start() {
+  std::string const text = std::to_string(::getpid()) + " " + std::to_string(found().cores) + " " + std::to_string(found().asked);
+  ::setenv(found_name, text.c_str(), 1);
 }
 
 /// Sets a variable; true if that changed it.
@@ -36,28 +90,37 @@ void start_anew() {
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
+  unbind();
   if (!arguments.empty()) ::execv("/proc/self/exe", pointers.data());
 }
 
 }  // namespace
 
 int thread_count(int wanted) {
-  if (wanted > 0) return wanted;
-  char const* const set = std::getenv("OMP_NUM_THREADS");
-  int const from_environment = set ? std::atoi(set) : 0;
-  return from_environment > 0 ? from_environment : std::max(1, core_count() / launched_ranks_here());
+  int const asked = wanted > 0 ? wanted : found().asked;
+  return std::min(found().cores, asked > 0 ? asked : std::max(1, found().cores / launched_ranks_here()));
+}
+
+std::string thread_warning(int wanted) {
+  int const asked = wanted > 0 ? wanted : found().asked, cores = found().cores;
+  if (asked <= cores) return {};
+  return std::to_string(asked) + " threads were asked for, this process may use " + std::to_string(cores) + " core" +
+         (cores == 1 ? "" : "s") + ": it takes " + std::to_string(cores) + ", since more would only wait for each other";
 }
 
 void settle_threads(int wanted) {
   int const threads = thread_count(wanted);
+  keep_for_the_new_start();
   bool changed = settle("OMP_NUM_THREADS", std::to_string(threads));
   if (launched_ranks() > 1) ::setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // more ranks than cores is for the user to choose
   ::setenv("KOKKOS_NUM_THREADS", std::to_string(threads).c_str(), 1);
   if (!std::getenv("OMP_PROC_BIND")) {
-    bool const all = threads == core_count();
+    bool const all = threads == found().cores;
     changed = settle("OMP_PROC_BIND", all ? "true" : "false") || changed;
     if (all && !std::getenv("OMP_PLACES")) ::setenv("OMP_PLACES", "cores", 1);
   }
+  if (!std::getenv("OMP_WAIT_POLICY") && !std::getenv("GOMP_SPINCOUNT"))
+    changed = settle("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
   if (changed) start_anew();
 }
 

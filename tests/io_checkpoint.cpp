@@ -63,7 +63,7 @@ class CheckpointFile : public testing::Test {
     for (int step : {5, 10}) {
       go_on(test, 5);
       RunProgress progress;
-      progress.history_bytes = 1000u * static_cast<unsigned>(step);
+      progress.history = {1000u * static_cast<unsigned>(step), "of the rows"};
       progress.snapshots = {{"snap/000000000000.h5", 0, 0.0, 144, 300}};
       series.write(test_scene(), test.state(), step, progress);
     }
@@ -75,10 +75,14 @@ class CheckpointFile : public testing::Test {
 
 TEST_F(CheckpointFile, GoesOnWithTheBitsOfTheTestThatWasLeftAlone) {
   BiaxialTest alone = two_generations();
-  std::optional<FoundCheckpoint> const found = find_checkpoint(folder);
-  ASSERT_TRUE(found);
+  FoundCheckpoints const both = find_checkpoints(folder);
+  ASSERT_EQ(both.usable.size(), 2u);
+  EXPECT_TRUE(both.damaged.empty());
+  EXPECT_EQ(both.usable[1].step, 5);
+  FoundCheckpoint const* const found = &both.usable[0];
   EXPECT_EQ(found->step, 10);
-  EXPECT_EQ(found->progress.history_bytes, 10000u);
+  EXPECT_EQ(found->progress.history.bytes, 10000u);
+  EXPECT_EQ(found->progress.history.digest, "of the rows");
   ASSERT_EQ(found->progress.snapshots.size(), 1u);
   EXPECT_EQ(found->progress.snapshots[0].pairs, 300u);
   BiaxialTest again(test_scene(), read_checkpoint(*found, test_scene(), {}), {});
@@ -116,13 +120,15 @@ TEST_F(CheckpointFile, IsTakenFromTheOtherGenerationWhereOneIsDamaged) {
     }
     if (bad == good[which]) continue;
     put(files[which], bad);
-    std::optional<FoundCheckpoint> const found = find_checkpoint(folder);
-    ASSERT_TRUE(found) << n;
+    FoundCheckpoints const found = find_checkpoints(folder);
+    ASSERT_FALSE(found.usable.empty()) << n;
     // White space of a manifest means nothing: it may still be whole.
-    if (found->generation == 1) {
+    if (found.usable[0].generation == 1) {
       EXPECT_EQ(which, 1u) << n;
-      EXPECT_EQ(found->step, 10) << n;
+      EXPECT_EQ(found.usable[0].step, 10) << n;
     } else {
+      ASSERT_EQ(found.damaged.size(), 1u) << n;
+      EXPECT_NE(std::string(found.damaged[0].what()).find("ckpt/1."), std::string::npos) << found.damaged[0].what();
       ++named;
     }
     put(files[which], good[which]);
@@ -133,7 +139,7 @@ TEST_F(CheckpointFile, IsTakenFromTheOtherGenerationWhereOneIsDamaged) {
   put(files[0], good[0].substr(100));
   put(folder / "ckpt/0.h5", "x");
   try {
-    (void)find_checkpoint(folder);
+    (void)find_checkpoints(folder);
     FAIL() << "both are damaged";
   } catch (FileProblem const& problem) {
     EXPECT_EQ(problem.code, ExitCode::file_missing);
@@ -144,17 +150,20 @@ TEST_F(CheckpointFile, IsTakenFromTheOtherGenerationWhereOneIsDamaged) {
 
 TEST_F(CheckpointFile, OfAnotherSceneIsRefusedWithWhatDiffers) {
   (void)two_generations();
-  FoundCheckpoint const found = *find_checkpoint(folder);
+  FoundCheckpoint const found = find_checkpoints(folder).usable.at(0);
   Scene other = test_scene();
   other.run.damping = 0.2;
-  other.run.threads = 7;  // does not matter
+  other.run.threads = 7;  // these do not matter
+  other.run.force = !other.run.force;
+  other.output.folder = "elsewhere";
   try {
     (void)read_checkpoint(found, other, {});
     FAIL() << "another scene";
   } catch (FileProblem const& problem) {
     EXPECT_EQ(problem.code, ExitCode::refused);
     EXPECT_NE(std::string(problem.what()).find("run.damping was 0.3, is 0.2"), std::string::npos) << problem.what();
-    EXPECT_EQ(std::string(problem.what()).find("run.threads"), std::string::npos) << problem.what();
+    for (char const* const key : {"run.threads", "run.force", "output.folder"})
+      EXPECT_EQ(std::string(problem.what()).find(key), std::string::npos) << problem.what();
   }
 }
 
@@ -226,10 +235,10 @@ TEST_F(CheckpointFile, OfEveryVersionIsOpenedForEver) {
   std::pair<char const*, char const*> const ends[] = {{"checkpoint-1", "0xa72a83d66782e83f"},
                                                       {"checkpoint-2", "0x3f415ba3dbff8e58"}};
   for (auto const& [version, hash_at_the_end] : ends) {
-    std::optional<FoundCheckpoint> const found = find_checkpoint(fs::path(CLATHRA_GOLDEN) / version);
-    ASSERT_TRUE(found) << version;
-    BiaxialTest test(test_scene(), read_checkpoint(*found, test_scene(), {}), {});
-    EXPECT_EQ(hash_text(test.state_hash()), checkpoint_state_hash(found->file)) << version;
+    FoundCheckpoints const found = find_checkpoints(fs::path(CLATHRA_GOLDEN) / version);
+    ASSERT_FALSE(found.usable.empty()) << version;
+    BiaxialTest test(test_scene(), read_checkpoint(found.usable[0], test_scene(), {}), {});
+    EXPECT_EQ(hash_text(test.state_hash()), checkpoint_state_hash(found.usable[0].file)) << version;
     go_on(test, 100);
     EXPECT_EQ(hash_text(test.state_hash()), hash_at_the_end) << version;
   }

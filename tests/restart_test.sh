@@ -77,6 +77,9 @@ code=0
 [ "$code" = 66 ] && grep -q "has digest" log || fail "a damaged checkpoint is not refused ($code)"
 code=0
 start 2 "${given[@]}" --output stopped --max-walltime "$(seconds $quarter)s" >log 2>&1 || code=$?
+[ "$code" = 77 ] && grep -q "holds a run that is not finished" log || fail "a run that is not finished is not kept ($code)"
+code=0
+start 2 "${given[@]}" --output stopped --overwrite --max-walltime "$(seconds $quarter)s" >log 2>&1 || code=$?
 [ "$code" = 75 ] || fail "code $code at the second try"
 "$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || fail "cannot be resumed on one rank"
 compare stopped

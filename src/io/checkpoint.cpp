@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "io/checkpoint_content.hpp"
 #include "io/digest.hpp"
 #include "io/problems.hpp"
-#include "io/scene_file.hpp"
 #include "io/text_file.hpp"
 #include "io/together.hpp"
 
@@ -33,8 +32,10 @@ Json content_json(FoundCheckpoint const& c) {
           {"step", c.step},
           {"bytes", std::filesystem::file_size(c.file)},
           {"digest_xxh3_128", c.digest},
-          {"history_bytes", c.progress.history_bytes},
-          {"events_bytes", c.progress.events_bytes},
+          {"history_bytes", c.progress.history.bytes},
+          {"history_digest_xxh3_128", c.progress.history.digest},
+          {"events_bytes", c.progress.events.bytes},
+          {"events_digest_xxh3_128", c.progress.events.digest},
           {"snapshots", snapshots}};
 }
 
@@ -51,8 +52,9 @@ FoundCheckpoint checkpoint_of(Json const& content, std::filesystem::path const& 
   c.sequence = content.at("sequence").get<std::int64_t>();
   c.step = content.at("step").get<std::int64_t>();
   c.digest = content.at("digest_xxh3_128").get<std::string>();
-  c.progress.history_bytes = content.at("history_bytes").get<std::uintmax_t>();
-  c.progress.events_bytes = content.at("events_bytes").get<std::uintmax_t>();
+  // Manifests of earlier versions have no digests of the rows.
+  c.progress.history = {content.at("history_bytes").get<std::uintmax_t>(), content.value("history_digest_xxh3_128", "")};
+  c.progress.events = {content.at("events_bytes").get<std::uintmax_t>(), content.value("events_digest_xxh3_128", "")};
   for (Json const& e : content.at("snapshots"))
     c.progress.snapshots.push_back({e.at("file").get<std::string>(), e.at("step").get<std::int64_t>(), e.at("eps1").get<double>(),
                                     e.at("discs").get<std::size_t>(), e.at("pairs").get<std::size_t>()});
@@ -117,55 +119,68 @@ void CheckpointSeries::write(Scene const& scene, TestState const& state, std::in
 
 namespace {
 
-std::optional<FoundCheckpoint> newest_checkpoint(std::filesystem::path const& run_folder) {
-  std::optional<FoundCheckpoint> newest;
-  std::string problems;
+FoundCheckpoints look_for_checkpoints(std::filesystem::path const& run_folder) {
+  FoundCheckpoints found;
   for (int generation : {0, 1}) {
     std::error_code ignored;
     if (!std::filesystem::exists(file_of(run_folder, generation, "json"), ignored)) continue;
     try {
-      FoundCheckpoint const found = read_manifest(run_folder, generation);
-      if (!newest || found.sequence > newest->sequence) newest = found;
+      found.usable.push_back(read_manifest(run_folder, generation));
     } catch (FileProblem const& problem) {
-      problems += (problems.empty() ? "" : "; ") + std::string(problem.what());
+      found.damaged.push_back(problem);
     }
   }
-  if (!newest && !problems.empty())
-    throw FileProblem(ExitCode::file_missing, run_folder / "ckpt", "holds no checkpoint that can be used: " + problems);
-  return newest;
+  std::sort(found.usable.begin(), found.usable.end(), [](auto const& a, auto const& b) { return a.sequence > b.sequence; });
+  if (found.usable.empty() && !found.damaged.empty())
+    throw FileProblem(ExitCode::file_missing, run_folder / "ckpt", no_checkpoint_text(found.damaged));
+  return found;
 }
 
 }  // namespace
 
-std::optional<FoundCheckpoint> find_checkpoint(std::filesystem::path const& run_folder, Ranks const& ranks) {
-  std::optional<FoundCheckpoint> found;
-  on_root(ranks, [&] { found = newest_checkpoint(run_folder); });
-  if (ranks.alone()) return found;
-  std::string const text = ranks.from_root(found ? content_json(*found).dump() : "");
-  if (text.empty()) return std::nullopt;
-  int const generation = static_cast<int>(ranks.max(found ? found->generation : 0));
-  return checkpoint_of(Json::parse(text), run_folder, generation);
+std::string no_checkpoint_text(std::vector<FileProblem> const& problems) {
+  std::string text;
+  for (FileProblem const& problem : problems) {
+    std::string const what = problem.what();
+    if (text.find(what) == std::string::npos) text += (text.empty() ? "" : "; ") + what;  // rows are those of both
+  }
+  return "holds no checkpoint that can be used: " + text +
+         "; nothing was changed: put back what was there, or begin again with --overwrite or in another folder";
 }
 
-bool is_finished_run(std::filesystem::path const& run_folder, std::string const& resolved) {
-  std::error_code ignored;
-  std::filesystem::path const record = run_folder / "run.json";
-  if (!std::filesystem::exists(record, ignored)) return false;
-  Json const json = Json::parse(read_text_file(record, largest_manifest), nullptr, false);
-  if (!json.is_object() || !json.contains("exit") || json["exit"].value("reason", "") != "finished") return false;
-  // Read and written again: what wrote it may not have known all keys.
-  std::filesystem::path const file = run_folder / "resolved.toml";
-  Scene const then = parse_scene(read_text_file(file, largest_manifest), file, run_folder).scene;
-  if (resolved_scene(then, run_folder) != resolved)
-    throw FileProblem(ExitCode::refused, run_folder,
-                      "holds the finished run of another scene; --resume would destroy it, choose another folder");
-  return true;
+FoundCheckpoints find_checkpoints(std::filesystem::path const& run_folder, Ranks const& ranks) {
+  FoundCheckpoints found;
+  on_root(ranks, [&] { found = look_for_checkpoints(run_folder); });
+  if (ranks.alone()) return found;
+  Json list = Json::array();
+  for (FoundCheckpoint const& c : found.usable) list.push_back({{"generation", c.generation}, {"content", content_json(c)}});
+  list = Json::parse(ranks.from_root(list.dump()));
+  found.usable.clear();
+  for (Json const& c : list) found.usable.push_back(checkpoint_of(c.at("content"), run_folder, c.at("generation").get<int>()));
+  return found;
+}
+
+void require_rows(std::filesystem::path const& run_folder, RunProgress const& progress) {
+  for (auto const& [name, rows] : {std::pair{"history.csv", progress.history}, std::pair{"events.csv", progress.events}}) {
+    if (rows.digest.empty()) continue;
+    std::filesystem::path const file = run_folder / name;
+    if (std::string const now = file_digest(file, rows.bytes); now != rows.digest)
+      throw FileProblem(ExitCode::bad_input, file,
+                        fmt::format("its first {} bytes are not those that the run wrote: digest {} instead of {}", rows.bytes,
+                                    now, rows.digest));
+  }
 }
 
 TestState read_checkpoint(FoundCheckpoint const& checkpoint, Scene const& scene, Ranks const& ranks) {
   TestState state;
   on_each(ranks, [&] { state = read_checkpoint_content(checkpoint.file, scene, ranks); });
   return state;
+}
+
+bool has_checkpoints(std::filesystem::path const& run_folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(file_of(run_folder, 0, "json"), ignored) ||
+         std::filesystem::exists(file_of(run_folder, 1, "json"), ignored);
 }
 
 void remove_checkpoints(std::filesystem::path const& run_folder) {

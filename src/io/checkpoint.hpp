@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "domain/experiment.hpp"
+#include "io/problems.hpp"
 #include "io/snapshot_file.hpp"
+#include "io/text_file.hpp"
 
 namespace clathra {
 
 /// Where the files of a run stood when a checkpoint was written.
 struct RunProgress {
-  std::uintmax_t history_bytes = 0, events_bytes = 0;
+  RowsWritten history, events;
   std::vector<SnapshotEntry> snapshots;
 };
 
@@ -42,14 +44,22 @@ class CheckpointSeries {
   std::int64_t sequence_ = 0, written_ = 0;
 };
 
-/// The newest checkpoint of a run's folder whose size and digest are those of its manifest; nothing where there is none at all.
-/// @throws FileProblem file_missing where there are some, but none that can be used, with what is wrong with each
-/// Rank 0 looks; all learn of what it finds.
-std::optional<FoundCheckpoint> find_checkpoint(std::filesystem::path const& run_folder, Ranks const& ranks = {});
+/// What a run's folder holds of checkpoints.
+struct FoundCheckpoints {
+  std::vector<FoundCheckpoint> usable;  ///< size and digest are those of the manifest; the newest first
+  std::vector<FileProblem> damaged;     ///< what is wrong with each of the others; on rank 0 only
+};
 
-/// Whether a folder holds the results of a finished run of this scene.
-/// @param resolved  what its resolved.toml must hold;  @throws FileProblem refused where it is a finished run of another scene
-bool is_finished_run(std::filesystem::path const& run_folder, std::string const& resolved);
+/// Rank 0 looks; all learn of what it finds. @throws FileProblem file_missing where there are some, but none that can be used,
+/// with what is wrong with each
+FoundCheckpoints find_checkpoints(std::filesystem::path const& run_folder, Ranks const& ranks = {});
+
+/// The text of several problems, with how the user can go on where no checkpoint of a folder serves.
+std::string no_checkpoint_text(std::vector<FileProblem> const& problems);
+
+/// Whether the rows that a run wrote before a checkpoint still stand in its folder as they were.
+/// @throws FileProblem file_missing or bad_input where they do not
+void require_rows(std::filesystem::path const& run_folder, RunProgress const& progress);
 
 /// This rank's part of a checkpoint.
 /// @throws FileProblem bad_input where the content is no checkpoint of this version, or refused where it is one of another scene,
@@ -60,6 +70,9 @@ TestState read_checkpoint(FoundCheckpoint const& checkpoint, Scene const& scene,
 std::string checkpoint_state_hash(std::filesystem::path const& file);
 /// Whether an HDF5 file says that it is a checkpoint.
 bool is_checkpoint(std::filesystem::path const& file);
+
+/// Whether a folder has a checkpoint, whole or not.
+bool has_checkpoints(std::filesystem::path const& run_folder);
 
 /// Removes the checkpoints of a finished run.
 void remove_checkpoints(std::filesystem::path const& run_folder);

@@ -9,8 +9,7 @@
 #include "io/checkpoint.hpp"
 #include "io/event_columns.hpp"
 #include "io/run_record.hpp"
-#include "io/scene_value.hpp"
-#include "io/schema.hpp"
+#include "io/scene_comparison.hpp"
 
 namespace clathra {
 namespace {
@@ -19,19 +18,8 @@ using Json = nlohmann::json;
 
 constexpr char format_name[] = "clathra checkpoint";
 
-/// Keys that do not change what is computed.
-bool may_differ(Key const& key) {
-  return key.section() == "output" ? key.leaf() == "folder" : key.name == "run.threads" || key.name == "sample.file";
-}
-
-/// The scene, key by key, as the user writes values.
-Json scene_text(Scene const& scene) {
-  Json text = Json::object();
-  for (Key const& key : schema()) {
-    if (!may_differ(key)) text[std::string(key.name)] = value_text(key, scene);
-  }
-  return text;
-}
+/// Of a checkpoint RUN/ckpt/0.h5.
+std::filesystem::path run_folder_of(std::filesystem::path const& checkpoint) { return checkpoint.parent_path().parent_path(); }
 
 /// Where the numbers stand in the records of a state: id, the disc's columns, the length of its row, and then entry by entry the
 /// neighbour's id and the history. A file holds them as columns, one at a time in memory.
@@ -165,25 +153,17 @@ void read_records(Hdf5File const& file, SimulationState& s, Ranks const& ranks) 
     layout.for_each_entry(s.discs, 1 + c, next_of(read_finite(file, "rows/" + s.history_columns[c], row_entries)));
 }
 
-void require_same_scene(Hdf5File const& file, Json const& then, Scene const& scene) {
-  Json const now = scene_text(scene), defaults = scene_text({});
-  std::string different;
-  for (auto const& [name, value] : now.items()) {
-    // What wrote the checkpoint may not have known a key yet: then it did what is the default.
-    std::string const before = (then.contains(name) ? then : defaults).at(name).get<std::string>();
-    if (before != value.get<std::string>())
-      different += fmt::format("; {} was {}, is {}", name, before, value.get<std::string>());
-  }
-  if (!different.empty()) file.fail(ExitCode::refused, "is a checkpoint of another scene" + different);
-}
-
 }  // namespace
 
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks) {
   SimulationState const& s = state.simulation;
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
-  Json const about = {{"scene", scene_text(scene)},          {"test", state.numbers},   {"preparation", state.preparation},
-                      {"warnings", state.warnings},          {"simulation", s.numbers}, {"disc_columns", s.disc_columns},
+  Json const about = {{"scene", scene_texts(scene, run_folder_of(path))},
+                      {"test", state.numbers},
+                      {"preparation", state.preparation},
+                      {"warnings", state.warnings},
+                      {"simulation", s.numbers},
+                      {"disc_columns", s.disc_columns},
                       {"history_columns", s.history_columns}};
   auto const write_content = [&](Hdf5File& file) {
     file.set_attribute("format", std::string(format_name));
@@ -210,7 +190,8 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   Json const about = Json::parse(file.read_text("about"), nullptr, false);
   TestState state;
   try {
-    require_same_scene(file, about.at("scene"), scene);
+    std::string const different = scene_differences(about.at("scene").get<SceneTexts>(), scene, run_folder_of(path));
+    if (!different.empty()) file.fail(ExitCode::refused, "is a checkpoint of another scene" + different);
     about.at("test").get_to(state.numbers);
     about.at("preparation").get_to(state.preparation);
     about.at("warnings").get_to(state.warnings);

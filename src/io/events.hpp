@@ -18,7 +18,7 @@ class EventsFile {
   /// One row an event: step, ids of the discs, how the bond broke, where [m]. @throws FileProblem io_error
   void write(std::vector<BreakEvent> const& events);
   void close() { file_.close(); }
-  std::uintmax_t flushed_bytes() const { return file_.flushed_bytes(); }
+  RowsWritten flushed() const { return file_.flushed(); }
 
  private:
   RowFile file_;

@@ -20,7 +20,7 @@ class HistoryFile {
   void write(HistoryRow const& row);
   void write(HistoryRow const& row, EnergyRow const& energy);
   void close() { file_.close(); }
-  std::uintmax_t flushed_bytes() const { return file_.flushed_bytes(); }
+  RowsWritten flushed() const { return file_.flushed(); }
 
  private:
   RowFile file_;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "io/digest.hpp"
 #include "io/schema.hpp"
@@ -23,6 +25,22 @@ struct JsonValue {
   }
   nlohmann::json operator()(ChoiceField const& field) const {
     return std::string(key.choices[static_cast<std::size_t>(field.get(scene))]);
+  }
+};
+
+struct SetFromJson {
+  Key const& key;
+  Scene& scene;
+  nlohmann::json const& value;
+  template <class T>
+  void operator()(T& (*at)(Scene&)) const {
+    value.get_to(at(scene));
+  }
+  void operator()(ChoiceField const& field) const {
+    auto const text = value.get<std::string>();
+    auto const name = std::find(key.choices.begin(), key.choices.end(), text);
+    if (name == key.choices.end()) throw std::invalid_argument(fmt::format("{} is '{}'", key.name, text.substr(0, 40)));
+    field.set(scene, static_cast<int>(name - key.choices.begin()));
   }
 };
 
@@ -80,6 +98,16 @@ nlohmann::json scene_json(Scene const& scene) {
   for (Key const& key : schema())
     json[std::string(key.section())][std::string(key.leaf())] = std::visit(JsonValue{key, copy}, key.field);
   return json;
+}
+
+Scene scene_of(nlohmann::json const& json) {
+  Scene scene;
+  for (Key const& key : schema()) {
+    auto const section = json.find(std::string(key.section()));
+    if (section == json.end() || !section->contains(std::string(key.leaf()))) continue;
+    std::visit(SetFromJson{key, scene, section->at(std::string(key.leaf()))}, key.field);
+  }
+  return scene;
 }
 
 void write_run_record(std::filesystem::path const& path, RunRecord const& record) {

@@ -38,6 +38,9 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
 
 /// A scene as JSON, by sections, in SI units.
 nlohmann::json scene_json(Scene const& scene);
+/// The scene of such a JSON, with defaults for the keys that it does not have. @throws std::exception where
+/// a value is none of its key
+Scene scene_of(nlohmann::json const& json);
 
 /// "0x" and 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);

@@ -192,4 +192,14 @@ std::string value_text(Key const& key, Scene const& scene) {
   return std::visit(Visitor{key, scene}, key.field);
 }
 
+std::string unquoted(std::string_view text) {
+  if (text.size() < 2 || text.front() != '"' || text.back() != '"') return std::string(text);
+  std::string result;
+  for (std::size_t k = 1; k + 1 < text.size(); ++k) {
+    if (text[k] == '\\' && k + 2 < text.size()) ++k;
+    result += text[k];
+  }
+  return result;
+}
+
 }  // namespace clathra

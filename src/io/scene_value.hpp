@@ -22,4 +22,7 @@ bool is_zero(Key const& key, Scene const& scene);
 /// The value as a scene file states it, with quotes and unit; reads back to the same bits.
 std::string value_text(Key const& key, Scene const& scene);
 
+/// The text between the quotes of a value_text(), or all of it where it has none.
+std::string unquoted(std::string_view text);
+
 }  // namespace clathra

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,9 @@ namespace clathra {
 namespace {
 
 constexpr char format_name[] = "clathra specimen";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;  // 1 knew nothing of the strain and of what bonds are made of; it is read, too
+
+constexpr double not_known = -1;  // an axial strain
 
 /// Visits every scalar of a specimen: name, value, unit.
 template <class Any, class Visit>
@@ -62,6 +65,7 @@ void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks)
   file.set_attribute("contacts", total(specimen.contacts.size()));
   file.set_attribute("periodic", std::int64_t{specimen.periodic});
   file.set_attribute("separate_bonds", std::int64_t{specimen.separate_bonds});
+  file.set_attribute("axial_strain", specimen.axial_strain.value_or(not_known), "");
   for_each_scalar(specimen, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
   file.write_text("provenance", specimen.provenance);
   file.write("particles/id", specimen.id, "");
@@ -151,17 +155,28 @@ void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   });
 }
 
+/// A file of version 1 tells only of a specimen that was just generated that nobody has sheared it.
+std::optional<double> axial_strain_of(Hdf5File const& file, std::int64_t version, std::string const& provenance) {
+  if (version == 1)
+    return nlohmann::json::parse(provenance, nullptr, false).contains("generate") ? std::optional(0.0) : std::nullopt;
+  double const strain = file.double_attribute("axial_strain");
+  if (!std::isfinite(strain)) file.fail(ExitCode::bad_input, "axial_strain is not a finite number");
+  return strain == not_known ? std::nullopt : std::optional(strain);
+}
+
 /// This rank's rows of a specimen file, checked as far as they can be without the others'.
 Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std::int64_t& discs) {
   Hdf5File const file = Hdf5File::open(path);
   if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
-  if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
-    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
+  std::int64_t const version = file.integer_attribute("version");
+  if (version < 1 || version > format_version)
+    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads 1 to {}", version, format_version));
   Specimen part;
   for_each_scalar(part, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
   part.periodic = file.integer_attribute("periodic") != 0;
   part.separate_bonds = file.integer_attribute("separate_bonds") != 0;
   part.provenance = file.read_text("provenance");
+  part.axial_strain = axial_strain_of(file, version, part.provenance);
   discs = file.integer_attribute("particles");
   std::int64_t const contacts = file.integer_attribute("contacts");
   if (discs < 0 || discs > 1'000'000'000 || contacts < 0 || contacts > 10'000'000'000)

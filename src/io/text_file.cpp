@@ -129,6 +129,7 @@ RowFile::RowFile(std::filesystem::path path, std::uintmax_t bytes) : path_(std::
     throw FileProblem(ExitCode::bad_input, path_, fmt::format("has {} bytes, the checkpoint knows of {}", end, bytes));
   if (::ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0 || ::lseek(descriptor_, 0, SEEK_END) < 0)
     throw FileProblem(ExitCode::io_error, path_, reason("cannot be cut"));
+  add_first_bytes(path_, bytes, digest_);
 }
 
 RowFile::~RowFile() {
@@ -138,11 +139,12 @@ RowFile::~RowFile() {
 void RowFile::write(std::string_view rows) {
   write_all(descriptor_, rows, path_);
   bytes_ += rows.size();
+  digest_.add(rows);
 }
 
-std::uintmax_t RowFile::flushed_bytes() const {
+RowsWritten RowFile::flushed() const {
   if (::fsync(descriptor_) != 0) throw FileProblem(ExitCode::io_error, path_, reason("cannot be written"));
-  return bytes_;
+  return {bytes_, digest_.text()};
 }
 
 void flush_folder(std::filesystem::path const& folder) {
@@ -153,6 +155,7 @@ void flush_folder(std::filesystem::path const& folder) {
 }
 
 void RowFile::close() {
+  if (descriptor_ >= 0) (void)flushed();
   int const descriptor = descriptor_;
   descriptor_ = -1;
   if (descriptor >= 0 && ::close(descriptor) != 0) throw FileProblem(ExitCode::io_error, path_, reason("cannot be written"));

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/digest.hpp"
+
 namespace clathra {
 
 /// Reads a whole file, or a pipe to its end (`<(command)`, /dev/stdin), at most `limit` bytes of it.
@@ -24,6 +26,12 @@ void require_creatable(std::filesystem::path const& path);
 /// Makes renamed files of a folder survive a power cut. @throws FileProblem io_error
 void flush_folder(std::filesystem::path const& folder);
 
+/// How far a file of rows had been written at some moment.
+struct RowsWritten {
+  std::uintmax_t bytes = 0;
+  std::string digest;  ///< of these bytes; empty where it was not kept
+};
+
 /// A new file that grows by whole rows. What has its name before is removed (a link is never followed).
 class RowFile {
  public:
@@ -36,14 +44,15 @@ class RowFile {
 
   /// One write. @throws FileProblem io_error
   void write(std::string_view rows);
-  /// @throws FileProblem io_error where the system only now reports a failed write
+  /// Everything has reached the disk then. @throws FileProblem io_error
   void close();
-  /// Its length, after everything has reached the disk. @throws FileProblem io_error
-  std::uintmax_t flushed_bytes() const;
+  /// What has reached the disk, which is all of it. @throws FileProblem io_error
+  RowsWritten flushed() const;
 
  private:
   std::filesystem::path path_;
   std::uintmax_t bytes_ = 0;
+  RunningDigest digest_;
   int descriptor_ = -1;
 };
 

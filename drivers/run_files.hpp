@@ -1,0 +1,42 @@
+#pragma once
+/// The files of a run that grow while its specimen is sheared: history, events, snapshots.
+#include <optional>
+
+#include "io/checkpoint.hpp"
+#include "io/events.hpp"
+#include "io/history.hpp"
+#include "io/snapshot_file.hpp"
+
+namespace clathra {
+
+/// All calls are collective; rank 0 writes the rows. All throw FileProblem.
+class RunFiles {
+ public:
+  /// @param before  where the files of a run that goes on stood
+  RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks, BiaxialTest const& test,
+           std::optional<RunProgress> const& before);
+
+  /// One record: its row, the bonds that broke since the last one, and a snapshot where one is due.
+  /// @param energy  of the same moment, only with scene.output.energy
+  void write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy);
+  /// Where the files stand, after everything has reached the disk.
+  RunProgress flushed() const;
+  /// Everything has reached the disk then.
+  void close();
+
+ private:
+  void write_snapshot_if_due(BiaxialTest& test);
+
+  std::filesystem::path folder_;
+  Ranks ranks_;
+  OutputScene output_;
+  std::optional<HistoryFile> history_;  // on rank 0
+  std::optional<EventsFile> events_;    // on rank 0
+  std::optional<SnapshotSeries> snapshots_;
+  std::vector<BreakEvent> since_snapshot_;  // on rank 0
+};
+
+/// The names of all files of a run's folder reach the disk, as their contents have before. @throws FileProblem io_error
+void flush_run_folder(std::filesystem::path const& folder);
+
+}  // namespace clathra

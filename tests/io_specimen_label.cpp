@@ -1,0 +1,198 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "io/specimen_file.hpp"
+#include "io/specimen_label.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A bonded patch with the label of the scene that bonded it.
+Specimen bonded_by(Scene const& scene) {
+  Specimen s = disordered_patch(6, 6);
+  s.density = scene.grains.density;
+  s.stress = scene.bond.stress;
+  bond_all(s, scene);
+  s.provenance = nlohmann::json{{"made_of", specimen_label(scene, true)}}.dump();
+  return s;
+}
+
+Scene scene_at(double saturation) {
+  Scene scene;
+  scene.hydrate.saturation = saturation;
+  return scene;
+}
+
+/// What reading a specimen by a scene says: the refusal, or the warnings line by line.
+std::string verdict(Specimen const& specimen, Scene const& scene) {
+  try {
+    std::string text;
+    for (std::string const& warning : compare_with_scene("final.h5", specimen, scene)) text += warning + "\n";
+    return text;
+  } catch (FileProblem const& problem) {
+    EXPECT_EQ(problem.code, ExitCode::refused);
+    return "refused: " + std::string(problem.what());
+  }
+}
+
+testing::AssertionResult says(std::string const& text, std::string const& wanted) {
+  if (text.find(wanted) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << text << "' does not say '" << wanted << "'";
+}
+
+testing::AssertionResult refuses(std::string const& text, std::string const& wanted) {
+  return text.find("refused: final.h5: ") == 0 ? says(text, wanted) : testing::AssertionFailure() << "taken: " << text;
+}
+
+TEST(SpecimenLabel, OfTheSceneThatMadeTheBondsIsTakenWithoutAWord) {
+  Scene const scene = scene_at(0.55);
+  EXPECT_EQ(verdict(bonded_by(scene), scene), "");
+  Scene other = scene;
+  other.hydrate.saturation = 0.55 * (1 + 1e-15);  // another unit
+  other.test.confining_stress = 3e6;
+  other.grains.friction = 0.3;
+  other.bond.critical_thickness = 1e-5;  // without effect
+  EXPECT_EQ(verdict(bonded_by(scene), other), "");
+}
+
+TEST(SpecimenLabel, BondsOfAnotherSceneAreRefusedWithBothValuesWhateverIsForced) {
+  Scene const scene = scene_at(0.55);
+  Specimen const specimen = bonded_by(scene);
+  auto const expect = [&](char const* wanted, auto&& change) {
+    Scene other = scene;
+    other.run.force = true;
+    change(other);
+    EXPECT_TRUE(refuses(verdict(specimen, other), wanted));
+  };
+  expect("hydrate.saturation was 0.55, is 0.26", [](Scene& s) { s.hydrate.saturation = 0.26; });
+  expect("hydrate.density was 900 kg/m^3, is 920 kg/m^3", [](Scene& s) { s.hydrate.density = 920; });
+  expect("bond.composite was parallel, is memory", [](Scene& s) { s.bond.composite = Composite::memory; });
+  expect("bond.law was thickness_dependent, is constant_thickness",
+         [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; });
+  expect("bond.coefficients was thm, is printed", [](Scene& s) { s.bond.coefficients = CoefficientSource::printed; });
+  expect("bond.moment_scale was similitude, is rod_mm", [](Scene& s) { s.bond.moment_scale = MomentScale::rod_mm; });
+  expect("bond.moment_ratio was ", [](Scene& s) { s.bond.moment_ratio = 0.1; });
+  expect("bond.mode was eq3, is areal_target", [](Scene& s) { s.bond.mode = BondingMode::areal_target; });
+  expect("hydrate.saturation was 0.55, is 0", [](Scene& s) { s.hydrate.saturation = 0; });
+  expect("bond.law was thickness_dependent, is none", [](Scene& s) { s.bond.law = BondLawKind::none; });
+  expect("its grains have a density of 2600 kg/m^3, grains.density is 2700 kg/m^3", [](Scene& s) { s.grains.density = 2700; });
+}
+
+TEST(SpecimenLabel, WhatMayBeChosenAnewIsWarnedOf) {
+  Scene const scene = scene_at(0.55);
+  Specimen const specimen = bonded_by(scene);
+  auto const expect = [&](char const* wanted, auto&& change) {
+    Scene other = scene;
+    change(other);
+    EXPECT_TRUE(says(verdict(specimen, other), wanted));
+    EXPECT_EQ(verdict(specimen, other).find("refused"), std::string::npos);
+  };
+  expect("final.h5: hydrate.temperature was 5 degC, is 8 degC", [](Scene& s) { s.hydrate.temperature = 8; });
+  expect("grains.kn was 0.3 GPa, is 0.1 GPa", [](Scene& s) { s.grains.kn = 1e8; });
+  expect("grains.ks was 0.2 GPa, is 0.1 GPa", [](Scene& s) { s.grains.ks = 1e8; });
+  expect("bond.stress was 50 kPa, is ", [](Scene& s) { s.bond.stress = 2e5; });
+  expect("run.seed was 1, is 7", [](Scene& s) { s.run.seed = 7; });
+}
+
+TEST(SpecimenLabel, BondsThatAreNotLabelledAreJudgedByWhatTheyShow) {
+  Scene const scene = scene_at(0.55);
+  Specimen specimen = bonded_by(scene);
+  specimen.provenance.clear();
+  EXPECT_TRUE(says(verdict(specimen, scene), "says nothing of what its bonds are made of but h_max = 14.9"));
+  Scene other = scene_at(0.26);
+  EXPECT_TRUE(refuses(verdict(specimen, other), "which Eq. 3 gives at a saturation of 0.55; hydrate.saturation is 0.26, which"));
+  EXPECT_TRUE(refuses(verdict(specimen, scene_at(0)), "the scene makes none (hydrate.saturation is 0"));
+  other = scene;
+  other.bond.composite = Composite::replace;
+  EXPECT_TRUE(refuses(verdict(specimen, other), "act in parallel to the grain contacts, bond.composite is replace"));
+  other = scene;
+  other.bond.mode = BondingMode::given_thickness;
+  other.bond.critical_thickness = 1e-5;
+  EXPECT_TRUE(refuses(verdict(specimen, other), "bond.critical_thickness is 10 um"));
+  other.bond.critical_thickness = specimen.critical_thickness;
+  EXPECT_EQ(verdict(specimen, other).find("refused"), std::string::npos);
+  // A label does not vouch for bonds that are not those of its scene.
+  Specimen thinner = bonded_by(scene);
+  thinner.critical_thickness *= 0.9;
+  EXPECT_TRUE(refuses(verdict(thinner, scene), "h_max"));
+}
+
+TEST(SpecimenLabel, ASpecimenWithoutBondsGoesWithAnyHydrate) {
+  Scene scene = scene_at(0.55);
+  Specimen specimen = disordered_patch(6, 6);
+  specimen.provenance = nlohmann::json{{"made_of", specimen_label(scene, false)}}.dump();
+  EXPECT_EQ(verdict(specimen, scene_at(0.26)), "");
+  EXPECT_EQ(verdict(specimen, scene_at(0)), "");
+}
+
+TEST(SpecimenLabel, ShearingIsToldAndAddedUp) {
+  Specimen specimen = disordered_patch(6, 6);
+  specimen.axial_strain = 0.15;
+  EXPECT_TRUE(says(verdict(specimen, Scene()), "was sheared already, to an axial strain of 15 %"));
+  specimen.axial_strain.reset();
+  EXPECT_TRUE(says(verdict(specimen, Scene()), "does not say whether it was sheared"));
+}
+
+/// Results of the program, on the files that it leaves.
+class SpecimenOfARun : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+  CommandResult clathra(std::string const& verb, std::string const& more) const {
+    return run_clathra(verb +
+                       " " CLATHRA_EXAMPLES
+                       "/quick.toml --set sample.particles=100 --set sample.void_ratio=0.28 --set test.axial_strain=\"0.3 %\" " +
+                       "--set output.records=5 --set output.snapshots=0 --set hydrate.saturation=\"55 %\" " + more);
+  }
+  std::string out(std::string const& name) const { return (folder / name).string(); }
+  std::string reading(std::string const& file) const { return " --set sample.generator=file --set sample.file=" + file + " "; }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_label_" + std::to_string(::getpid()));
+};
+
+TEST_F(SpecimenOfARun, GoesOnUnderItsOwnLabelOnly) {
+  ASSERT_EQ(clathra("run", "--output " + out("first")).code, 0);
+  std::string const last = reading(out("first") + "/final.h5"), other = " --force --set hydrate.saturation=\"26 %\" ";
+  for (std::string const& verb : {"run --dry-run", "run", "check"}) {
+    CommandResult const refused = clathra(verb, last + other + (verb == "run" ? "--output " + out("second") : ""));
+    EXPECT_EQ(refused.code, 77) << verb << refused.output;
+    EXPECT_TRUE(says(refused.output, "final.h5: holds bonds of another scene: hydrate.saturation was 0.55, is 0.26")) << verb;
+  }
+  EXPECT_FALSE(fs::exists(folder / "second"));
+  CommandResult const again = clathra("run", last + "--set run.seed=3 --output " + out("second"));
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_TRUE(says(again.output, "final.h5: was sheared already, to an axial strain of 0.3"));
+  EXPECT_TRUE(says(again.output, "final.h5: run.seed was 1, is 3; what the scene says has no effect"));
+  EXPECT_TRUE(says(clathra("check", last).output, "warning: " + out("first") + "/final.h5: was sheared already"));
+  // What it has gone through adds up; how it was made stays.
+  std::string const info = run_clathra("info " + out("second") + "/final.h5").output;
+  EXPECT_TRUE(says(info, "sheared            to an axial strain of 0.6"));
+  EXPECT_TRUE(says(info, "run.seed                       1\n"));
+  EXPECT_TRUE(says(info, "hydrate.saturation             0.55\n"));
+  std::string const whole = reading(out("first") + "/specimen.h5");
+  EXPECT_EQ(clathra("check", whole + other).code, 0);
+  EXPECT_TRUE(says(clathra("check", whole + "--set grains.kn=\"200 MPa\"").output, "grains.kn was 0.3 GPa, is 0.2 GPa"));
+}
+
+// A final.h5 of version 1: 100 discs at 55 %, made before files said what bonds are made of.
+TEST_F(SpecimenOfARun, OfVersionOneIsReadForEver) {
+  fs::path const file = fs::path(CLATHRA_GOLDEN) / "specimen-1.h5";
+  Specimen const specimen = read_specimen(file);
+  EXPECT_EQ(specimen.size(), 100u);
+  EXPECT_FALSE(specimen.axial_strain);
+  CommandResult const taken = clathra("check", reading(file.string()));
+  EXPECT_EQ(taken.code, 0) << taken.output;
+  EXPECT_TRUE(says(taken.output, "does not say whether it was sheared"));
+  CommandResult const refused = clathra("check", reading(file.string()) + "--set hydrate.saturation=\"26 %\"");
+  EXPECT_EQ(refused.code, 77) << refused.output;
+  EXPECT_TRUE(says(refused.output, "Eq. 3 gives at a saturation of 0.55; hydrate.saturation is 0.26"));
+}
+
+}  // namespace
+}  // namespace clathra
