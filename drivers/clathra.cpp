@@ -47,6 +47,8 @@ ExitCode run_guarded(Verb const& verb) {
     return say(ExitCode::refused, fmt::format("refused: {}", problem.what()));
   } catch (Stopped const& problem) {
     return say(ExitCode::interrupted, problem.what());
+  } catch (TooManyToNumber const& problem) {
+    return say(ExitCode::refused, fmt::format("refused: {}", problem.what()));
   } catch (std::bad_alloc const&) {
     return say(ExitCode::refused, "refused: not enough memory");
   } catch (std::exception const& problem) {

@@ -28,7 +28,8 @@ struct RunOptions {
 
 ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& endurance, LoadedScene input) {
   require_same_everywhere(ranks, input);
-  if (std::string warning = thread_warning(input.scene.run.threads); !warning.empty()) input.warnings.push_back(std::move(warning));
+  if (std::string warning = thread_warning(input.scene.run.threads); !warning.empty())
+    input.warnings.push_back(std::move(warning));
   std::optional<Specimen> specimen;
   Scene sized = input.scene;
   if (input.scene.sample.generator == Generator::file) {

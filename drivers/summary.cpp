@@ -34,8 +34,24 @@ StageRecord Summary::numbers() const {
   numbers["end_intact_initial_pct"] = last_.intact_initial_pct;
   numbers["sigma3_held"] = static_cast<double>(held_) / count_;
   numbers["stress_mismatch"] = mismatch_;
-  if (has_energy_ && energy_.boundary_work != 0) numbers["energy_residual"] = std::fabs(energy_.residual / energy_.boundary_work);
+  if (has_energy_ && energy_.boundary_work != 0) numbers["energy_residual"] = std::fabs(energy_residual());
   return numbers;
+}
+
+std::vector<std::string> Summary::warnings() const {
+  constexpr double most_residual = 0.01, least_held = 0.9;
+  std::vector<std::string> texts;
+  if (has_energy_ && !(std::fabs(energy_residual()) <= most_residual))
+    texts.push_back(
+        fmt::format("{:.3g} % of the boundary work is unaccounted for (more than {:g} %): the time step is too long for "
+                    "this test, lower run.dt_safety",
+                    100 * std::fabs(energy_residual()), 100 * most_residual));
+  if (count_ > 0 && held_ < least_held * count_)
+    texts.push_back(
+        fmt::format("sigma3 was within 1 % of {:g} MPa in only {:.1f} % of the records (fewer than {:g} %): the servo walls "
+                    "did not hold it, lower the inertial number",
+                    confining_stress_ * 1e-6, 100.0 * held_ / count_, 100 * least_held));
+  return texts;
 }
 
 std::string Summary::text() const {
@@ -52,8 +68,7 @@ std::string Summary::text() const {
                         last_.broken_shear, last_.broken_rolling);
   text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the records\n", 100.0 * held_ / count_);
   if (has_energy_ && energy_.boundary_work != 0)
-    text += fmt::format("energy    {:.3g} % of the boundary work unaccounted for\n",
-                        100 * std::fabs(energy_.residual / energy_.boundary_work));
+    text += fmt::format("energy    {:.3g} % of the boundary work unaccounted for\n", 100 * std::fabs(energy_residual()));
   return text;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 /// The numbers of a finished test that people compare: peak, residual, volume change, quality of the control.
+#include <string>
+#include <vector>
+
 #include "domain/experiment.hpp"
 
 namespace clathra {
@@ -16,10 +19,14 @@ class Summary {
   /// end_eps_v, end_intact_initial_pct; sigma3_held (part of the records with sigma3 within 1 %), stress_mismatch (largest
   /// difference of wall and contact q over p); energy_residual (part of the boundary work) where there is a ledger.
   StageRecord numbers() const;
+  /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work, sigma3 held in under 90 % of the
+  /// records).
+  std::vector<std::string> warnings() const;
   /// A few lines for the screen.
   std::string text() const;
 
  private:
+  double energy_residual() const { return energy_.boundary_work != 0 ? energy_.residual / energy_.boundary_work : 0; }
   double residual_from() const { return 0.8 * axial_strain_; }
 
   double confining_stress_, axial_strain_;

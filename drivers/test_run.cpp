@@ -86,6 +86,8 @@ class TestRun::Running {
       return fail(ExitCode::refused, fmt::format("refused: {}", problem.what()));
     } catch (FileProblem const& problem) {
       return fail(problem.code, problem.what());
+    } catch (TooManyToNumber const& problem) {
+      return fail_here(ExitCode::refused, fmt::format("refused: {}", problem.what()));
     } catch (std::bad_alloc const&) {
       return fail_here(ExitCode::refused, "refused: not enough memory");
     } catch (std::exception const& problem) {
@@ -172,13 +174,22 @@ class TestRun::Running {
     try {
       write_curves(*test, preparing.seconds());
     } catch (...) {
-      record_.stages["shear"] = summary_->numbers();
+      record_shear(*test);
       throw;
     }
-    record_.stages["shear"] = summary_->numbers();
+    record_shear(*test);
+    for (std::string const& warning : test->shear_warnings()) warn(warning);
+    for (std::string const& warning : summary_->warnings()) warn(warning);
     record_.state_hash = test->state_hash();
     return_free_memory();
     write_specimen(folder_ / "final.h5", sheared_specimen(*test), ranks_);
+  }
+
+  /// The numbers of the shear, and what it has made of the verdict on the whole.
+  void record_shear(BiaxialTest const& test) {
+    record_.stages["prepare"] = test.preparation();
+    record_.stages["shear"] = summary_->numbers();
+    record_.stages["shear"].merge(test.shear_looks());
   }
 
   Specimen sheared_specimen(BiaxialTest const& test) const {

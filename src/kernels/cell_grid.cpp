@@ -71,7 +71,7 @@ void require_countable(std::int64_t entries, std::int64_t discs) {
   constexpr std::int64_t most_entries = 2147483647, most_discs = 500000000;
   auto const refuse = [](std::int64_t number, char const* of_what, std::int64_t most) {
     throw TooManyToNumber(std::to_string(number) + of_what + " on one rank, at most " + std::to_string(most) +
-                            " can be numbered: share the specimen among more ranks");
+                          " can be numbered: share the specimen among more ranks");
   };
   if (discs > most_discs) refuse(discs, " discs with those of the neighbours' ranks", most_discs);
   if (entries > most_entries) refuse(entries, " places in the rows of neighbours", most_entries);
