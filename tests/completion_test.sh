@@ -31,7 +31,7 @@ offers "replace parallel memory" run --set bond.composite =
 offers "true false" run --set run.force =
 offers "" run --set test.axial_strain =
 offers "printed thm" bond --coefficients ""
-offers "csv lammpsdump vtu" export folder --to ""
+offers "lammpsdump vtu csv" export folder --to ""
 offers "quick" init q
 offers "paper/s41-1mpa paper/s41-2mpa paper/s41-3mpa" init paper/s41
 offers "scene.toml" check sc

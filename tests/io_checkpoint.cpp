@@ -203,9 +203,9 @@ TEST_F(CheckpointFile, OfAnotherVersionIsRefusedWithBothVersions) {
     EXPECT_NE(content_says.find(wanted), std::string::npos) << content_says;
     relabel("ckpt/0.json", checkpoint_version);
     relabel("ckpt/1.json", version);
-    EXPECT_EQ(find_checkpoint(folder)->generation, 0);
+    EXPECT_EQ(find_checkpoints(folder).usable.front().generation, 0);
     relabel("ckpt/0.json", version);
-    std::string const manifests_say = problem_of([&] { (void)find_checkpoint(folder); }, ExitCode::file_missing);
+    std::string const manifests_say = problem_of([&] { (void)find_checkpoints(folder); }, ExitCode::file_missing);
     EXPECT_NE(manifests_say.find("0.json: " + wanted), std::string::npos) << manifests_say;
     EXPECT_NE(manifests_say.find("1.json: " + wanted), std::string::npos) << manifests_say;
   }
