@@ -165,7 +165,7 @@ void add_broken_pairs(Snapshot& s, BrokenHere const& broken) {
     s.b.push_back(b);
     s.state.push_back(broken_state(static_cast<int>(pair.mode)));
     for (auto* force : {&s.normal_force, &s.shear_force, &s.moment, &s.width}) force->push_back(0);
-    s.gap.push_back(std::sqrt(dx * dx + dy * dy) - double(s.radius[i]) - pair.r);
+    s.gap.push_back(std::sqrt(dx * dx + dy * dy) - (double(s.radius[i]) + pair.r));  // the same from both sides
   }
 }
 
