@@ -78,7 +78,7 @@ TEST_F(RunCommand, SaysOverWhatItsResidualIsTakenAndWhatItsSecondsCount) {
 
 TEST_F(RunCommand, GenerateFindsOutThatItCannotWriteBeforeItStarts) {
   fs::create_directories(folder / "in the way");
-  for (std::string const& name : {"none/specimen.h5", "'in the way'", "'in the way'/"}) {
+  for (char const* const name : {"none/specimen.h5", "'in the way'", "'in the way'/"}) {
     CommandResult const result = run_clathra("generate " + scene.string() + " -o " + folder.string() + "/" + name);
     EXPECT_EQ(result.code, 73) << result.output;
     EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;

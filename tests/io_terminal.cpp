@@ -49,7 +49,7 @@ class Terminal : public testing::Test {
   }
   std::string scene(std::string const& text, std::string const& name = "my.toml") const {
     std::ofstream(folder / name) << text;
-    return "'" + (folder / name).string() + "'";
+    return std::string("'").append(folder / name).append("'");
   }
 
   fs::path const folder = fs::temp_directory_path() / ("clathra_terminal_" + std::to_string(::getpid()));
