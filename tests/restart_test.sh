@@ -46,7 +46,7 @@ compare() {
   cmp "alone/history.csv" "$1/history.csv" || fail "$1: another history"
   cmp "alone/events.csv" "$1/events.csv" || fail "$1: other events"
   [ "$("$clathra" info --state-hash alone)" = "$("$clathra" info --state-hash "$1")" ] || fail "$1: another state"
-  [ "$(ls alone/snap)" = "$(ls "$1/snap")" ] || fail "$1: other snapshots"
+  [ "$(ls alone/snap)" = "$(ls "$1/snap")" ] || fail "$1: other snapshots: $(ls "$1/snap" | tr '\n' ' ')"
   [ -z "$(find "$1" -name '*.tmp-*')" ] || [ "$1" = killed ] || fail "$1: left-over files"
   [ ! -e "$1/ckpt" ] || fail "$1: a finished run keeps checkpoints"
 }

@@ -190,9 +190,11 @@ void remove_checkpoints(std::filesystem::path const& run_folder) {
       std::filesystem::remove(file_of(run_folder, generation, extension), ignored);
   }
   // What a kill left half written goes too.
-  for (auto entry = std::filesystem::directory_iterator(run_folder / "ckpt", ignored);
-       entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
-    if (entry->path().filename().string().find(".tmp-") != std::string::npos) std::filesystem::remove(entry->path(), ignored);
+  for (char const* const folder : {"ckpt", "snap"}) {
+    for (auto entry = std::filesystem::directory_iterator(run_folder / folder, ignored);
+         entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
+      if (entry->path().filename().string().find(".tmp-") != std::string::npos) std::filesystem::remove(entry->path(), ignored);
+    }
   }
   std::filesystem::remove(run_folder / "ckpt", ignored);  // only if it is empty now
 }
