@@ -25,12 +25,12 @@ struct BenchOptions {
 
 nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simulation, Throughput const& t, double bandwidth,
                             double arithmetic) {
-  double const moved = t.particle_steps_per_s * t.moved_per_step;
+  double const moved = t.disc_steps_per_second * t.moved_per_step;
   return {{"case", options.what},
           {"discs", simulation.discs()},
           {"threads", ExecutionSpace().concurrency()},
           {"lanes", lane_count},
-          {"particle_steps_per_s", t.particle_steps_per_s},
+          {"disc_steps_per_second", t.disc_steps_per_second},
           {"contact_steps_per_s", t.contact_steps_per_s},
           {"bytes_per_disc", t.bytes_per_disc},
           {"bytes_moved_per_disc_and_step", t.moved_per_step},
@@ -52,7 +52,7 @@ std::string card_text(nlohmann::ordered_json const& c) {
   auto const number = [&](char const* key) { return c.at(key).get<double>(); };
   return fmt::format(
       "{} discs, {}, {} threads, {} lanes, {}\n"
-      "particle steps    {:.4g} million a second\n"
+      "disc-steps        {:.4g} million a second\n"
       "contact steps     {:.4g} million a second (pairs that touch or are bonded)\n"
       "memory            {:.0f} bytes a disc\n"
       "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a disc and step at the "
@@ -60,7 +60,7 @@ std::string card_text(nlohmann::ordered_json const& c) {
       "arithmetic        {:.3g} % of the {:.3g} GFLOP/s that products and sums reach\n"
       "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
       c.at("discs").dump(), c.at("case").get<std::string>(), c.at("threads").dump(), c.at("lanes").dump(),
-      c.at("backend").get<std::string>(), number("particle_steps_per_s") * 1e-6, number("contact_steps_per_s") * 1e-6,
+      c.at("backend").get<std::string>(), number("disc_steps_per_second") * 1e-6, number("contact_steps_per_s") * 1e-6,
       number("bytes_per_disc"), number("bandwidth_share") * 100, number("bandwidth_bytes_per_s") * 1e-9,
       number("bytes_moved_per_disc_and_step"), number("flop_share") * 100, number("arithmetic_limit_flops_per_s") * 1e-9,
       number("rebuild_share") * 100, number("steps") / std::max(1.0, number("rebuilds")));

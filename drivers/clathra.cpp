@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <new>
 #include <sstream>
 #include <thread>
 
 #include "clathra_version.hpp"
-#include "domain/experiment.hpp"
+#include "domain/ranks.hpp"
+#include "io/failure.hpp"
 #include "io/schema.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
@@ -39,20 +39,9 @@ ExitCode run_guarded(Verb const& verb) {
   } catch (SceneProblems const& problems) {
     for (Problem const& problem : problems.problems) print_error(problem.message());
     return problems.code();
-  } catch (FileProblem const& problem) {
-    return say(problem.code, problem.what());
-  } catch (Diverged const& problem) {
-    return say(ExitCode::diverged, fmt::format("diverged: {}", problem.what()));
-  } catch (Refused const& problem) {
-    return say(ExitCode::refused, fmt::format("refused: {}", problem.what()));
-  } catch (Stopped const& problem) {
-    return say(ExitCode::interrupted, problem.what());
-  } catch (TooManyToNumber const& problem) {
-    return say(ExitCode::refused, fmt::format("refused: {}", problem.what()));
-  } catch (std::bad_alloc const&) {
-    return say(ExitCode::refused, "refused: not enough memory");
-  } catch (std::exception const& problem) {
-    return say(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
+  } catch (...) {
+    Failure const failure = failure_in_flight();
+    return say(failure.code, failure.text);
   }
 }
 

@@ -29,7 +29,11 @@ struct BreakRow {
   double eps1;
 };
 
-constexpr std::array modes = {BreakMode::tension, BreakMode::compression, BreakMode::shear, BreakMode::rolling};
+std::vector<std::string> mode_names() {
+  std::vector<std::string> names;
+  for (BreakModeNames const& m : break_modes) names.emplace_back(m.name);
+  return names;
+}
 
 /// The axial strain at a step, between the records of the history.
 double strain_at(HistoryTable const& history, double step) {
@@ -68,21 +72,19 @@ std::string csv_text(std::vector<BreakRow> const& rows) {
 std::string count_text(std::vector<BreakRow> const& rows, double first, double last, int parts) {
   if (rows.empty()) return "no bond broke there\n";
   std::string text = fmt::format("{:>16}", "eps1 [%]");
-  for (BreakMode const mode : modes) text += fmt::format(" {:>12}", break_mode_name(static_cast<int>(mode)));
+  for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", m.name);
   text += fmt::format(" {:>12}\n", "all");
   double const width = std::max(last - first, 1e-12) / parts;
   for (int part = 0; part < parts; ++part) {
     double const begin = first + part * width, end = part == parts - 1 ? HUGE_VAL : begin + width;
-    std::array<int, break_mode_count> counts{};
-    int all = 0;
+    BreakCounts counts;
     for (BreakRow const& row : rows) {
       if (row.eps1 < begin || row.eps1 >= end) continue;
-      ++counts[static_cast<std::size_t>(row.event.mode)];
-      ++all;
+      ++counts[static_cast<BreakMode>(row.event.mode)];
     }
     text += fmt::format("{:>16}", fmt::format("{:.3g} - {:.3g}", begin * 100, (begin + width) * 100));
-    for (BreakMode const mode : modes) text += fmt::format(" {:>12}", counts[static_cast<std::size_t>(mode)]);
-    text += fmt::format(" {:>12}\n", all);
+    for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", counts[m.mode]);
+    text += fmt::format(" {:>12}\n", counts.total());
   }
   return text;
 }
@@ -100,8 +102,7 @@ void add_events(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<EventsOptions>();
   CLI::App* const verb = program.add_subcommand("events", "Count or list the bonds that broke in a run");
   verb->add_option("folder", options->folder, "folder of a run")->required();
-  verb->add_option("--mode", options->mode, "only those broken in this mode")
-      ->check(CLI::IsMember({"tension", "compression", "shear", "rolling"}));
+  verb->add_option("--mode", options->mode, "only those broken in this mode")->check(CLI::IsMember(mode_names()));
   verb->add_option("--from", options->from, "only from this axial strain on [%]")->type_name("PERCENT");
   verb->add_option("--to", options->to, "only up to this axial strain [%]")->type_name("PERCENT");
   verb->add_option("--parts", options->parts, "rows of the table of counts")->check(CLI::Range(1, 1000))->capture_default_str();

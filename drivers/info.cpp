@@ -142,7 +142,10 @@ ExitCode info(InfoOptions const& options) {
     return print_result(snapshot_text(read_snapshot(file)));
   }
   if (is_checkpoint(file)) {
-    std::string const hash = checkpoint_state_hash(file);
+    std::optional<std::string> const known = checkpoint_state_hash(file);
+    if (options.state_hash && !known)
+      throw FileProblem(ExitCode::bad_input, file, "is of an earlier version, whose state hash cannot be compared");
+    std::string const hash = known.value_or("that of an earlier version, not to be compared");
     return print_result(options.state_hash ? hash + "\n"
                                            : fmt::format("{:<18} {}\n{:<18} {}\n", "checkpoint of",
                                                          file.parent_path().parent_path().string(), "state hash", hash));

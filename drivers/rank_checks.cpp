@@ -4,8 +4,8 @@
 
 #include "clathra_version.hpp"
 #include "domain/progress.hpp"
-#include "domain/simulation.hpp"
 #include "io/digest.hpp"
+#include "io/failure.hpp"
 #include "io/run_record.hpp"
 #include "io/together.hpp"
 
@@ -32,20 +32,10 @@ ExitCode guarded_together(Ranks const& ranks, std::function<ExitCode()> const& w
   if (ranks.alone()) return work();
   try {
     return work();
-  } catch (Refused const&) {
-    throw;
-  } catch (Stopped const&) {
-    throw;
-  } catch (Diverged const&) {
-    throw;
-  } catch (FileProblem const&) {
-    throw;
-  } catch (TooManyToNumber const& problem) {
-    end_all_ranks(ranks, FileProblem(ExitCode::refused, fmt::format("refused: {}", problem.what())));
-  } catch (std::bad_alloc const&) {
-    end_all_ranks(ranks, FileProblem(ExitCode::refused, "refused: not enough memory"));
-  } catch (std::exception const& problem) {
-    end_all_ranks(ranks, FileProblem(ExitCode::internal, problem.what()));
+  } catch (...) {
+    Failure const failure = failure_in_flight();
+    if (failure.everywhere) throw;
+    end_all_ranks(ranks, FileProblem(failure.code, failure.text));
   }
 }
 

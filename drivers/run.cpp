@@ -50,6 +50,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& 
   require_enough_discs(ranks, static_cast<std::int64_t>(cost.numbers.at("particles")));
   watch_for_interrupt();
   std::vector<std::string> const warnings = warnings_of(input, cost);
+  KokkosSession const kokkos;
   TestRun now(std::move(input), std::move(specimen), endurance, ranks);
   for (std::string const& warning : warnings) now.warn(warning);
   return now.run();

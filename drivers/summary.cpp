@@ -11,8 +11,8 @@ void Summary::add(HistoryRow const& row) {
   constexpr double tolerance = 0.01;
   last_ = row;
   ++count_;
-  if (count_ == 1 || row.q_Pa > peak_.q_Pa) peak_ = row;
-  if (row.eps1 >= residual_from()) residual_sum_ += row.q_Pa, ++residual_count_;
+  if (count_ == 1 || is_new_peak(row.q_Pa, peak_.q_Pa)) peak_ = row;
+  if (row.eps1 >= residual_from_) residual_sum_ += row.q_Pa, ++residual_count_;
   if (std::fabs(row.sigma3_Pa - confining_stress_) <= tolerance * confining_stress_) ++held_;
   double const contact_q = row.contact_sigma1_Pa - row.contact_sigma3_Pa;
   if (row.p_Pa > 0) mismatch_ = std::max(mismatch_, std::fabs(row.q_Pa - contact_q) / row.p_Pa);
@@ -27,7 +27,7 @@ StageRecord Summary::numbers() const {
   numbers["peak_eps_v"] = peak_.eps_v;
   if (residual_count_ > 0) {
     numbers["residual_q_Pa"] = residual_sum_ / residual_count_;
-    numbers["residual_from_eps1"] = residual_from();
+    numbers["residual_from_eps1"] = residual_from_;
   }
   numbers["end_eps1"] = last_.eps1;
   numbers["end_eps_v"] = last_.eps_v;
@@ -60,12 +60,14 @@ std::string Summary::text() const {
                                  peak_.eps_v * 100);
   if (residual_count_ > 0)
     text += fmt::format("residual  q {:.4g} MPa (mean from eps1 {:.3g} % on), eps_v {:.3g} % at eps1 {:.3g} %\n",
-                        residual_sum_ / residual_count_ * 1e-6, residual_from() * 100, last_.eps_v * 100, last_.eps1 * 100);
-  std::int64_t const broken = last_.broken_tension + last_.broken_compression + last_.broken_shear + last_.broken_rolling;
-  if (last_.bonds_intact + broken > 0)
-    text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {} tension, {} compression, {} shear, {} rolling\n",
-                        last_.bonds_intact, last_.intact_initial_pct, last_.broken_tension, last_.broken_compression,
-                        last_.broken_shear, last_.broken_rolling);
+                        residual_sum_ / residual_count_ * 1e-6, residual_from_ * 100, last_.eps_v * 100, last_.eps1 * 100);
+  if (last_.bonds_intact + last_.broken.total() > 0) {
+    std::string modes;
+    for (BreakModeNames const& m : break_modes)
+      modes += fmt::format("{}{} {}", modes.empty() ? "" : ", ", last_.broken[m.mode], m.name);
+    text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {}\n", last_.bonds_intact, last_.intact_initial_pct,
+                        modes);
+  }
   text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the records\n", 100.0 * held_ / count_);
   if (has_energy_ && energy_.boundary_work != 0)
     text += fmt::format("energy    {:.3g} % of the boundary work unaccounted for\n", 100 * std::fabs(energy_residual()));

@@ -4,18 +4,21 @@
 #include <vector>
 
 #include "domain/experiment.hpp"
+#include "domain/test_phases.hpp"
 
 namespace clathra {
 
 /// Collects them from the records of a test as they come.
 class Summary {
  public:
-  Summary(double confining_stress, double axial_strain) : confining_stress_(confining_stress), axial_strain_(axial_strain) {}
+  /// @param axial_strain  at which the test will end
+  Summary(double confining_stress, double axial_strain)
+      : confining_stress_(confining_stress), residual_from_(residual_from(axial_strain)) {}
   void add(HistoryRow const& row);
   void add(EnergyRow const& row) { energy_ = row, has_energy_ = true; }
 
   int records() const { return count_; }
-  /// peak_q_Pa at peak_eps1 with peak_eps_v; residual_q_Pa (mean from residual_from_eps1 on, the last fifth of the strain),
+  /// peak_q_Pa at peak_eps1 with peak_eps_v; residual_q_Pa (mean from residual_from_eps1 on),
   /// end_eps_v, end_intact_initial_pct; sigma3_held (part of the records with sigma3 within 1 %), stress_mismatch (largest
   /// difference of wall and contact q over p); energy_residual (part of the boundary work) where there is a ledger.
   StageRecord numbers() const;
@@ -27,9 +30,8 @@ class Summary {
 
  private:
   double energy_residual() const { return energy_.boundary_work != 0 ? energy_.residual / energy_.boundary_work : 0; }
-  double residual_from() const { return 0.8 * axial_strain_; }
 
-  double confining_stress_, axial_strain_;
+  double confining_stress_, residual_from_;
   HistoryRow peak_, last_;
   EnergyRow energy_;
   bool has_energy_ = false;

@@ -13,6 +13,7 @@
 #include "interrupt.hpp"
 #include "io/digest.hpp"
 #include "io/earlier_run.hpp"
+#include "io/failure.hpp"
 #include "io/output_folder.hpp"
 #include "io/report/report.hpp"
 #include "io/run_check.hpp"
@@ -75,23 +76,14 @@ class TestRun::Running {
     if (finished_) return print_result(fmt::format("this run is finished: {}\n", folder_.string()));
     if (!resumes()) begin_record();
     try {
-      KokkosSession const kokkos;
       shear();
       on_root(ranks_, [&] { record_.result_digests = result_digests(folder_); });
     } catch (Stopped const& stop) {
       return stopped(stop.what());
-    } catch (Diverged const& problem) {
-      return fail(ExitCode::diverged, fmt::format("diverged: {}", problem.what()));
-    } catch (Refused const& problem) {
-      return fail(ExitCode::refused, fmt::format("refused: {}", problem.what()));
-    } catch (FileProblem const& problem) {
-      return fail(problem.code, problem.what());
-    } catch (TooManyToNumber const& problem) {
-      return fail_here(ExitCode::refused, fmt::format("refused: {}", problem.what()));
-    } catch (std::bad_alloc const&) {
-      return fail_here(ExitCode::refused, "refused: not enough memory");
-    } catch (std::exception const& problem) {
-      return fail_here(ExitCode::internal, fmt::format("internal fault, please report it: {}", problem.what()));
+    } catch (...) {
+      Failure const failure = failure_in_flight();
+      if (!failure.everywhere && !ranks_.alone()) end_all_ranks(ranks_, FileProblem(failure.code, failure.text));
+      return fail(failure.code, failure.text);
     }
     conclude(ExitCode::done, "finished");
     on_root(ranks_, [&] {
@@ -282,12 +274,6 @@ class TestRun::Running {
         write_record(code, reason);
       }
     });
-  }
-
-  /// A fault that the other ranks may not have: they would wait for this one.
-  ExitCode fail_here(ExitCode code, std::string const& reason) {
-    if (!ranks_.alone()) end_all_ranks(ranks_, FileProblem(code, reason));
-    return fail(code, reason);
   }
 
   ExitCode stopped(std::string const& cause) {

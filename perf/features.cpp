@@ -80,8 +80,8 @@ struct Price {
 Price price(Simulation& without, Simulation& with, Options const& options) {
   std::vector<double> off, on, ratio;
   for (int n = 0; n < options.rounds; ++n) {
-    off.push_back(1e9 / measure_throughput(without, options.seconds).particle_steps_per_s);
-    on.push_back(1e9 / measure_throughput(with, options.seconds).particle_steps_per_s);
+    off.push_back(1e9 / measure_throughput(without, options.seconds).disc_steps_per_second);
+    on.push_back(1e9 / measure_throughput(with, options.seconds).disc_steps_per_second);
     ratio.push_back(on.back() / off.back());
   }
   auto const median = [](std::vector<double>& values) {

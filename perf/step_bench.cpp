@@ -1,4 +1,4 @@
-/// Whole-step throughput on fixed packings: particle-steps per second of Simulation::step() with walls, servo and neighbour
+/// Whole-step throughput on fixed packings: disc-steps per second of Simulation::step() with walls, servo and neighbour
 /// searches.
 ///   [mpirun -n RANKS] step_bench [--discs N] [--case rolling|bonded|breaking] [--seconds S] [--repeat R] [--skin S] [--settle
 ///   STEPS]
@@ -62,7 +62,7 @@ void print_phases(Simulation& simulation, double seconds) {
   }
   phases.emplace_back(t.seconds - in_kernels, "between kernels");
   std::sort(phases.rbegin(), phases.rend());
-  std::printf("phase,ns_per_particle_step,share\n");
+  std::printf("phase,ns_per_disc_step,share\n");
   for (auto const& [time, label] : phases) {
     if (time > 0.002 * t.seconds) std::printf("%s,%.3f,%.3f\n", label.c_str(), 1e9 * time / disc_steps, time / t.seconds);
   }
@@ -79,13 +79,13 @@ int main(int argc, char** argv) {
   Kokkos::ScopeGuard const guard(argc, argv);
   Simulation simulation = throughput_simulation(options.setup, session.ranks());
   std::printf(
-      "case,discs,ranks,threads,lanes,particle_steps_per_s,ns_per_particle_step,contact_steps_per_s,steps,rebuilds,rebuild_share,"
+      "case,discs,ranks,threads,lanes,disc_steps_per_second,ns_per_disc_step,contact_steps_per_s,steps,rebuilds,rebuild_share,"
       "bytes_per_disc,entries_per_disc,bandwidth_share,flop_share,broken\n");
   double const bandwidth = update_bandwidth(simulation.bytes()), arithmetic = arithmetic_rate();  // of this rank
   std::vector<double> rates;
   for (int n = 0; n < options.repeat; ++n) {
     Throughput const t = measure_throughput(simulation, options.seconds);
-    rates.push_back(t.particle_steps_per_s);
+    rates.push_back(t.disc_steps_per_second);
     int const ranks = session.ranks().count();
     std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f,%.3f,%.3f,%lld\n",
                 throughput_case_names[static_cast<int>(options.setup.what)], simulation.discs(), ranks,
@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
                 static_cast<long long>(t.broken));
   }
   std::sort(rates.begin(), rates.end());
-  std::printf("median %.4g particle-steps/s\n", rates[rates.size() / 2]);
+  std::printf("median %.4g disc-steps/s\n", rates[rates.size() / 2]);
   print_phases(simulation, options.seconds);
   return 0;
 }

@@ -230,7 +230,7 @@ TEST(BenchCommand, PrintsACardOfThisMachine) {
         run_clathra(std::string("bench --case ") + what + " --discs 2000 --threads 1 --seconds 0.05 --json 2>/dev/null");
     ASSERT_EQ(result.code, 0) << result.output;
     auto const card = nlohmann::json::parse(result.output);
-    double const discs = card["particle_steps_per_s"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
+    double const discs = card["disc_steps_per_second"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
     EXPECT_GT(discs, 1e5);
     EXPECT_GT(contacts / discs, 1.2);  // pairs a disc: 1.5 to 2.2 here
     EXPECT_LT(contacts / discs, 3);

@@ -87,7 +87,7 @@ TEST_F(CheckpointFile, GoesOnWithTheBitsOfTheTestThatWasLeftAlone) {
   EXPECT_EQ(found->progress.snapshots[0].pairs, 300u);
   BiaxialTest again(test_scene(), read_checkpoint(*found, test_scene(), {}), {});
   EXPECT_EQ(again.state_hash(), alone.state_hash());
-  EXPECT_EQ(hash_text(again.state_hash()), checkpoint_state_hash(found->file));
+  EXPECT_EQ(hash_text(again.state_hash()), checkpoint_state_hash(found->file).value());
   EXPECT_EQ(again.preparation(), alone.preparation());
   EXPECT_EQ(again.warnings(), alone.warnings());
   go_on(alone, 100);
@@ -96,8 +96,10 @@ TEST_F(CheckpointFile, GoesOnWithTheBitsOfTheTestThatWasLeftAlone) {
   HistoryRow const a = again.record(), b = alone.record();
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.q_Pa, b.q_Pa);
-  EXPECT_EQ(a.broken_shear, b.broken_shear);
-  EXPECT_GT(a.broken_tension + a.broken_shear + a.broken_rolling + a.broken_compression, 2);
+  EXPECT_EQ(a.broken[BreakMode::shear], b.broken[BreakMode::shear]);
+  EXPECT_GT(
+      a.broken[BreakMode::tension] + a.broken[BreakMode::shear] + a.broken[BreakMode::rolling] + a.broken[BreakMode::compression],
+      2);
   EXPECT_EQ(again.energy().residual, alone.energy().residual);
   EXPECT_EQ(again.events_after(0).size(), alone.events_after(0).size());
 }
@@ -232,13 +234,13 @@ TEST_F(CheckpointFile, OfEveryVersionIsOpenedForEver) {
     (void)two_generations();
     fs::copy(folder, keep, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
-  std::pair<char const*, char const*> const ends[] = {{"checkpoint-1", "0xa72a83d66782e83f"},
-                                                      {"checkpoint-2", "0x3f415ba3dbff8e58"}};
+  std::pair<char const*, char const*> const ends[] = {
+      {"checkpoint-1", "0x59a9b5607ad10124"}, {"checkpoint-2", "0x2afd0a9abade9c53"}, {"checkpoint-3", "0xfab423d3f3b94df7"}};
   for (auto const& [version, hash_at_the_end] : ends) {
     FoundCheckpoints const found = find_checkpoints(fs::path(CLATHRA_GOLDEN) / version);
     ASSERT_FALSE(found.usable.empty()) << version;
     BiaxialTest test(test_scene(), read_checkpoint(found.usable[0], test_scene(), {}), {});
-    EXPECT_EQ(hash_text(test.state_hash()), checkpoint_state_hash(found.usable[0].file)) << version;
+    EXPECT_FALSE(checkpoint_state_hash(found.usable[0].file)) << version << ": its hash left inverse inertias out";
     go_on(test, 100);
     EXPECT_EQ(hash_text(test.state_hash()), hash_at_the_end) << version;
   }

@@ -69,11 +69,11 @@ TEST(ReportPictures, ShowEveryBondInTheColourOfItsState) {
 TEST(ReportPictures, MarkABrokenBondNoLongerThanItWas) {
   Snapshot s = made_up_lattice(9, 9);
   s.a = {0}, s.b = {8}, s.normal_force = {0}, s.width = {0};
-  s.state = {static_cast<std::uint8_t>(ContactState::broken_tension)};
+  s.state = {static_cast<std::uint8_t>(broken_in(BreakMode::tension))};
   MapView const view = whole(s, 450);
   Canvas const canvas = bond_map(s, view);
   auto const pixel = [&](std::size_t disc) { return canvas.pixel(int(view.x(s.x[disc])), int(view.y(s.y[disc]))); };
-  EXPECT_EQ(pixel(4), state_colour(ContactState::broken_tension)) << "in the middle between the grains";
+  EXPECT_EQ(pixel(4), state_colour(broken_in(BreakMode::tension))) << "in the middle between the grains";
   EXPECT_EQ(pixel(2), (Rgb{255, 255, 255}));
 }
 
@@ -202,7 +202,7 @@ TEST(ReportRose, CountsContactsAndForcesByDirection) {
   EXPECT_NEAR(rose.forces[9], 1.5, 1e-6);
   EXPECT_GT(rose.force_anisotropy, 0.5);
   EXPECT_NEAR(rose.force_direction, std::acos(-1.0) / 2, 0.1);
-  s.state.assign(s.a.size(), static_cast<std::uint8_t>(ContactState::broken_shear));
+  s.state.assign(s.a.size(), static_cast<std::uint8_t>(broken_in(BreakMode::shear)));
   s.normal_force.assign(s.a.size(), 0.0), s.gap.assign(s.a.size(), 1e-9);
   EXPECT_EQ(rose_of(s).pairs, 0u) << "bonds that are gone";
 }
@@ -214,7 +214,7 @@ TEST(ReportRose, CountsContactsThatAreTooWeakForTheDigitsOfASnapshot) {
   std::size_t weak = 0, gone = 0;
   for (std::size_t k = 0; k < s.a.size(); ++k) {
     bool const upright = s.b[k] != s.a[k] + 1;
-    s.state[k] = static_cast<std::uint8_t>(k % 3 == 0 ? ContactState::broken_rolling : ContactState::contact);
+    s.state[k] = static_cast<std::uint8_t>(k % 3 == 0 ? broken_in(BreakMode::rolling) : ContactState::contact);
     s.normal_force[k] = upright ? 100 : 0.01, s.gap[k] = -1e-3 * s.normal_force[k] * s.d50 / 100;
     if (k % 9 == 0) s.normal_force[k] = 0, s.gap[k] = 1e-6 * s.d50, ++gone;
     if (k % 9 != 0 && !upright) ++weak;

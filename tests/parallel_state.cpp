@@ -133,16 +133,26 @@ TEST(State, OfABondAcrossAPeriodicEdgeIsKeptByASearchInAnyStep) {
 TEST(State, EveryBitOfAFieldChangesItsHash) {
   Specimen const s = bonded_patch(Composite::parallel);
   SimulationLaws const laws = bonded_laws(hydrate_scene(0.41, Composite::parallel), s.critical_thickness);
-  std::uint64_t const hash = Simulation(s, laws, 1e-5).hash();
-  for (auto field : {&Specimen::x, &Specimen::y, &Specimen::angle, &Specimen::vx, &Specimen::vy, &Specimen::omega}) {
+  Simulation sim(s, laws, 1e-5);
+  std::uint64_t const hash = sim.hash();
+  for_each_field(sim.particles(), [&](DiscField const& about, auto const& field) {
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    auto const host = Kokkos::create_mirror_view(field);
+    Kokkos::deep_copy(host, field);
+    T const before = host(17);
+    host(17) = std::is_integral_v<T> ? static_cast<T>(before + 1) : static_cast<T>(std::nextafter(before, 1e6));
+    Kokkos::deep_copy(field, host);
+    EXPECT_NE(sim.hash(), hash) << about.name;
+    host(17) = before;
+    Kokkos::deep_copy(field, host);
+    EXPECT_EQ(sim.hash(), hash) << about.name;
+  });
+  for (ContactNumber const& number : contact_numbers) {
     Specimen other = s;
-    (other.*field)[17] = std::nextafter((s.*field)[17], 1.0);
-    EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash);
+    other.contacts[5].*number.of = std::nextafter(s.contacts[5].*number.of, 1.0);
+    EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash) << number.name;
   }
   Specimen other = s;
-  other.contacts[5].equilibrium = std::nextafter(s.contacts[5].equilibrium, 0.0);
-  EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash);
-  other = s;
   other.contacts[5].bond_shear = 1e-12;
   EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash);
   other.contacts[5].bond_shear = -0.0;

@@ -71,7 +71,7 @@ TEST(BrokenBond, FailsInTensionAtTheTensileStrength) {
     double const step = R_t / k_bn / 1000;
     Break const b = move_until_broken(sim, -step / dt, 0, 0);
     expect_break_between(-b.last.normal, k_bn * step, R_t);
-    EXPECT_EQ(sim.break_counts().tension, 1);
+    EXPECT_EQ(sim.break_counts()[BreakMode::tension], 1);
     PairForce const after = force(sim);  // u_n <= 0: nothing is left
     EXPECT_EQ(after.normal, 0);
     EXPECT_EQ(after.shear, 0);
@@ -86,7 +86,7 @@ TEST(BrokenBond, FailsInCompressionAtTheCompressiveStrength) {
     Break const b = move_until_broken(sim, step / dt, 0, 0);
     double const grain = composite == Composite::parallel ? sand_kn * step * (b.steps - 1) : 0;
     expect_break_between(b.last.normal - grain, k_bn * step, R_c);
-    EXPECT_EQ(sim.break_counts().compression, 1);
+    EXPECT_EQ(sim.break_counts()[BreakMode::compression], 1);
     EXPECT_NEAR(force(sim).normal / (sand_kn * step * b.steps), 1, 1e-9);
   }
 }
@@ -103,7 +103,7 @@ TEST(BrokenBond, FailsInShearAtTheShearStrengthOfItsNormalForce) {
     EXPECT_NEAR(b.last.normal, row.normal, 0.01);
     expect_break_between(std::abs(b.last.shear), k_bs * 2 * spin * arm * dt, row.strength);
     EXPECT_NEAR(b.last.moment, 0, 1e-9);
-    EXPECT_EQ(sim.break_counts().shear, 1);
+    EXPECT_EQ(sim.break_counts()[BreakMode::shear], 1);
   }
 }
 
@@ -118,7 +118,7 @@ TEST(BrokenBond, FailsInRollingAtTheRollingStrengthOfItsNormalForce) {
     Break const b = move_until_broken(sim, 0, spin, -spin);
     expect_break_between(std::abs(b.last.moment), k_bm * 2 * spin * dt, row.strength * L_r);
     EXPECT_NEAR(b.last.shear, 0, 1e-6);
-    EXPECT_EQ(sim.break_counts().rolling, 1);
+    EXPECT_EQ(sim.break_counts()[BreakMode::rolling], 1);
   }
 }
 

@@ -169,8 +169,8 @@ TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
   EXPECT_GT(logged.broken_bonds(), 10);
   EXPECT_EQ(static_cast<int>(logged.break_events(0).size()), logged.broken_bonds());
   EXPECT_EQ(counted.broken_bonds(), logged.broken_bonds());
-  EXPECT_EQ(counted.break_counts().shear, logged.break_counts().shear);
-  EXPECT_EQ(counted.break_counts().rolling, logged.break_counts().rolling);
+  EXPECT_EQ(counted.break_counts()[BreakMode::shear], logged.break_counts()[BreakMode::shear]);
+  EXPECT_EQ(counted.break_counts()[BreakMode::rolling], logged.break_counts()[BreakMode::rolling]);
   EXPECT_TRUE(counted.break_events(0).empty());
   EXPECT_EQ(counted.hash(), logged.hash());
   EXPECT_GE(logged.bytes(), counted.bytes() + 41 * 100);  // of a bond

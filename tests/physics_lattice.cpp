@@ -32,7 +32,7 @@ SimulationLaws lattice_laws() {
   Scene const scene = hydrate_scene(0.55, Composite::replace);
   return bonded_laws(scene, h_max_of(scene));
 }
-BondStiffness<Real> bond_of(SimulationLaws const& laws) {
+ContactStiffness<Real> bond_of(SimulationLaws const& laws) {
   BondLaw const& law = laws.contact.bond;
   return law.stiffness(law.width(grain_radius, 0.0), 0.0);
 }
@@ -141,7 +141,7 @@ TEST(HexagonalLattice, FailsInIsotropicTensionWhereEveryBondDoes) {
   double const distance = d * (1 + strain);
   EXPECT_NEAR(last / (std::sqrt(3.0) * R_t / distance), 1, 2e-3);
   sim.step();
-  EXPECT_EQ(sim.break_counts().tension, 3 * 64);
+  EXPECT_EQ(sim.break_counts()[BreakMode::tension], 3 * 64);
   EXPECT_EQ(sim.measures().mechanical, 0);
 }
 

@@ -45,7 +45,7 @@ TEST(Checkpoint, KeepsAccountsAndDisplacements) {
   };
   EXPECT_GT(total_way(sim), 0);
   EXPECT_EQ(total_way(again), total_way(sim));
-  EXPECT_EQ(again.break_counts().shear, sim.break_counts().shear);
+  EXPECT_EQ(again.break_counts()[BreakMode::shear], sim.break_counts()[BreakMode::shear]);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ inline HistoryRow made_up_row(MadeUpTest const& test, int i) {
   row.void_ratio = 0.24;
   if (test.saturation > 0) {
     row.bonds_intact = 1000 - 2 * i;
-    row.broken_rolling = i;
-    row.broken_shear = i;
+    row.broken[BreakMode::rolling] = i;
+    row.broken[BreakMode::shear] = i;
     row.intact_initial_pct = static_cast<double>(row.bonds_intact) / 10;
   }
   return row;
@@ -115,7 +115,7 @@ inline void write_made_up_snapshots(std::filesystem::path const& folder, Snapsho
   for (int const record : {0, 40, made_up_records}) {
     snapshot.step = 100 * record;
     snapshot.eps1 = made_up_strain * record / made_up_records;
-    if (record > 0) snapshot.state.front() = static_cast<std::uint8_t>(ContactState::broken_shear);
+    if (record > 0) snapshot.state.front() = static_cast<std::uint8_t>(broken_in(BreakMode::shear));
     if (record == made_up_records)
       for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
         snapshot.ux[i] = static_cast<float>(shear * snapshot.y[i]);

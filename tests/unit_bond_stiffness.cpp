@@ -15,7 +15,7 @@ TEST(BondStiffness, HasTheNumbersOfTheTable) {
     SCOPED_TRACE(testing::Message() << "S = " << bond.saturation << " %, h/h_max = " << bond.share);
     double const h_max = h_max_of(bond.saturation), gap = bond.share * h_max, h_0 = effective_thickness(gap, h_max);
     double const width = bond_width(golden::radius, h_max - gap);
-    BondStiffness<Real> const k = bond_stiffness(golden::k_n, golden::E_m, width, h_0);
+    ContactStiffness<Real> const k = bond_stiffness(golden::k_n, golden::E_m, width, h_0);
     EXPECT_TRUE(agrees(k.normal, bond.k_bn));
     EXPECT_TRUE(agrees(k.shear, bond.k_bs));
     EXPECT_TRUE(agrees(k.rolling, bond.k_bm));
@@ -26,7 +26,7 @@ TEST(BondStiffness, HasTheNumbersOfTheTable) {
 TEST(BondStiffness, HasTheNumbersOfTheUnequalPair) {
   double const h_max = h_max_of(41), r = common_radius(golden::unequal_r1, golden::unequal_r2);
   double const width = bond_width(r, h_max - golden::unequal_gap), h_0 = effective_thickness(golden::unequal_gap, h_max);
-  BondStiffness<Real> const k = bond_stiffness(golden::k_n, golden::E_m, width, h_0);
+  ContactStiffness<Real> const k = bond_stiffness(golden::k_n, golden::E_m, width, h_0);
   EXPECT_TRUE(agrees(k.normal, golden::unequal.k_bn));
   EXPECT_TRUE(agrees(k.shear, golden::unequal.k_bs));
   EXPECT_TRUE(agrees(k.rolling, golden::unequal.k_bm));
@@ -38,7 +38,7 @@ TEST(BondStiffness, AgreesWithThePrintedEquationsForAnyBond) {
   for (int n = 0; n < 100000; ++n) {
     double const k_n = draw.of_size(1e6, 1e10), E_m = draw.of_size(1e6, 1e10), B = draw.of_size(1e-8, 1e-2);
     double const h_0 = draw.of_size(1e-9, 1e-3);
-    BondStiffness<Real> const k = bond_stiffness(k_n, E_m, B, h_0);
+    ContactStiffness<Real> const k = bond_stiffness(k_n, E_m, B, h_0);
     ASSERT_TRUE(within(1e-12, k.normal, printed::k_bn(k_n, printed::k_mh(B, E_m, h_0))));
     ASSERT_TRUE(within(1e-12, k.shear, printed::k_bs(k_n, printed::k_mh(B, E_m, h_0))));
     ASSERT_TRUE(within(1e-12, k.rolling, printed::k_bm(B, E_m, h_0)));
@@ -48,7 +48,7 @@ TEST(BondStiffness, AgreesWithThePrintedEquationsForAnyBond) {
 TEST(BondStiffness, IsNeverMoreThanHalfThatOfAGrain) {
   Draw draw(32);
   for (int n = 0; n < 10000; ++n) {
-    BondStiffness<Real> const k = bond_stiffness(3e8, 2.89e8, draw.of_size(1e-8, 1e-2), draw.of_size(1e-12, 1e-3));
+    ContactStiffness<Real> const k = bond_stiffness(3e8, 2.89e8, draw.of_size(1e-8, 1e-2), draw.of_size(1e-12, 1e-3));
     ASSERT_GT(k.normal, 0);
     ASSERT_LT(k.normal, 1.5e8 * (1 + 1e-15));
   }
@@ -56,7 +56,7 @@ TEST(BondStiffness, IsNeverMoreThanHalfThatOfAGrain) {
 
 TEST(BondStiffness, IsZeroForABondOfNoWidthHoweverThin) {
   for (double thickness : {1e-6, 1e-300, 0.0}) {
-    BondStiffness<Real> const k = bond_stiffness(3e8, 2.89e8, 0.0, thickness);
+    ContactStiffness<Real> const k = bond_stiffness(3e8, 2.89e8, 0.0, thickness);
     EXPECT_EQ(k.normal, 0);
     EXPECT_EQ(k.shear, 0);
     EXPECT_EQ(k.rolling, 0);
@@ -71,11 +71,11 @@ TEST(BondStiffness, LanesGiveTheBitsOfTheScalar) {
   for (int n = 0; n < 20000; ++n) {
     LaneStates<Bond> bonds;
     for (Bond& bond : bonds) bond = {draw.between(0, 1) < 0.1 ? 0 : draw.of_size(1e-8, 1e-3), draw.of_size(1e-9, 1e-3)};
-    BondStiffness<Lanes> const k = bond_stiffness(3e8, 2.89e8, side_by_side(bonds, [](Bond const& b) { return b.width; }),
-                                                  side_by_side(bonds, [](Bond const& b) { return b.thickness; }));
+    ContactStiffness<Lanes> const k = bond_stiffness(3e8, 2.89e8, side_by_side(bonds, [](Bond const& b) { return b.width; }),
+                                                     side_by_side(bonds, [](Bond const& b) { return b.thickness; }));
     for (int l = 0; l < lane_count; ++l) {
       Bond const& bond = bonds[static_cast<std::size_t>(l)];
-      BondStiffness<Real> const alone = bond_stiffness(3e8, 2.89e8, bond.width, bond.thickness);
+      ContactStiffness<Real> const alone = bond_stiffness(3e8, 2.89e8, bond.width, bond.thickness);
       ASSERT_TRUE(same_bits(lane(k.normal, l), alone.normal));
       ASSERT_TRUE(same_bits(lane(k.shear, l), alone.shear));
       ASSERT_TRUE(same_bits(lane(k.rolling, l), alone.rolling));

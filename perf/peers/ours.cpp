@@ -86,7 +86,7 @@ void write_bonds(Simulation const& bonded, std::string const& folder) {
   Snapshot const s = take_snapshot(bonded);
   BondLaw const& law = bonded.laws().contact.bond;
   std::ofstream file(folder + "/bonds.txt");
-  BondStiffness<Real> stiffness{0, 0, 0}, strength{0, 0, 0};
+  ContactStiffness<Real> stiffness{0, 0, 0}, strength{0, 0, 0};
   Real bonds = 0, longest = 0;
   for (std::size_t k = 0; k < s.a.size(); ++k) {
     Real const width = s.width[k];
@@ -94,7 +94,7 @@ void write_bonds(Simulation const& bonded, std::string const& folder) {
     auto const a = static_cast<std::size_t>(s.a[k]), b = static_cast<std::size_t>(s.b[k]);
     file << s.id[a] << ' ' << s.id[b] << '\n';
     Real const gap = law.gap(-Real(s.gap[k]));
-    BondStiffness<Real> const k_bond = law.stiffness(width, gap);
+    ContactStiffness<Real> const k_bond = law.stiffness(width, gap);
     BondStrength const limit = bond_strength(law.strength, width, gap);
     stiffness = {stiffness.normal + k_bond.normal, stiffness.shear + k_bond.shear, stiffness.rolling + k_bond.rolling};
     strength = {strength.normal + limit.tension, strength.shear + limit.shear(0), strength.rolling + limit.rolling(0)};

@@ -280,11 +280,7 @@ HistoryRow BiaxialTest::record() {
   row.bonds_intact = std::llround(m.bonded);
   row.intact_initial_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
   row.intact_mechanical_pct = m.mechanical > 0 ? 100.0 * m.bonded / m.mechanical : 0;
-  BreakCounts const broken = s.break_counts();
-  row.broken_tension = broken.tension;
-  row.broken_compression = broken.compression;
-  row.broken_shear = broken.shear;
-  row.broken_rolling = broken.rolling;
+  row.broken = s.break_counts();
   row.coordination = 2 * m.mechanical / s.discs();
   row.inertial_number = state_->rate.strain_rate * state_->d50 * std::sqrt(s.density() / std::max(row.sigma3_Pa, 1.0));
   row.wave_number = rate_numbers(state_->scene, state_->d50, height_of(s), row.void_ratio).wave_number;

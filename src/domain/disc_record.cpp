@@ -22,25 +22,26 @@ auto on_host_view(Vector& numbers) {
   return Kokkos::View<Number*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(numbers.data(), numbers.size());
 }
 
+/// Writes records but for the companions, for which it leaves room.
 template <class Numbers>
 struct Pack {
-  Field<int> which, id;
-  DiscColumns discs;
+  Field<int> which;
+  ParticleSoA p;
   ContactRows rows;
-  RowColumns history;
+  int companions;
   Offsets begin;
   Numbers numbers;
 
   KOKKOS_FUNCTION void operator()(int k) const {
     int const i = which(k), length = rows.length(i);
     auto at = begin(k);
-    numbers(at++) = id(i);
-    for (int c = 0; c < discs.count; ++c) numbers(at++) = discs.column[c](i);
+    for_each_field(p, [&](DiscField const&, auto const& field) { numbers(at++) = field(i); });
+    at += companions;
     numbers(at++) = length;
     for (int n = 0; n < length; ++n) {
       std::size_t const e = rows.entry(i, n);
       numbers(at++) = rows.neighbour(e);
-      for (int c = 0; c < history.count; ++c) numbers(at++) = history.column[c](e);
+      for_each_history(rows, [&](HistoryField const&, auto const& field) { numbers(at++) = field(e); });
     }
   }
 };
@@ -50,24 +51,62 @@ struct Unpack {
   Numbers numbers;
   Offsets begin;
   int first;  // where the new discs go
-  Field<int> id;
-  DiscColumns discs;
+  ParticleSoA p;
   ContactRows rows;
-  RowColumns history;
+  int companions;
 
   KOKKOS_FUNCTION void operator()(int k) const {
     auto at = begin(k);
-    id(first + k) = static_cast<int>(numbers(at++));
-    for (int c = 0; c < discs.count; ++c) discs.column[c](first + k) = numbers(at++);
+    for_each_field(p, [&, i = first + k](DiscField const&, auto const& field) { field(i) = as_in(field, numbers(at++)); });
+    at += companions;
     auto const length = static_cast<int>(numbers(at++));
     rows.length(k) = length;
     for (int n = 0; n < length; ++n) {
       std::size_t const e = rows.entry(k, n);
       rows.neighbour(e) = static_cast<int>(numbers(at++));
-      for (int c = 0; c < history.count; ++c) history.column[c](e) = numbers(at++);
+      for_each_history(rows, [&](HistoryField const&, auto const& field) { field(e) = as_in(field, numbers(at++)); });
     }
   }
+  template <class T>
+  KOKKOS_INLINE_FUNCTION static T as_in(Field<T> const&, double number) {
+    return static_cast<T>(number);
+  }
 };
+
+/// One companion of all discs, to or from its place `offset` behind the beginning of their records.
+template <class T, class Numbers>
+struct PackCompanion {
+  Field<int> which;
+  Field<T> field;
+  Offsets begin;
+  int offset;
+  Numbers numbers;
+  KOKKOS_FUNCTION void operator()(int k) const { numbers(begin(k) + offset) = field(which(k)); }
+};
+template <class T, class Numbers>
+struct UnpackCompanion {
+  Numbers numbers;
+  Offsets begin;
+  int offset, first;
+  Field<T> field;
+  KOKKOS_FUNCTION void operator()(int k) const { field(first + k) = static_cast<T>(numbers(begin(k) + offset)); }
+};
+
+/// How many numbers a record has for the state of its disc, the id among them.
+int state_columns() {
+  ParticleSoA const none;
+  int count = 0;
+  for_each_field(none, [&](DiscField const&, auto const&) { ++count; });
+  return count;
+}
+
+int history_columns(ContactFeatures const& features) {
+  ContactRows none;
+  none.features = features;
+  int count = 0;
+  for_each_history(none, [&](HistoryField const&, auto const&) { ++count; });
+  return count;
+}
 
 template <class T>
 Field<T> on_device(char const* label, std::vector<T> const& values) {
@@ -88,26 +127,22 @@ std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) 
 
 }  // namespace
 
-DiscColumns::DiscColumns(ParticleSoA const& particles, Companions const& companions) {
-  auto const add = [this](char const* label, Field<Real> const& field) {
-    if (count == most) throw std::logic_error("a disc has more numbers than a record holds");
-    name[count] = label;
-    column[count++] = field;
-  };
-  for_each_field(particles, [&](char const* label, auto const& field) {
-    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) add(label, field);
-  });
-  for (Companion const& companion : companions) add(companion.name, *companion.field);
-}
-
-RowColumns::RowColumns(ContactRows const& rows) {
-  for_each_history(rows, [&](char const*, Field<Real> const& field, Real) { column[count++] = field; });
+RecordColumns record_columns(Companions const& companions, ContactFeatures const& features) {
+  RecordColumns columns;
+  ParticleSoA const none;
+  for_each_field(none, [&](DiscField const& about, auto const&) { columns.discs.emplace_back(about.name); });
+  columns.discs.erase(columns.discs.begin());  // the id stands for itself
+  for (Companion const& companion : companions) columns.discs.emplace_back(companion.name);
+  ContactRows rows;
+  rows.features = features;
+  for_each_history(rows, [&](HistoryField const& about, auto const&) { columns.history.emplace_back(about.name); });
+  return columns;
 }
 
 DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companions, ContactRows const& rows,
                        std::vector<int> const& which) {
-  DiscColumns const discs(particles, companions);
-  RowColumns const history(rows);
+  auto const others = static_cast<int>(companions.size());
+  int const state = state_columns(), entry = 1 + history_columns(rows.features);
   auto const n = static_cast<int>(which.size());
   Field<int> const indices = on_device("packed", which), length = uninitialised<int>("packed_lengths", which.size());
   Kokkos::RangePolicy<ExecutionSpace> const each(0, n);
@@ -115,14 +150,18 @@ DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companion
   DiscRecords records;
   records.begin.reserve(which.size() + 1);
   for (int const entries : on_host(length)) {
-    records.begin.push_back(records.begin.back() + static_cast<std::size_t>(2 + discs.count + entries * (1 + history.count)));
+    records.begin.push_back(records.begin.back() + static_cast<std::size_t>(state + others + 1 + entries * entry));
   }
   records.numbers.resize(records.begin.back());
   auto const home = on_host_view(records.numbers);
   auto const numbers = Kokkos::create_mirror_view(ExecutionSpace::memory_space(), home);  // itself where kernels reach the host
-  Kokkos::parallel_for("pack_discs", each,
-                       Pack<decltype(numbers)>{indices, particles.id, discs, rows, history,
-                                               on_device("record_offsets", signed_offsets(records.begin)), numbers});
+  using Numbers = std::remove_const_t<decltype(numbers)>;
+  Offsets const begin = on_device("record_offsets", signed_offsets(records.begin));
+  Kokkos::parallel_for("pack_discs", each, Pack<Numbers>{indices, particles, rows, others, begin, numbers});
+  int offset = state;
+  for_each_companion(companions, [&]<class T>(Field<T> const& field) {
+    Kokkos::parallel_for("pack_companion", each, PackCompanion<T, Numbers>{indices, field, begin, offset++, numbers});
+  });
   Kokkos::fence();
   Kokkos::deep_copy(home, numbers);
   return records;
@@ -167,10 +206,8 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
                          Companions const& companions) {
   ContactRows rows;
   rows.features = features;
-  int columns = 0, histories = 0;
-  for_each_field(particles, [&](char const*, auto const&) { ++columns; });  // the id stands for itself
-  columns += static_cast<int>(companions.size());
-  for_each_history(rows, [&](char const*, Field<Real> const&, Real) { ++histories; });
+  auto const others = static_cast<int>(companions.size());
+  int const state = state_columns(), columns = state + others, histories = history_columns(features);
   std::vector<std::int64_t> begin;
   std::vector<int> slice_start{0};
   int widest = 0;
@@ -179,8 +216,8 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
     auto const length = static_cast<int>(numbers[at + static_cast<std::size_t>(columns)]);
     at += static_cast<std::size_t>(columns + 1 + length * (1 + histories));
     widest = std::max(widest, length);
-    if (begin.size() % lane_count != 0 && at < numbers.size()) continue;
-    require_countable((std::int64_t{slice_start.back()} + widest) * lane_count, 0);
+    if (begin.size() % slice_width != 0 && at < numbers.size()) continue;
+    require_countable((std::int64_t{slice_start.back()} + widest) * slice_width, 0);
     slice_start.push_back(slice_start.back() + widest);
     widest = 0;
   }
@@ -189,16 +226,21 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   reserve(particles, first + came);
   particles.owned = first + came;
   particles.ghosts = 0;
-  for (Companion const& companion : companions) Kokkos::resize(*companion.field, particles.x.extent(0));
+  for_each_companion(companions, [&](auto& field) { Kokkos::resize(field, particles.x.extent(0)); });
   fill_padding(particles);
   rows.slice_start = on_device("rows.slice_start", slice_start);
   rows.length = uninitialised<int>("rows.length", begin.size());
-  rows.neighbour = uninitialised<int>("rows.neighbour", static_cast<std::size_t>(slice_start.back()) * lane_count);
+  rows.neighbour = uninitialised<int>("rows.neighbour", static_cast<std::size_t>(slice_start.back()) * slice_width);
   allocate_history(rows, rows.neighbour.extent(0));
   auto const reached = Kokkos::create_mirror_view_and_copy(ExecutionSpace::memory_space(), on_host_view(numbers));
-  Kokkos::parallel_for("unpack_discs", Kokkos::RangePolicy<ExecutionSpace>(0, came),
-                       Unpack<decltype(reached)>{reached, on_device("record_offsets", begin), first, particles.id,
-                                                 DiscColumns(particles, companions), rows, RowColumns(rows)});
+  using Numbers = std::remove_const_t<decltype(reached)>;
+  Offsets const offsets = on_device("record_offsets", begin);
+  Kokkos::RangePolicy<ExecutionSpace> const each(0, came);
+  Kokkos::parallel_for("unpack_discs", each, Unpack<Numbers>{reached, offsets, first, particles, rows, others});
+  int offset = state;
+  for_each_companion(companions, [&]<class T>(Field<T> const& field) {
+    Kokkos::parallel_for("unpack_companion", each, UnpackCompanion<T, Numbers>{reached, offsets, offset++, first, field});
+  });
   Kokkos::fence();  // the numbers are the caller's
   return rows;
 }

@@ -2,6 +2,7 @@
 /// Discs by value, each with its companions and its row, as a string of numbers: how they travel to other ranks and to
 /// checkpoints.
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "kernels/cell_grid.hpp"
@@ -12,33 +13,21 @@ namespace clathra {
 /// What goes with a disc beside its state: accounts, marks. [owned]
 struct Companion {
   char const* name;
-  Field<Accum>* field;
+  std::variant<Field<float>*, Field<double>*> field;
 };
 using Companions = std::vector<Companion>;
 inline Companions with(Companions some, Companions const& more) {
   some.insert(some.end(), more.begin(), more.end());
   return some;
 }
+/// Calls visit(field) for each of them, as what it is.
+template <class Visit>
+void for_each_companion(Companions const& companions, Visit&& visit) {
+  for (Companion const& companion : companions) std::visit([&](auto* field) { visit(*field); }, companion.field);
+}
 
-/// The fields of a disc as columns of numbers: those of ParticleSoA but the id, and the companions.
-struct DiscColumns {
-  static constexpr int most = 26;  // 9 of the state, 5 accounts, 2 of the start, 4 of rough walls, 6 derived ones
-  int count = 0;
-  Field<Real> column[most];
-  char const* name[most];
-  DiscColumns(ParticleSoA const& particles, Companions const& companions);
-};
-
-/// The history of a row as columns.
-struct RowColumns {
-  static constexpr int most = 5;
-  int count = 0;
-  Field<Real> column[most];
-  explicit RowColumns(ContactRows const& rows);
-};
-
-/// Discs in a row of numbers. One record: id, the disc's columns, the length of its row, and for each entry the neighbour's id
-/// and the history columns.
+/// Discs in a row of numbers. One record: the disc's fields from the id on, its companions, the length of its row, and for each
+/// entry the neighbour's id and the history.
 struct DiscRecords {
   std::vector<std::size_t> begin{0};  ///< [discs + 1] where each record begins
   std::vector<double> numbers;
@@ -56,6 +45,8 @@ struct RecordColumns {
   std::vector<std::string> history;  ///< behind each neighbour's id
   bool operator==(RecordColumns const&) const = default;
 };
+/// Those of discs with these companions and rows.
+RecordColumns record_columns(Companions const& companions, ContactFeatures const& features);
 
 /// Records of which only the columns `wanted` are left, in their order. @throws std::runtime_error where one is missing
 DiscRecords with_columns(DiscRecords records, RecordColumns const& present, RecordColumns const& wanted);

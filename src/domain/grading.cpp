@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <stdexcept>
+
+#include "domain/csv_rows.hpp"
+#include "domain/units.hpp"
 
 namespace clathra {
 
@@ -41,24 +44,23 @@ Grading Grading::uniform(double diameter) { return Grading({diameter}, {1}); }
 Grading Grading::from_csv(std::string const& path) {
   std::ifstream file(path);
   if (!file) throw std::invalid_argument("grading file '" + path + "' cannot be read");
-  std::string line;
-  std::getline(file, line);
-  double const unit = line.rfind("d_mm", 0) == 0 ? 1e-3 : line.rfind("d_um", 0) == 0 ? 1e-6 : line.rfind("d_m,", 0) == 0 ? 1 : 0;
+  std::string const text{std::istreambuf_iterator<char>(file), {}};
+  CsvRows rows(text);
+  std::string_view const header = rows.next_or_rest() ? rows.text() : "";
+  double const unit = header.starts_with("d_mm") ? 1e-3 : header.starts_with("d_um") ? 1e-6 : header.starts_with("d_m,") ? 1 : 0;
+  auto const quoted = [&] { return "'" + std::string(rows.text().substr(0, 60)) + "'"; };
   if (unit == 0)
-    throw std::invalid_argument(path + ":1: the header must be 'd_mm,percent_finer' (or d_um, d_m), got '" + line.substr(0, 60) +
-                                "'");
+    throw std::invalid_argument(path + ":1: the header must be 'd_mm,percent_finer' (or d_um, d_m), got " + quoted());
   std::vector<double> diameters, finer;
-  for (int row = 2; std::getline(file, line); ++row) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream text(line);
-    double d = 0, percent = 0;
-    char comma = 0;
-    if (!(text >> d >> comma >> percent) || comma != ',') {
-      throw std::invalid_argument(path + ":" + std::to_string(row) + ": expected 'diameter,percent finer', got '" +
-                                  line.substr(0, 60) + "'");
+  while (rows.next_or_rest()) {
+    if (rows.text().empty() || rows.text()[0] == '#') continue;
+    try {
+      diameters.push_back(parse_number(rows.cells().at(0)) * unit);
+      finer.push_back(parse_number(rows.cells().at(1)) / 100);
+    } catch (std::logic_error const&) {
+      throw std::invalid_argument(path + ":" + std::to_string(rows.line()) + ": expected 'diameter,percent finer', got " +
+                                  quoted());
     }
-    diameters.push_back(d * unit);
-    finer.push_back(percent / 100);
   }
   try {
     return Grading(diameters, finer);

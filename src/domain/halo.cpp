@@ -1,6 +1,5 @@
 #include "domain/halo.hpp"
 
-#include <type_traits>
 #include <utility>
 
 namespace clathra {
@@ -21,29 +20,21 @@ struct ListNear {
   }
 };
 
+template <class T>
 struct PackColumn {
-  Field<Real> from, numbers;
+  Field<T> from;
+  Field<double> numbers;
   Field<int> source;
   int column, columns;
   KOKKOS_FUNCTION void operator()(int k) const { numbers(k * columns + column) = from(source(k)); }
 };
 
+template <class T>
 struct UnpackColumn {
-  Field<Real> numbers, to;
+  Field<double> numbers;
+  Field<T> to;
   int first, column, columns;
-  KOKKOS_FUNCTION void operator()(int k) const { to(first + k) = numbers(k * columns + column); }
-};
-
-struct CopyIds {
-  Field<int> id;
-  Field<Real> as_number;
-  bool to_ids;
-  KOKKOS_FUNCTION void operator()(int i) const {
-    if (to_ids)
-      id(i) = static_cast<int>(as_number(i));
-    else
-      as_number(i) = id(i);
-  }
+  KOKKOS_FUNCTION void operator()(int k) const { to(first + k) = static_cast<T>(numbers(k * columns + column)); }
 };
 
 std::vector<Stretch> times(std::vector<Stretch> stretches, std::size_t columns) {
@@ -100,32 +91,34 @@ void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, Parti
   reserve(particles, particles.owned + ghosts);
   particles.ghosts = ghosts;
   fill_padding(particles);
-  Field<Real> const id = uninitialised<Real>("id_as_number", particles.x.extent(0));
-  Kokkos::RangePolicy<ExecutionSpace> const all(0, particles.all());
-  Kokkos::parallel_for("ids_to_numbers", all, CopyIds{particles.id, id, false});
-  std::vector<Field<Real>> columns{id};
-  for_each_field(particles, [&](char const*, auto const& field) {
-    if constexpr (!std::is_same_v<typename std::decay_t<decltype(field)>::value_type, int>) columns.push_back(field);
-  });
-  trade(ranks, particles, columns);
-  Kokkos::parallel_for("numbers_to_ids", all, CopyIds{particles.id, id, true});
+  std::vector<Column> all;
+  for_each_field(particles, [&](DiscField const&, auto const& field) { all.push_back(field); });
+  trade(ranks, particles, all);
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
-  trade(ranks, particles, {particles.x, particles.y, particles.vx, particles.vy, particles.omega});
+  std::vector<Column> moving;
+  for_each_field(particles, [&](DiscField const& about, auto const& field) {
+    if (about.moves) moving.push_back(field);
+  });
+  trade(ranks, particles, moving);
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles, Field<Real> const& field) const {
   trade(ranks, particles, {field});
 }
 
-void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Field<Real>> const& columns) const {
+/// Doubles hold every value of every kind of field.
+void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Column> const& columns) const {
   auto const width = static_cast<int>(columns.size());
-  Field<Real> const out = uninitialised<Real>("halo.out", source_.extent(0) * columns.size()),
-                    in = uninitialised<Real>("halo.in", static_cast<std::size_t>(particles.ghosts) * columns.size());
+  Field<double> const out = uninitialised<double>("halo.out", source_.extent(0) * columns.size()),
+                      in = uninitialised<double>("halo.in", static_cast<std::size_t>(particles.ghosts) * columns.size());
   Kokkos::RangePolicy<ExecutionSpace> const each_sent(0, static_cast<int>(source_.extent(0))), each_ghost(0, particles.ghosts);
-  for (int c = 0; c < width; ++c)
-    Kokkos::parallel_for("pack_halo", each_sent, PackColumn{columns[static_cast<std::size_t>(c)], out, source_, c, width});
+  int at = 0;
+  auto const pack = [&]<class T>(Field<T> const& field) {
+    Kokkos::parallel_for("pack_halo", each_sent, PackColumn<T>{field, out, source_, at++, width});
+  };
+  for (Column const& column : columns) std::visit(pack, column);
   auto const host_out = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
   auto host_in = Kokkos::create_mirror_view(in);
   Kokkos::fence();
@@ -133,13 +126,17 @@ void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<F
   ranks.trade(host_out.data(), times(sent_, columns.size()), host_in.data(), times(received_, columns.size()));
   Kokkos::Profiling::popRegion();
   Kokkos::deep_copy(in, host_in);
-  for (int c = 0; c < width; ++c)
-    Kokkos::parallel_for("unpack_halo", each_ghost,
-                         UnpackColumn{in, columns[static_cast<std::size_t>(c)], particles.owned, c, width});
+  at = 0;
+  auto const unpack = [&]<class T>(Field<T> const& field) {
+    Kokkos::parallel_for("unpack_halo", each_ghost, UnpackColumn<T>{in, field, particles.owned, at++, width});
+  };
+  for (Column const& column : columns) std::visit(unpack, column);
 }
 
 std::size_t Halo::bytes() const {
-  return source_.span() * sizeof(int) + (source_.extent(0) + total(received_)) * 5 * sizeof(Real);
+  std::size_t moving = 0;
+  for_each_field(ParticleSoA(), [&](DiscField const& about, auto const&) { moving += about.moves ? 1 : 0; });
+  return source_.span() * sizeof(int) + (source_.extent(0) + total(received_)) * moving * sizeof(double);
 }
 
 }  // namespace clathra

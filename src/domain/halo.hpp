@@ -1,5 +1,8 @@
 #pragma once
 /// Copies of the discs that other ranks own near this rank's rectangle, kept as ghosts behind the owned discs.
+#include <variant>
+#include <vector>
+
 #include "domain/decomposition.hpp"
 
 namespace clathra {
@@ -17,7 +20,8 @@ class Halo {
   std::size_t bytes() const;
 
  private:
-  void trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Field<Real>> const& columns) const;
+  using Column = std::variant<Field<int>, Field<float>, Field<double>>;
+  void trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Column> const& columns) const;
 
   Field<int> source_;                     ///< [sent] index of each disc that goes to another rank
   std::vector<Stretch> sent_, received_;  ///< discs, by rank

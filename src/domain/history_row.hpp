@@ -2,6 +2,8 @@
 /// One record of a test: a row of history.csv.
 #include <cstdint>
 
+#include "kernels/break_mode.hpp"
+
 namespace clathra {
 
 /// Stresses are effective and positive in compression; sigma_1 is vertical, sigma_3 lateral (walls); eps_v = eps_1 + eps_3.
@@ -13,9 +15,9 @@ struct HistoryRow {
   double contact_sigma1_Pa = 0, contact_sigma3_Pa = 0;      ///< the same stresses from the contacts (Love-Weber)
   double void_ratio = 0;                                    ///< nominal
   std::int64_t bonds_intact = 0;
-  double intact_initial_pct = 0;     ///< of the bonds at installation
-  double intact_mechanical_pct = 0;  ///< bonded / (touching or bonded), the paper's measure
-  std::int64_t broken_tension = 0, broken_compression = 0, broken_shear = 0, broken_rolling = 0;
+  double intact_initial_pct = 0;                ///< of the bonds at installation
+  double intact_mechanical_pct = 0;             ///< bonded / (touching or bonded), the paper's measure
+  BreakCounts broken;                           ///< bonds since the start of the shear, by mode
   double coordination = 0;                      ///< 2 * mechanical contacts / discs
   double inertial_number = 0, wave_number = 0;  ///< I and W
   double unbalanced = 0;                        ///< mean unbalanced force / mean contact force
@@ -38,10 +40,7 @@ void for_each_column(Row& row, Visit&& visit) {
   visit("bonds_intact", row.bonds_intact);
   visit("intact_initial_pct", row.intact_initial_pct);
   visit("intact_mechanical_pct", row.intact_mechanical_pct);
-  visit("broken_tension", row.broken_tension);
-  visit("broken_compression", row.broken_compression);
-  visit("broken_shear", row.broken_shear);
-  visit("broken_rolling", row.broken_rolling);
+  for (BreakModeNames const& m : break_modes) visit(m.broken, row.broken[m.mode]);
   visit("coordination", row.coordination);
   visit("inertial_number", row.inertial_number);
   visit("wave_number", row.wave_number);

@@ -134,7 +134,7 @@ BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, dou
   card.R_t = tensile_strength(law.strength, card.B, card.gap);
   card.R_c = compressive_strength(law.strength, card.B, card.gap);
   card.k_mh = card.h0 > 0 ? card.B * law.modulus / card.h0 : 0;
-  BondStiffness<double> const stiffness = law.stiffness(card.B, card.gap);
+  ContactStiffness<double> const stiffness = law.stiffness(card.B, card.gap);
   card.k_bn = stiffness.normal;
   card.k_bs = stiffness.shear;
   card.k_bm = stiffness.rolling;

@@ -34,7 +34,7 @@ void keep_only(std::vector<int> const& staying, ParticleSoA& particles, Companio
   Kokkos::deep_copy(order, host);
   permute(particles, order);
   slot = permuted(slot, order, staying.size());
-  for (Companion const& companion : companions) *companion.field = permuted(*companion.field, order, particles.x.extent(0));
+  for_each_companion(companions, [&](auto& field) { field = permuted(field, order, particles.x.extent(0)); });
 }
 
 }  // namespace

@@ -41,27 +41,25 @@ struct ListImages {
   }
 };
 
+/// Copies what changes in each step, or all of the state.
 struct CopyImages {
   ParticleSoA p;
   PeriodicCell cell;
   Field<int> source, shift_x, shift_y;
+  bool all;
   KOKKOS_FUNCTION void operator()(int g) const {
     int const from = source(g), to = p.owned + g;
-    p.id(to) = p.id(from);
-    p.x(to) = p.x(from) + shift_x(g) * cell.width;
-    p.y(to) = p.y(from) + shift_y(g) * cell.height;
-    p.angle(to) = p.angle(from);
-    p.vx(to) = p.vx(from);
-    p.vy(to) = p.vy(from);
-    p.omega(to) = p.omega(from);
-    p.radius(to) = p.radius(from);
-    p.inverse_mass(to) = p.inverse_mass(from);
-    p.inverse_inertia(to) = p.inverse_inertia(from);
+    for_each_field(p, [&](DiscField const& about, auto const& field) {
+      if (all || about.moves) field(to) = field(from);
+    });
+    p.x(to) += shift_x(g) * cell.width;
+    p.y(to) += shift_y(g) * cell.height;
   }
 };
 
+template <class T>
 struct CopyValues {
-  Field<Real> field;
+  Field<T> field;
   Field<int> source;
   int first;
   KOKKOS_FUNCTION void operator()(int g) const { field(first + g) = field(source(g)); }
@@ -85,17 +83,19 @@ void PeriodicImages::rebuild(ParticleSoA& particles, PeriodicCell const& cell, R
   reserve(particles, particles.owned + count);
   particles.ghosts = count;
   fill_padding(particles);
-  refresh(particles, cell);
+  copy(particles, cell, true);
 }
 
-void PeriodicImages::refresh(ParticleSoA const& particles, PeriodicCell const& cell) const {
-  Kokkos::parallel_for("refresh_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
-                       CopyImages{particles, cell, source_, shift_x_, shift_y_});
+void PeriodicImages::copy(ParticleSoA const& particles, PeriodicCell const& cell, bool all) const {
+  Kokkos::parallel_for("copy_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
+                       CopyImages{particles, cell, source_, shift_x_, shift_y_, all});
 }
+
+void PeriodicImages::refresh(ParticleSoA const& particles, PeriodicCell const& cell) const { copy(particles, cell, false); }
 
 void PeriodicImages::refresh(ParticleSoA const& particles, Field<Real> const& field) const {
   Kokkos::parallel_for("refresh_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
-                       CopyValues{field, source_, particles.owned});
+                       CopyValues<Real>{field, source_, particles.owned});
 }
 
 }  // namespace clathra

@@ -16,13 +16,14 @@ class PeriodicImages {
  public:
   /// Wraps the owned discs into the cell and appends images of all discs closer than `reach` [m] (centre to edge) to an edge.
   void rebuild(ParticleSoA& particles, PeriodicCell const& cell, Real reach);
-  /// Gives every image the present state of its disc.
+  /// Gives every image the present place and velocity of its disc.
   void refresh(ParticleSoA const& particles, PeriodicCell const& cell) const;
-
   /// Gives every image the value of its disc.
   void refresh(ParticleSoA const& particles, Field<Real> const& field) const;
 
  private:
+  void copy(ParticleSoA const& particles, PeriodicCell const& cell, bool all) const;
+
   Field<int> source_;             // owned index of each ghost
   Field<int> shift_x_, shift_y_;  // in cell sizes
 };

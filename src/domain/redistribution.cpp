@@ -10,9 +10,6 @@ namespace clathra {
 
 namespace {
 
-constexpr std::vector<double> Specimen::*columns[] = {&Specimen::x,  &Specimen::y,     &Specimen::angle, &Specimen::vx,
-                                                      &Specimen::vy, &Specimen::omega, &Specimen::radius};
-
 /// A buffer for each rank with room for its share of records of so many numbers, which `owner` deals out.
 std::vector<std::vector<double>> buffers(Ranks const& ranks, std::vector<int> const& owner, std::size_t width) {
   std::vector<std::size_t> records(static_cast<std::size_t>(ranks.count()), 0);
@@ -23,14 +20,14 @@ std::vector<std::vector<double>> buffers(Ranks const& ranks, std::vector<int> co
 }
 
 void deal_out_discs(Ranks const& ranks, Specimen& part, std::vector<int> const& owner) {
-  constexpr std::size_t width = 1 + std::size(columns);
+  constexpr std::size_t width = 1 + std::size(particle_columns);
   std::vector<std::vector<double>> to = buffers(ranks, owner, width);
   for (std::size_t i = 0; i < part.size(); ++i) {
     auto& numbers = to[static_cast<std::size_t>(owner[i])];
     numbers.push_back(part.id[i]);
-    for (auto const column : columns) numbers.push_back((part.*column)[i]);
+    for (ParticleColumn const& column : particle_columns) numbers.push_back((part.*column.of)[i]);
   }
-  for (auto const column : columns) (part.*column) = {};
+  for (ParticleColumn const& column : particle_columns) part.*column.of = {};
   part.id = {};
   std::vector<std::vector<double>> const from = ranks.exchange(std::move(to));
   std::vector<double const*> records;
@@ -39,9 +36,9 @@ void deal_out_discs(Ranks const& ranks, Specimen& part, std::vector<int> const& 
   }
   std::sort(records.begin(), records.end(), [](double const* a, double const* b) { return *a < *b; });
   for (double const* const record : records) part.id.push_back(static_cast<int>(*record));
-  for (std::size_t c = 0; c < std::size(columns); ++c) {
-    (part.*columns[c]).reserve(records.size());
-    for (double const* const record : records) (part.*columns[c]).push_back(record[1 + c]);
+  for (std::size_t c = 0; c < std::size(particle_columns); ++c) {
+    (part.*particle_columns[c].of).reserve(records.size());
+    for (double const* const record : records) (part.*particle_columns[c].of).push_back(record[1 + c]);
   }
 }
 

@@ -16,8 +16,7 @@ std::string percent_text(double value, int digits) {
 
 /// Steers the isotropic stretching of a periodic cell for the next chunk of steps.
 void steer_cell(Simulation& simulation, double stress, double largest_rate) {
-  // A homogeneous strain changes the mean stress by about 0.8 k_n; a tenth of the error is taken out in a chunk.
-  double const modulus = 0.8 * simulation.laws().contact.grain.normal_stiffness;
+  double const modulus = packing_modulus(simulation.laws().contact.grain);  // a tenth of the error is taken out in a chunk
   double const rate = 0.1 * (stress - mean_stress(simulation)) / (modulus * chunk * simulation.time_step);
   simulation.stretch_cell(std::clamp(rate, -largest_rate, largest_rate));
 }
@@ -94,7 +93,7 @@ double mean_stress(Simulation const& simulation) {
 
 double wave_speed(Simulation const& simulation) {
   double const bulk_density = simulation.density() / (1 + simulation.void_ratio());
-  return std::sqrt(0.8 * simulation.laws().contact.grain.normal_stiffness / bulk_density);
+  return std::sqrt(packing_modulus(simulation.laws().contact.grain) / bulk_density);
 }
 
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction) {

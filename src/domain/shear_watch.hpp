@@ -12,7 +12,7 @@ inline constexpr double unbalanced_at_rest = 1e-3;  ///< mean unbalanced force o
 inline constexpr double unbalanced_limit = 1e-2;    ///< while it is sheared
 inline constexpr double restless_share = 0.01;      ///< of the looks that may be above it
 inline constexpr double deep_overlap_share =
-    1e-3;  ///< of the touching pairs that may overlap by more than a tenth of the smaller radius
+    1e-2;  ///< of the touching pairs that may overlap by more than a tenth of the smaller radius
 
 class ShearWatch {
  public:

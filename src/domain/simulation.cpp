@@ -74,7 +74,7 @@ void Simulation::rebuild(bool leeway_by_speed, Companions const& also) {
     migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
   }
   Field<int> const order = sort_in_space(particles_, old, slot, skin_, sorting_is_due());
-  for (Companion const& with : with_discs) *with.field = permuted(*with.field, order, particles_.x.extent(0));
+  for_each_companion(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0)); });
   Real const widest_leeway =
       ranks_.max(in_range([&] { return give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sums_); }));
   reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);

@@ -45,11 +45,6 @@ struct SimulationLaws {
   }
 };
 
-/// Bonds broken so far, by mode.
-struct BreakCounts {
-  std::int64_t tension = 0, compression = 0, shear = 0, rolling = 0;
-};
-
 /// Several ranks may share a simulation: each owns the discs of a rectangle and keeps their rows. All calls but those that say
 /// "of this rank" are then collective, and what they return is that of the whole specimen and the same on every rank.
 class Simulation {
@@ -121,7 +116,7 @@ class Simulation {
   Real stable_limit() const;                          ///< clathra::stable_limit() with the present damping [s]
   SimulationLaws const& laws() const { return laws_; }
   int broken_bonds() const;
-  BreakCounts break_counts() const;
+  BreakCounts break_counts() const;  ///< so far
   /// Breaks that this rank has seen while events were kept, from the first-th on, sorted by (step, id_a, id_b). Each break is
   /// seen by one rank.
   std::vector<BreakEvent> break_events(int first) const;
@@ -183,9 +178,9 @@ class Simulation {
   PeriodicCell cell_, reference_cell_;
   PeriodicImages images_;
   Halo halo_;
-  BreakLog breaks_;                                             // since the last collect_breaks()
-  mutable std::vector<BreakEvent> broken_;                      // before
-  mutable std::int64_t broken_by_mode_[break_mode_count] = {};  // on this rank, before
+  BreakLog breaks_;                         // since the last collect_breaks()
+  mutable std::vector<BreakEvent> broken_;  // before
+  mutable BreakCounts broken_by_mode_;      // on this rank, before
   EnergyLosses losses_;
   Faults faults_;
   Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;

@@ -33,16 +33,6 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
   visit(name + "_largest_speed", drive.largest_speed);
 }
 
-/// The columns of the records of these discs.
-RecordColumns columns_of(ParticleSoA const& particles, Companions const& companions, ContactFeatures const& features) {
-  DiscColumns const discs(particles, companions);
-  RecordColumns columns{{discs.name, discs.name + discs.count}, {}};
-  ContactRows rows;
-  rows.features = features;
-  for_each_history(rows, [&](char const* name, Field<Real> const&, Real) { columns.history.push_back(name); });
-  return columns;
-}
-
 std::string name_of_broken(int mode) { return "broken_" + std::to_string(mode); }
 
 }  // namespace
@@ -82,15 +72,15 @@ void Simulation::for_each_number(Visit&& visit) {
 }
 
 Companions Simulation::forces() {
-  return {{"force_x", &particles_.force_x}, {"force_y", &particles_.force_y}, {"torque", &particles_.torque}};
+  Companions all;
+  for_each_force(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
+  return all;
 }
 
 /// What is derived from the state but must not be derived anew: forces, and where the last search found the discs.
 Companions Simulation::derived() {
-  Companions all = forces();
-  all.insert(
-      all.end(),
-      {{"reference_x", &particles_.reference_x}, {"reference_y", &particles_.reference_y}, {"leeway", &particles_.leeway}});
+  Companions all;
+  for_each_derived_field(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
   return all;
 }
 
@@ -109,13 +99,13 @@ SimulationState Simulation::state() {
   std::vector<int> all(static_cast<std::size_t>(particles_.owned));
   std::iota(all.begin(), all.end(), 0);
   s.discs = pack_discs(particles_, with_discs, named, all);
-  RecordColumns const columns = columns_of(particles_, with_discs, rows_.features);
+  RecordColumns const columns = record_columns(with_discs, rows_.features);
   s.disc_columns = columns.discs;
   s.history_columns = columns.history;
   collect_breaks();
   s.broken = broken_;
   for (int mode = 0; mode < break_mode_count; ++mode)
-    s.numbers[name_of_broken(mode)] = static_cast<double>(ranks_.sum(broken_by_mode_[mode]));
+    s.numbers[name_of_broken(mode)] = static_cast<double>(ranks_.sum(broken_by_mode_.number[mode]));
   return s;
 }
 
@@ -136,7 +126,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   bool const one_leeway = std::find(columns.begin(), columns.end(), "leeway") == columns.end();
   if (one_leeway) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
   state.discs = with_columns(std::move(state.discs), {state.disc_columns, state.history_columns},
-                             columns_of(particles_, with_discs, laws_.features()));
+                             record_columns(with_discs, laws_.features()));
   rows_ = unpack_discs(brought_home(std::move(state.discs)), laws_.features(), particles_, with_discs);
   if (one_leeway) Kokkos::deep_copy(particles_.leeway, skin_ / 2);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their leeways.
@@ -149,9 +139,10 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   for (int mode = 0; mode < break_mode_count; ++mode) {
     auto const counted = state.numbers.find(name_of_broken(mode));
     if (counted != state.numbers.end())
-      broken_by_mode_[mode] = ranks_.root() ? std::llround(counted->second) : 0;
+      broken_by_mode_.number[mode] = ranks_.root() ? std::llround(counted->second) : 0;
     else  // where all are events
-      broken_by_mode_[mode] = std::count_if(broken_.begin(), broken_.end(), [&](BreakEvent const& e) { return e.mode == mode; });
+      broken_by_mode_.number[mode] =
+          std::count_if(broken_.begin(), broken_.end(), [&](BreakEvent const& e) { return e.mode == mode; });
   }
 }
 
@@ -191,8 +182,7 @@ void Simulation::find_listed_neighbours() {
   bool lost = false;
   for (int i = 0; i < particles_.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {
-      std::size_t const e =
-          static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
+      std::size_t const e = entry_in(slice_start, i, k);
       index[e] = places.find(listed(e));
       lost = lost || index[e] < 0;
     }

@@ -25,20 +25,7 @@ std::vector<To> listed(Field<From> const& field, std::size_t size) {
   return values;
 }
 
-std::uint8_t broken_state(int mode) {
-  switch (static_cast<BreakMode>(mode)) {
-    case BreakMode::compression:
-      return static_cast<std::uint8_t>(ContactState::broken_compression);
-    case BreakMode::shear:
-      return static_cast<std::uint8_t>(ContactState::broken_shear);
-    case BreakMode::rolling:
-      return static_cast<std::uint8_t>(ContactState::broken_rolling);
-    case BreakMode::tension:
-    case BreakMode::none:
-      break;
-  }
-  return static_cast<std::uint8_t>(ContactState::broken_tension);
-}
+std::uint8_t broken_state(int mode) { return static_cast<std::uint8_t>(broken_in(static_cast<BreakMode>(mode))); }
 
 void copy_discs(Snapshot& s, Simulation const& simulation) {
   ParticleSoA const& p = simulation.particles();

@@ -7,9 +7,10 @@
 
 namespace clathra {
 
-/// What a pair of discs is. A pair whose bond broke stays listed by the mode of its breakage, touching or not.
-enum class ContactState : std::uint8_t { contact, bonded, broken_tension, broken_compression, broken_shear, broken_rolling };
-inline constexpr int contact_state_count = 6;
+/// What a pair of discs is. A pair whose bond broke stays listed by the mode of its breakage, touching or not: broken_in().
+enum class ContactState : std::uint8_t { contact, bonded };
+constexpr ContactState broken_in(BreakMode mode) { return static_cast<ContactState>(1 + static_cast<int>(mode)); }
+inline constexpr int contact_state_count = 1 + break_mode_count;
 
 /// Discs in spatial order (`id` is their identity), pairs once each; with several ranks this rank's discs and pairs, and discs
 /// are numbered through all ranks. Compression and closing are positive, the contact normal points from a to b.

@@ -1,6 +1,7 @@
 #pragma once
 /// A specimen at rest on the host: what generation hands to a test, and what a specimen file holds.
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,14 +17,31 @@ struct SpecimenContact {
   double bond_shear = 0, bond_moment = 0;  ///< of a bond in parallel to the grain contact
 };
 
+/// The history of a contact, number by number. Each has the name of a field of the rows (for_each_possible_history()).
+struct ContactNumber {
+  char const* name;
+  double SpecimenContact::*of;
+  char const* unit;
+};
+inline constexpr ContactNumber contact_numbers[] = {{"shear", &SpecimenContact::shear, "N/m"},
+                                                    {"moment", &SpecimenContact::moment, "N m/m"},
+                                                    {"equilibrium", &SpecimenContact::equilibrium, "m (1e300 = not bonded)"},
+                                                    {"bond_shear", &SpecimenContact::bond_shear, "N/m"},
+                                                    {"bond_moment", &SpecimenContact::bond_moment, "N m/m"}};
+
 /// Contacts as rows of numbers, to send them to other ranks.
-inline constexpr std::size_t numbers_of_contact = 7;
+inline constexpr std::size_t numbers_of_contact = 2 + std::size(contact_numbers);
 inline void append_numbers(std::vector<double>& numbers, SpecimenContact const& c) {
-  numbers.insert(numbers.end(), {double(c.id_a), double(c.id_b), c.shear, c.moment, c.equilibrium, c.bond_shear, c.bond_moment});
+  numbers.insert(numbers.end(), {double(c.id_a), double(c.id_b)});
+  for (ContactNumber const& number : contact_numbers) numbers.push_back(c.*number.of);
 }
 inline void append_contacts(std::vector<SpecimenContact>& contacts, std::vector<double> const& numbers) {
-  for (auto n = numbers.begin(); n != numbers.end(); n += numbers_of_contact)
-    contacts.push_back({static_cast<int>(n[0]), static_cast<int>(n[1]), n[2], n[3], n[4], n[5], n[6]});
+  for (auto n = numbers.begin(); n != numbers.end();) {
+    SpecimenContact& c = contacts.emplace_back();
+    c.id_a = static_cast<int>(*n++);
+    c.id_b = static_cast<int>(*n++);
+    for (ContactNumber const& number : contact_numbers) c.*number.of = *n++;
+  }
 }
 inline bool by_ids(SpecimenContact const& a, SpecimenContact const& b) {
   return a.id_a != b.id_a ? a.id_a < b.id_a : a.id_b < b.id_b;
@@ -47,5 +65,16 @@ struct Specimen {
   double width() const { return right - left; }
   double height() const { return top - bottom; }
 };
+
+/// The numbers of the discs, column by column. Each has the name of a field of ParticleSoA.
+struct ParticleColumn {
+  char const* name;
+  std::vector<double> Specimen::*of;
+  char const* unit;
+};
+inline constexpr ParticleColumn particle_columns[] = {{"x", &Specimen::x, "m"},           {"y", &Specimen::y, "m"},
+                                                      {"angle", &Specimen::angle, "rad"}, {"vx", &Specimen::vx, "m/s"},
+                                                      {"vy", &Specimen::vy, "m/s"},       {"omega", &Specimen::omega, "rad/s"},
+                                                      {"radius", &Specimen::radius, "m"}};
 
 }  // namespace clathra

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -14,8 +15,8 @@ namespace clathra {
 namespace {
 
 /// Copies host values into the first `values.size()` places of a field.
-template <class T>
-void upload(Field<T> const& field, std::vector<T> const& values) {
+template <class T, class Number>
+void upload(Field<T> const& field, std::vector<Number> const& values) {
   auto host = Kokkos::create_mirror_view(field);
   Kokkos::deep_copy(host, field);
   std::copy(values.begin(), values.end(), host.data());
@@ -26,6 +27,63 @@ template <class T>
 auto download(Field<T> const& field) {
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
 }
+
+/// Visits the fields of the discs that a specimen keeps, each with its column.
+template <class Visit>
+void for_each_column_of_specimen(ParticleSoA const& particles, Visit&& visit) {
+  for_each_field(particles, [&](DiscField const& about, auto const& field) {
+    for (ParticleColumn const& column : particle_columns)
+      if (std::string_view(column.name) == about.name) visit(field, column);
+  });
+}
+
+/// The history of all entries on the host, as double whatever it is in the rows.
+class HistoryOnHost {
+ public:
+  explicit HistoryOnHost(ContactRows const& rows) {
+    for_each_history(rows, [&](HistoryField const& about, auto const& field) {
+      auto const host = download(field);
+      columns_.push_back({about, number_of(about.name), {host.data(), host.data() + host.extent(0)}});
+    });
+  }
+
+  void upload_to(ContactRows const& rows) const {
+    auto column = columns_.begin();
+    for_each_history(rows, [&](HistoryField const&, auto const& field) { upload(field, (column++)->values); });
+  }
+
+  bool empty(std::size_t entry) const {
+    return std::all_of(columns_.begin(), columns_.end(), [&](Column const& c) { return c.values[entry] == c.about.empty; });
+  }
+
+  SpecimenContact contact(std::size_t entry, int id_a, int id_b) const {
+    SpecimenContact contact;
+    contact.id_a = id_a;
+    contact.id_b = id_b;
+    for (Column const& c : columns_) contact.*c.number = c.values[entry];
+    return contact;
+  }
+
+  /// @param is_first  whether the entry is in the row of the contact's first disc
+  void set(std::size_t entry, SpecimenContact const& contact, bool is_first) {
+    for (Column& c : columns_) c.values[entry] = c.about.odd && !is_first ? -(contact.*c.number) : contact.*c.number;
+  }
+
+ private:
+  struct Column {
+    HistoryField about;
+    double SpecimenContact::*number;
+    std::vector<double> values;
+  };
+
+  static double SpecimenContact::*number_of(std::string_view name) {
+    for (ContactNumber const& number : contact_numbers)
+      if (name == number.name) return number.of;
+    throw std::logic_error("a specimen does not keep the history '" + std::string(name) + "'");
+  }
+
+  std::vector<Column> columns_;
+};
 
 std::vector<double> or_zero(std::vector<double> const& values, std::size_t size) {
   return values.empty() ? std::vector<double>(size, 0.0) : values;
@@ -57,9 +115,10 @@ Real widest_gap(Ranks const& ranks, Specimen const& s, std::int64_t discs) {
 /// @throws Diverged where a number of a disc is not finite: a neighbour search would have no place for it
 void require_finite(Ranks const& ranks, Specimen const& s) {
   double worst = -1;
-  for (auto const* field : {&s.x, &s.y, &s.angle, &s.vx, &s.vy, &s.omega, &s.radius}) {
-    for (std::size_t i = 0; i < field->size(); ++i) {
-      if (!std::isfinite((*field)[i])) worst = std::max(worst, static_cast<double>(s.id[i]));
+  for (ParticleColumn const& column : particle_columns) {
+    std::vector<double> const& numbers = s.*column.of;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!std::isfinite(numbers[i])) worst = std::max(worst, static_cast<double>(s.id[i]));
     }
   }
   worst = ranks.max(worst);
@@ -128,15 +187,10 @@ void Simulation::adopt_discs(Specimen const& s) {
   // Summed by id, so that the order of the input does not show.
   solid_area_ = Directory(ranks_, discs_, s.id, {s.radius}).sum_by_id([](double const* r) { return pi * *r * *r; });
   upload(particles_.id, s.id);
-  upload(particles_.x, s.x);
-  upload(particles_.y, s.y);
-  upload(particles_.angle, or_zero(s.angle, n));
-  upload(particles_.vx, or_zero(s.vx, n));
-  upload(particles_.vy, or_zero(s.vy, n));
-  upload(particles_.omega, or_zero(s.omega, n));
-  upload(particles_.radius, s.radius);
   upload(particles_.inverse_mass, inverse_mass);
   upload(particles_.inverse_inertia, inverse_inertia);
+  for_each_column_of_specimen(particles_,
+                              [&](auto const& field, ParticleColumn const& column) { upload(field, or_zero(s.*column.of, n)); });
   density_ = s.density;
   d50_ = s.d50;
   critical_thickness_ = s.critical_thickness;
@@ -152,24 +206,14 @@ void Simulation::inject(Specimen const& s) {
   auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
              neighbour = download(rows_.neighbour);
   Places const at(id, particles_.owned);
-  auto shear = download(rows_.shear), moment = download(rows_.moment), equilibrium = download(rows_.equilibrium),
-       bond_shear = download(rows_.bond_shear), bond_moment = download(rows_.bond_moment);
-  auto const set = [](auto& field, std::size_t e, Real value) {
-    if (field.extent(0) > 0) field(e) = value;
-  };
+  HistoryOnHost history(rows_);
   auto const write = [&](SpecimenContact const& c) {
-    for (auto const& [mine, other, sign] : {std::tuple{c.id_a, c.id_b, 1.0}, std::tuple{c.id_b, c.id_a, -1.0}}) {
+    for (auto const& [mine, other, is_first] : {std::tuple{c.id_a, c.id_b, true}, std::tuple{c.id_b, c.id_a, false}}) {
       int const i = at.find(mine);
       if (i < 0) continue;
       for (int k = 0; k < length(i); ++k) {
-        std::size_t const e =
-            static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
-        if (id(neighbour(e)) != other) continue;
-        set(shear, e, c.shear);
-        set(moment, e, sign * c.moment);
-        set(equilibrium, e, c.equilibrium);
-        set(bond_shear, e, c.bond_shear);
-        set(bond_moment, e, sign * c.bond_moment);
+        std::size_t const e = entry_in(slice_start, i, k);
+        if (id(neighbour(e)) == other) history.set(e, c, is_first);
       }
     }
   };
@@ -177,11 +221,7 @@ void Simulation::inject(Specimen const& s) {
   auto const others =
       contacts_from_others(ranks_, s, discs_, at, {id.data(), id.data() + static_cast<std::size_t>(particles_.owned)});
   std::for_each(others.begin(), others.end(), write);
-  for (auto const& [field, host] :
-       {std::pair{&rows_.shear, &shear}, std::pair{&rows_.moment, &moment}, std::pair{&rows_.equilibrium, &equilibrium},
-        std::pair{&rows_.bond_shear, &bond_shear}, std::pair{&rows_.bond_moment, &bond_moment}}) {
-    if (field->extent(0) > 0) Kokkos::deep_copy(*field, *host);
-  }
+  history.upload_to(rows_);
   prepare_rows(particles_, rows_, laws_.contact.bond);
   breaks_ = BreakLog();  // that of the search before it has room for no bond
   make_room_for_breaks();
@@ -202,18 +242,12 @@ Specimen Simulation::specimen() const {
   auto const n = static_cast<std::size_t>(particles_.owned);
   Places const places(download(particles_.id), particles_.owned);
   for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
-  auto const fetch = [&](Field<Real> const& field, std::vector<double>& values) {
+  for_each_column_of_specimen(particles_, [&](auto const& field, ParticleColumn const& column) {
     auto const host = download(field);
+    std::vector<double>& values = s.*column.of;
     values.reserve(n);
     for (auto const& [id, index] : places.sorted()) values.push_back(host(index));
-  };
-  fetch(particles_.x, s.x);
-  fetch(particles_.y, s.y);
-  fetch(particles_.angle, s.angle);
-  fetch(particles_.vx, s.vx);
-  fetch(particles_.vy, s.vy);
-  fetch(particles_.omega, s.omega);
-  fetch(particles_.radius, s.radius);
+  });
   s.contacts = contacts_by_id();
   return s;
 }
@@ -222,25 +256,13 @@ Specimen Simulation::specimen() const {
 std::vector<SpecimenContact> Simulation::contacts_by_id() const {
   auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
              neighbour = download(rows_.neighbour);
-  auto const shear = download(rows_.shear), moment = download(rows_.moment), equilibrium = download(rows_.equilibrium),
-             bond_shear = download(rows_.bond_shear), bond_moment = download(rows_.bond_moment);
-  auto const get = [](auto const& field, std::size_t e, Real absent) { return field.extent(0) > 0 ? Real(field(e)) : absent; };
+  HistoryOnHost const history(rows_);
   std::vector<SpecimenContact> contacts;
   for (int i = 0; i < particles_.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {
-      std::size_t const e =
-          static_cast<std::size_t>(slice_start(i / lane_count) + k) * lane_count + static_cast<std::size_t>(i % lane_count);
+      std::size_t const e = entry_in(slice_start, i, k);
       int const other = id(neighbour(e));
-      if (other <= id(i)) continue;
-      SpecimenContact const c{id(i),
-                              other,
-                              get(shear, e, 0),
-                              get(moment, e, 0),
-                              get(equilibrium, e, no_bond),
-                              get(bond_shear, e, 0),
-                              get(bond_moment, e, 0)};
-      if (c.shear != 0 || c.moment != 0 || is_bonded(c.equilibrium) || c.bond_shear != 0 || c.bond_moment != 0)
-        contacts.push_back(c);
+      if (other > id(i) && !history.empty(e)) contacts.push_back(history.contact(e, id(i), other));
     }
   }
   std::sort(contacts.begin(), contacts.end(), by_ids);
@@ -251,7 +273,7 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
 void Simulation::collect_breaks() const {
   if (breaks_.count.extent(0) == 0) return;
   auto const by_mode = download(breaks_.by_mode);
-  for (std::size_t mode = 0; mode < break_mode_count; ++mode) broken_by_mode_[mode] += by_mode(mode);
+  for (std::size_t mode = 0; mode < break_mode_count; ++mode) broken_by_mode_.number[mode] += by_mode(mode);
   Kokkos::deep_copy(breaks_.by_mode, 0);
   int const count = download(breaks_.count)(0);
   if (count == 0) return;
@@ -278,18 +300,13 @@ void Simulation::keep_break_events(bool on) {
   make_room_for_breaks();
 }
 
-int Simulation::broken_bonds() const {
-  BreakCounts const broken = break_counts();
-  return static_cast<int>(broken.tension + broken.compression + broken.shear + broken.rolling);
-}
+int Simulation::broken_bonds() const { return static_cast<int>(break_counts().total()); }
 
 BreakCounts Simulation::break_counts() const {
   collect_breaks();
-  std::int64_t by_mode[break_mode_count];
-  std::copy(std::begin(broken_by_mode_), std::end(broken_by_mode_), by_mode);
-  ranks_.sum(by_mode, break_mode_count);
-  auto const of = [&](BreakMode mode) { return by_mode[static_cast<int>(mode)]; };
-  return {of(BreakMode::tension), of(BreakMode::compression), of(BreakMode::shear), of(BreakMode::rolling)};
+  BreakCounts counts = broken_by_mode_;
+  ranks_.sum(counts.number, break_mode_count);
+  return counts;
 }
 
 std::vector<BreakEvent> Simulation::break_events(int first) const {

@@ -36,7 +36,7 @@ double moved_bytes(Simulation const& simulation) {
   double const entries = static_cast<double>(total(simulation, simulation.contact_entries())) / simulation.discs();
   ContactRows rows = simulation.rows();
   double written = 0;
-  for_each_history(rows, [&](std::string const& name, Field<Real> const&, Real) { written += name == "equilibrium" ? 0 : 1; });
+  for_each_history(rows, [&](HistoryField const&, auto const& field) { written += &field == &rows.equilibrium ? 0 : 1; });
   double const row = sizeof(int) + sizeof(Real) * (2 * written + (rows.features.bonds ? 2 : 0));
   constexpr double contact_pass = 6 + 3, drift = 11 + 6;  // fields of a disc
   return entries * row + sizeof(Real) * (contact_pass + drift);
@@ -140,7 +140,7 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   result.steps = simulation.steps() - first;
   result.rebuilds = simulation.rebuilds() - first_rebuilds;
   double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
-  result.particle_steps_per_s = steps_per_s * simulation.discs();
+  result.disc_steps_per_second = steps_per_s * simulation.discs();
   Measures const m = simulation.measures();
   result.contact_steps_per_s = steps_per_s * m.mechanical;
   result.flops_per_s = steps_per_s * flops_per_step(simulation, m);

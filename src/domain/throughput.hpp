@@ -25,7 +25,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
 struct Throughput {
   std::int64_t steps = 0, rebuilds = 0;
   double seconds = 0;
-  double particle_steps_per_s = 0;
+  double disc_steps_per_second = 0;
   double contact_steps_per_s = 0;  ///< pairs that touch or are bonded
   double bytes_per_disc = 0;       ///< held: fields, rows and buffers
   double moved_per_step = 0;       ///< [bytes a disc] that one step reads and writes at the least, each field once

@@ -206,7 +206,12 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   return state;
 }
 
-std::string checkpoint_state_hash(std::filesystem::path const& path) { return Hdf5File::open(path).text_attribute("state_hash"); }
+std::optional<std::string> checkpoint_state_hash(std::filesystem::path const& path) {
+  Hdf5File const file = Hdf5File::open(path);
+  constexpr std::int64_t first_with_hash_of_all_fields = 4;
+  if (file.integer_attribute("version") < first_with_hash_of_all_fields) return std::nullopt;
+  return file.text_attribute("state_hash");
+}
 
 bool is_checkpoint(std::filesystem::path const& path) { return Hdf5File::open(path).text_attribute("format") == format_name; }
 

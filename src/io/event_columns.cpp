@@ -21,7 +21,10 @@ void write_event_columns(Hdf5File& file, std::vector<BreakEvent> const& events) 
   file.write("events/step", step, "");
   file.write("events/id_a", id_a, "");
   file.write("events/id_b", id_b, "");
-  file.write("events/mode", mode, "1 tension, 2 compression, 3 shear, 4 rolling");
+  std::string key;
+  for (BreakModeNames const& m : break_modes)
+    key += fmt::format("{}{} {}", key.empty() ? "" : ", ", static_cast<int>(m.mode), m.name);
+  file.write("events/mode", mode, key.c_str());
 }
 
 std::vector<BreakEvent> read_event_columns(Hdf5File const& file, RowRange const& rows) {

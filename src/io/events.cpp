@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "domain/csv_rows.hpp"
 #include "domain/units.hpp"
 #include "io/problems.hpp"
 
@@ -13,22 +14,6 @@ namespace clathra {
 
 namespace {
 constexpr std::string_view header = "step,id_a,id_b,mode,x_m,y_m";
-}
-
-char const* break_mode_name(int mode) {
-  switch (static_cast<BreakMode>(mode)) {
-    case BreakMode::tension:
-      return "tension";
-    case BreakMode::compression:
-      return "compression";
-    case BreakMode::shear:
-      return "shear";
-    case BreakMode::rolling:
-      return "rolling";
-    case BreakMode::none:
-      break;
-  }
-  return "none";
 }
 
 EventsFile::EventsFile(std::filesystem::path path) : file_(std::move(path)) { file_.write(std::string(header) + "\n"); }
@@ -45,14 +30,8 @@ namespace {
 
 constexpr std::size_t largest_events_file = std::size_t{4} << 30;
 
-BreakEvent parse_event(std::string_view line) {
-  std::array<std::string_view, 6> cells;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    auto const comma = line.find(',');
-    if ((comma == std::string_view::npos) != (k + 1 == cells.size())) throw std::invalid_argument("has not six cells");
-    cells[k] = line.substr(0, comma);
-    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
-  }
+BreakEvent parse_event(std::vector<std::string_view> const& cells) {
+  if (cells.size() != 6) throw std::invalid_argument("has not six cells");
   int mode = 1;
   while (mode < break_mode_count && cells[3] != break_mode_name(mode)) ++mode;
   if (mode == break_mode_count) throw std::invalid_argument("names no mode of breakage");
@@ -65,17 +44,15 @@ BreakEvent parse_event(std::string_view line) {
 std::vector<BreakEvent> read_events(std::filesystem::path const& path) {
   std::string const text = read_text_file(path, largest_events_file);
   std::vector<BreakEvent> events;
-  std::size_t line = 0;
-  for (std::size_t from = 0, end; (end = text.find('\n', from)) != std::string::npos; from = end + 1) {
-    std::string_view const row = std::string_view(text).substr(from, end - from);
-    if (++line == 1) {
-      if (row != header) throw FileProblem(ExitCode::bad_input, path, "line 1 is not the header of an events.csv");
+  for (CsvRows rows(text); rows.next();) {
+    if (rows.line() == 1) {
+      if (rows.text() != header) throw FileProblem(ExitCode::bad_input, path, "line 1 is not the header of an events.csv");
       continue;
     }
     try {
-      events.push_back(parse_event(row));
+      events.push_back(parse_event(rows.cells()));
     } catch (std::invalid_argument const& problem) {
-      throw FileProblem(ExitCode::bad_input, path, fmt::format("line {} {}", line, problem.what()));
+      throw FileProblem(ExitCode::bad_input, path, fmt::format("line {} {}", rows.line(), problem.what()));
     }
   }
   return events;

@@ -28,7 +28,4 @@ class EventsFile {
 /// @throws FileProblem file_missing, or bad_input with the line that is no event
 std::vector<BreakEvent> read_events(std::filesystem::path const& path);
 
-/// "tension", "compression", "shear" or "rolling" (see BreakMode).
-char const* break_mode_name(int mode);
-
 }  // namespace clathra

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <type_traits>
 
 #include "io/problems.hpp"
+#include "io/snapshot_columns.hpp"
 #include "io/text_file.hpp"
 
 namespace clathra {
@@ -44,13 +46,6 @@ std::vector<double> points(Snapshot const& s) {
   return p;
 }
 
-std::vector<float> vectors(std::vector<float> const& x, std::vector<float> const& y) {
-  std::vector<float> v;
-  v.reserve(3 * x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) v.insert(v.end(), {x[i], y[i], 0.0F});
-  return v;
-}
-
 /// The shortest digits from which the number is read back: fewer where it was rounded to what single precision holds.
 std::string shortest(double value) {
   auto const single = static_cast<float>(value);
@@ -77,9 +72,9 @@ void add_points(VtuFile& file, Snapshot const& s) {
 }  // namespace
 
 std::string_view contact_state_name(std::uint8_t state) {
-  constexpr std::string_view names[contact_state_count] = {
-      "contact", "bonded", "broken_tension", "broken_compression", "broken_shear", "broken_rolling"};
-  return state < contact_state_count ? names[state] : "unknown";
+  for (BreakModeNames const& m : break_modes)
+    if (static_cast<ContactState>(state) == broken_in(m.mode)) return m.broken;
+  return state == 0 ? "contact" : state == 1 ? "bonded" : "unknown";
 }
 
 std::string lammps_dump(Snapshot const& s) {
@@ -94,21 +89,37 @@ std::string lammps_dump(Snapshot const& s) {
   return text;
 }
 
+namespace {
+
+template <class Value>
+constexpr char const* vtk_type() {
+  return std::is_same_v<Value, std::uint8_t> ? "UInt8" : std::is_same_v<Value, float> ? "Float32" : "Float64";
+}
+
+/// A vector as such, with its third component, other columns part by part.
+template <class Value, std::size_t Parts>
+void add_column(VtuFile& file, Snapshot const& s, SnapshotColumn<Value, Parts> const& column) {
+  if constexpr (Parts == 2) {
+    std::vector<Value> const &x = s.*column.parts[0], &y = s.*column.parts[1];
+    std::vector<Value> vectors;
+    vectors.reserve(3 * x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) vectors.insert(vectors.end(), {x[i], y[i], Value(0)});
+    file.add(column.name, vtk_type<Value>(), vectors, 3);
+  } else {
+    char const* const alone = Parts == 1 ? column.name : nullptr;
+    for (std::size_t k = 0; k < Parts; ++k) file.add(alone ? alone : column.part[k], vtk_type<Value>(), s.*column.parts[k]);
+  }
+}
+
+}  // namespace
+
 std::string discs_vtu(Snapshot const& s) {
   VtuFile file;
   file.xml("<PointData>\n");
   file.add("id", "Int32", s.id);
-  file.add("radius", "Float32", s.radius);
-  file.add("angle", "Float32", s.angle);
-  file.add("displacement", "Float32", vectors(s.ux, s.uy), 3);
-  file.add("velocity", "Float32", vectors(s.vx, s.vy), 3);
-  file.add("angular_velocity", "Float32", s.omega);
-  file.add("stress_xx", "Float32", s.stress_xx);
-  file.add("stress_yy", "Float32", s.stress_yy);
-  file.add("stress_xy", "Float32", s.stress_xy);
-  file.add("coordination", "UInt8", s.coordination);
-  file.add("bonds_intact", "UInt8", s.bonds_intact);
-  file.add("bonds_initial", "UInt8", s.bonds_initial);
+  for_each_disc_column([&]<class Value, std::size_t Parts>(SnapshotColumn<Value, Parts> const& column) {
+    if constexpr (!std::is_same_v<Value, double>) add_column(file, s, column);  // the position is that of the points
+  });
   file.xml("</PointData>\n");
   add_points(file, s);
   std::vector<std::int32_t> index(s.id.size());
@@ -121,11 +132,7 @@ std::string pairs_vtu(Snapshot const& s) {
   VtuFile file;
   file.xml("<CellData>\n");
   file.add("state", "UInt8", s.state);
-  file.add("normal_force", "Float64", s.normal_force);
-  file.add("shear_force", "Float64", s.shear_force);
-  file.add("moment", "Float64", s.moment);
-  file.add("gap", "Float64", s.gap);
-  file.add("width", "Float64", s.width);
+  for_each_pair_column([&](auto const& column) { add_column(file, s, column); });
   file.xml("</CellData>\n");
   add_points(file, s);
   std::vector<std::int32_t> ends;
@@ -135,23 +142,43 @@ std::string pairs_vtu(Snapshot const& s) {
   return file.text(s.id.size(), s.a.size());
 }
 
+namespace {
+
+/// Appends ",name_unit" for each part of a column, and their numbers in row `i`.
+template <class Column>
+void append_header(std::string& text, Column const& column) {
+  for (char const* const part : column.part) text += fmt::format(",{}{}", part, column.suffix);
+}
+template <class Column, class Text>
+void append_cells(std::string& text, Snapshot const& s, Column const& column, std::size_t i, Text const& text_of) {
+  for (auto const list : column.parts) text += "," + text_of((s.*list)[i]);
+}
+
+}  // namespace
+
 std::string discs_csv(Snapshot const& s) {
-  std::string text =
-      "id,x_m,y_m,radius_m,angle_rad,ux_m,uy_m,vx_m_per_s,vy_m_per_s,omega_rad_per_s,stress_xx_Pa,stress_yy_Pa,stress_xy_Pa,"
-      "coordination,bonds_intact,bonds_initial\n";
-  for (std::size_t i = 0; i < s.id.size(); ++i)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.id[i], s.x[i], s.y[i],
-                   s.radius[i], s.angle[i], s.ux[i], s.uy[i], s.vx[i], s.vy[i], s.omega[i], s.stress_xx[i], s.stress_yy[i],
-                   s.stress_xy[i], s.coordination[i], s.bonds_intact[i], s.bonds_initial[i]);
+  std::string text = "id";
+  for_each_disc_column([&](auto const& column) { append_header(text, column); });
+  text += "\n";
+  auto const cell = [](auto value) { return fmt::format("{}", value); };
+  for (std::size_t i = 0; i < s.id.size(); ++i) {
+    fmt::format_to(std::back_inserter(text), "{}", s.id[i]);
+    for_each_disc_column([&](auto const& column) { append_cells(text, s, column, i, cell); });
+    text += "\n";
+  }
   return text;
 }
 
 std::string pairs_csv(Snapshot const& s) {
-  std::string text = "id_a,id_b,state,normal_force_N_per_m,shear_force_N_per_m,moment_Nm_per_m,gap_m,width_m\n";
-  for (std::size_t k = 0; k < s.a.size(); ++k)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", s.id[static_cast<std::size_t>(s.a[k])],
-                   s.id[static_cast<std::size_t>(s.b[k])], contact_state_name(s.state[k]), shortest(s.normal_force[k]),
-                   shortest(s.shear_force[k]), shortest(s.moment[k]), shortest(s.gap[k]), shortest(s.width[k]));
+  std::string text = "id_a,id_b,state";
+  for_each_pair_column([&](auto const& column) { append_header(text, column); });
+  text += "\n";
+  for (std::size_t k = 0; k < s.a.size(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{},{},{}", s.id[static_cast<std::size_t>(s.a[k])],
+                   s.id[static_cast<std::size_t>(s.b[k])], contact_state_name(s.state[k]));
+    for_each_pair_column([&](auto const& column) { append_cells(text, s, column, k, shortest); });
+    text += "\n";
+  }
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "domain/csv_rows.hpp"
 #include "domain/units.hpp"
 #include "io/problems.hpp"
 
@@ -30,17 +31,13 @@ struct Names {
   }
 };
 
-/// Takes the values of a line, one after the other.
+/// Takes the cells of a row, one after the other.
 struct Parse {
-  std::string_view line;
+  std::vector<std::string_view> const& cells;
+  std::size_t at = 0;
   void operator()(char const*, double& value) { value = parse_number(next()); }
   void operator()(char const*, std::int64_t& value) { value = std::llround(parse_number(next())); }
-  std::string_view next() {
-    auto const comma = line.find(',');
-    std::string_view const cell = line.substr(0, comma);
-    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
-    return cell;
-  }
+  std::string_view next() { return at < cells.size() ? cells[at++] : std::string_view(); }
 };
 
 }  // namespace
@@ -48,16 +45,15 @@ struct Parse {
 std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::uintmax_t bytes) {
   std::string const text = read_text_file(path, bytes);
   std::vector<HistoryEntry> entries;
-  std::size_t number = 0;
-  for (std::size_t from = 0, end; (end = text.find('\n', from)) != std::string::npos; from = end + 1) {
-    if (++number == 1) continue;  // the header
-    Parse parse{std::string_view(text).substr(from, end - from)};
+  for (CsvRows rows(text); rows.next();) {
+    if (rows.line() == 1) continue;  // the header
+    Parse parse{rows.cells()};
     try {
       HistoryEntry& entry = entries.emplace_back();
       for_each_column(entry.row, parse);
-      if (!parse.line.empty()) for_each_energy_column(entry.energy.emplace(), parse);
+      if (parse.at < rows.cells().size()) for_each_energy_column(entry.energy.emplace(), parse);
     } catch (std::invalid_argument const& problem) {
-      throw FileProblem(ExitCode::bad_input, path, fmt::format("line {}: {}", number, problem.what()));
+      throw FileProblem(ExitCode::bad_input, path, fmt::format("line {}: {}", rows.line(), problem.what()));
     }
   }
   return entries;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "io/event_columns.hpp"
+#include "io/snapshot_columns.hpp"
 
 namespace clathra {
 namespace {
@@ -45,74 +46,84 @@ double mean_size(Ranks const& ranks, std::vector<T> const& values) {
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// Writes the numbers of a snapshot, rounded or not.
-struct NumberWriter {
+/// Writes the columns of a snapshot, rounded or not.
+struct ColumnWriter {
   Hdf5File& file;
   SnapshotNumbers numbers;
+  Snapshot const& s;
+  Ranks const& ranks;
 
-  /// Vectors of equal length as a table, a column each; columns without a vector hold 0.
-  /// @param resolution  a power of two in the unit of the column, or 0 to round nothing
-  template <class Stored, class Value = Stored>
-  void write(std::string const& name, std::vector<std::vector<Value> const*> const& parts, double resolution, char const* unit,
-             std::size_t width) const {
-    double const step = numbers == SnapshotNumbers::rounded ? resolution : 0;
-    std::size_t const rows = parts.front()->size();
-    std::vector<Stored> table(rows * width);
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      for (std::size_t i = 0; i < rows; ++i) {
-        double const value = (*parts[k])[i];
-        table[i * width + k] = static_cast<Stored>(step > 0 ? std::nearbyint(value / step) * step : value);
+  /// A power of two in the unit of the column, or 0 to round nothing.
+  template <class Column>
+  double resolution(Column const& column) const {
+    switch (numbers == SnapshotNumbers::full ? Rounding::none : column.rounding) {
+      case Rounding::none:
+        break;
+      case Rounding::length:
+        return power_of_two(s.d50) / column.fineness;
+      case Rounding::fixed:
+        return 1 / column.fineness;
+      case Rounding::typical: {
+        double coarsest = 0;
+        for (auto const list : column.scale)
+          if (list) coarsest = std::max(coarsest, power_of_two(mean_size(ranks, s.*list)));
+        return coarsest / column.fineness;
       }
     }
-    file.write(name, table, unit, width);
-    file.set_column_attribute(name, "resolution", step);
+    return 0;
   }
-  /// A column of the pairs: single precision holds all digits of a rounded number.
-  void of_pairs(std::string const& name, std::vector<double> const& values, double resolution, char const* unit) const {
+
+  template <class Stored, class Column>
+  void write_as(std::string const& name, Column const& column) const {
+    double const step = resolution(column);
+    std::size_t const rows = (s.*column.parts.front()).size();
+    std::vector<Stored> table(rows * column.width);
+    for (std::size_t k = 0; k < column.parts.size(); ++k) {
+      for (std::size_t i = 0; i < rows; ++i) {
+        auto const value = (s.*column.parts[k])[i];
+        table[i * column.width + k] =
+            step > 0 ? static_cast<Stored>(std::nearbyint(double(value) / step) * step) : static_cast<Stored>(value);
+      }
+    }
+    file.write(name, table, column.unit, column.width);
+    if (column.rounding != Rounding::none) file.set_column_attribute(name, "resolution", step);
+  }
+  template <class Value, std::size_t Parts>
+  void of_discs(SnapshotColumn<Value, Parts> const& column) const {
+    write_as<Value>(std::string("particles/") + column.name, column);
+  }
+  /// Single precision holds all digits of a rounded number.
+  template <class Value, std::size_t Parts>
+  void of_pairs(SnapshotColumn<Value, Parts> const& column) const {
+    std::string const name = std::string("contacts/") + column.name;
     if (numbers == SnapshotNumbers::rounded)
-      write<float, double>(name, {&values}, resolution, unit, 1);
+      write_as<float>(name, column);
     else
-      write<double>(name, {&values}, resolution, unit, 1);
+      write_as<Value>(name, column);
   }
 };
 
-void write_discs(NumberWriter const& out, Snapshot const& s, Ranks const& ranks) {
-  Hdf5File& file = out.file;
-  double const length = power_of_two(s.d50);
-  auto const speed = [&](std::vector<float> const& v) { return power_of_two(mean_size(ranks, v)) / 8; };
-  file.write("particles/id", s.id, "");
-  std::vector<std::int32_t> index(s.id.size());
-  std::iota(index.begin(), index.end(), static_cast<std::int32_t>(s.first_disc));
-  file.write("particles/index", index, "");
-  out.write<double>("particles/position", {&s.x, &s.y}, length / 4096, "m", 2);
-  out.write<float>("particles/displacement", {&s.ux, &s.uy}, length / 512, "m", 3);
-  out.write<float>("particles/velocity", {&s.vx, &s.vy}, std::max(speed(s.vx), speed(s.vy)), "m/s", 3);
-  out.write<float>("particles/angular_velocity", {&s.omega}, speed(s.omega), "rad/s", 1);
-  out.write<float>("particles/angle", {&s.angle}, 1.0 / 1024, "rad", 1);
-  out.write<float>("particles/radius", {&s.radius}, length / 8192, "m", 1);
-  double const stress = power_of_two(mean_size(ranks, s.stress_yy)) / 16;
-  out.write<float>("particles/stress", {&s.stress_xx, &s.stress_yy, &s.stress_xy}, stress, "Pa (xx, yy, xy)", 3);
-  file.write("particles/coordination", s.coordination, "");
-  file.write("particles/bonds_intact", s.bonds_intact, "");
-  file.write("particles/bonds_initial", s.bonds_initial, "");
+void write_discs(ColumnWriter const& out) {
+  out.file.write("particles/id", out.s.id, "");
+  std::vector<std::int32_t> index(out.s.id.size());
+  std::iota(index.begin(), index.end(), static_cast<std::int32_t>(out.s.first_disc));
+  out.file.write("particles/index", index, "");
+  for_each_disc_column([&](auto const& column) { out.of_discs(column); });
 }
 
-void write_pairs(NumberWriter const& out, Snapshot const& s, Ranks const& ranks) {
-  Hdf5File& file = out.file;
-  double const length = power_of_two(s.d50), force = power_of_two(mean_size(ranks, s.normal_force)) / 16;
-  std::size_t const count = s.a.size();
+void write_pairs(ColumnWriter const& out) {
+  std::size_t const count = out.s.a.size();
   std::vector<std::uint32_t> pairs(2 * count);
   for (std::size_t k = 0; k < count; ++k) {
-    pairs[2 * k] = static_cast<std::uint32_t>(s.a[k]);
-    pairs[2 * k + 1] = static_cast<std::uint32_t>(s.b[k]);
+    pairs[2 * k] = static_cast<std::uint32_t>(out.s.a[k]);
+    pairs[2 * k + 1] = static_cast<std::uint32_t>(out.s.b[k]);
   }
-  file.write("contacts/pair", pairs, "index into particles", 2);
-  file.write("contacts/state", s.state, "0 contact, 1 bonded, bond broken by: 2 tension, 3 compression, 4 shear, 5 rolling");
-  out.of_pairs("contacts/normal_force", s.normal_force, force, "N/m");
-  out.of_pairs("contacts/shear_force", s.shear_force, force, "N/m");
-  out.of_pairs("contacts/moment", s.moment, power_of_two(mean_size(ranks, s.moment)) / 8, "N m/m");
-  out.of_pairs("contacts/gap", s.gap, length / 8192, "m");
-  out.of_pairs("contacts/width", s.width, length / 256, "m");
+  out.file.write("contacts/pair", pairs, "index into particles", 2);
+  std::string key;
+  for (BreakModeNames const& m : break_modes)
+    key += fmt::format("{}{} {}", key.empty() ? "" : ", ", static_cast<int>(broken_in(m.mode)), m.name);
+  out.file.write("contacts/state", out.s.state, ("0 contact, 1 bonded, bond broken by: " + key).c_str());
+  for_each_pair_column([&](auto const& column) { out.of_pairs(column); });
 }
 
 void write_events(Hdf5File& file, Snapshot const& s) {
@@ -122,29 +133,21 @@ void write_events(Hdf5File& file, Snapshot const& s) {
   file.write("events/position", position, "m", 2);
 }
 
-/// Splits a table into its columns.
-template <class T>
-void read_table(Hdf5File const& file, std::string const& name, std::size_t rows, std::vector<std::vector<T>*> const& parts,
-                std::size_t width) {
-  std::vector<T> const table = file.read<T>(name, rows, width);
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    parts[k]->resize(rows);
-    for (std::size_t i = 0; i < rows; ++i) (*parts[k])[i] = table[i * width + k];
+/// Splits the table of a column into its parts.
+template <class Value, std::size_t Parts>
+void read_column(Hdf5File const& file, std::string const& folder, std::size_t rows, SnapshotColumn<Value, Parts> const& column,
+                 Snapshot& s) {
+  std::vector<Value> const table = file.read<Value>(folder + column.name, rows, column.width);
+  for (std::size_t k = 0; k < Parts; ++k) {
+    std::vector<Value>& part = s.*column.parts[k];
+    part.resize(rows);
+    for (std::size_t i = 0; i < rows; ++i) part[i] = table[i * column.width + k];
   }
 }
 
 void read_discs(Hdf5File const& file, Snapshot& s, std::size_t count) {
   s.id = file.read<std::int32_t>("particles/id", count);
-  read_table<double>(file, "particles/position", count, {&s.x, &s.y}, 2);
-  read_table<float>(file, "particles/displacement", count, {&s.ux, &s.uy}, 3);
-  read_table<float>(file, "particles/velocity", count, {&s.vx, &s.vy}, 3);
-  read_table<float>(file, "particles/angular_velocity", count, {&s.omega}, 1);
-  read_table<float>(file, "particles/angle", count, {&s.angle}, 1);
-  read_table<float>(file, "particles/radius", count, {&s.radius}, 1);
-  read_table<float>(file, "particles/stress", count, {&s.stress_xx, &s.stress_yy, &s.stress_xy}, 3);
-  s.coordination = file.read<std::uint8_t>("particles/coordination", count);
-  s.bonds_intact = file.read<std::uint8_t>("particles/bonds_intact", count);
-  s.bonds_initial = file.read<std::uint8_t>("particles/bonds_initial", count);
+  for_each_disc_column([&](auto const& column) { read_column(file, "particles/", count, column, s); });
 }
 
 void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
@@ -161,11 +164,7 @@ void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
   s.state = file.read<std::uint8_t>("contacts/state", count);
   for (std::uint8_t const state : s.state)
     if (state >= contact_state_count) file.fail(ExitCode::bad_input, fmt::format("contacts/state holds {}", state));
-  read_table<double>(file, "contacts/normal_force", count, {&s.normal_force}, 1);
-  read_table<double>(file, "contacts/shear_force", count, {&s.shear_force}, 1);
-  read_table<double>(file, "contacts/moment", count, {&s.moment}, 1);
-  read_table<double>(file, "contacts/gap", count, {&s.gap}, 1);
-  read_table<double>(file, "contacts/width", count, {&s.width}, 1);
+  for_each_pair_column([&](auto const& column) { read_column(file, "contacts/", count, column, s); });
 }
 
 void read_events(Hdf5File const& file, Snapshot& s) {
@@ -189,8 +188,9 @@ void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot,
     file.set_attribute("particles", total(snapshot.id.size()));
     file.set_attribute("contacts", total(snapshot.a.size()));
     for_each_scalar(snapshot, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
-    write_discs({file, numbers}, snapshot, ranks);
-    write_pairs({file, numbers}, snapshot, ranks);
+    ColumnWriter const out{file, numbers, snapshot, ranks};
+    write_discs(out);
+    write_pairs(out);
     write_events(file, snapshot);
     std::vector<double> walls;
     if (ranks.root()) walls = {snapshot.left, snapshot.right, snapshot.bottom, snapshot.top};

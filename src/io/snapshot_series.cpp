@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "io/problems.hpp"
+#include "io/snapshot_columns.hpp"
 #include "io/snapshot_file.hpp"
 #include "io/text_file.hpp"
 #include "io/together.hpp"
@@ -8,50 +9,48 @@
 namespace clathra {
 namespace {
 
-/// What ParaView shows of a column.
-struct Attribute {
-  char const* name;     ///< as the user sees it
-  char const* dataset;  ///< in the snapshot
-  char const* kind;     ///< XDMF's AttributeType
-  int width;
-  char const* number;  ///< XDMF's NumberType and Precision; `as_rounded`: 4 bytes, or 8 where nothing is rounded
-};
-
 constexpr char float4[] = "NumberType=\"Float\" Precision=\"4\"", uchar1[] = "NumberType=\"UChar\" Precision=\"1\"",
                int4[] = "NumberType=\"Int\" Precision=\"4\"", uint4[] = "NumberType=\"UInt\" Precision=\"4\"",
                float8[] = "NumberType=\"Float\" Precision=\"8\"";
-constexpr char const* as_rounded = nullptr;
 
-constexpr Attribute of_discs[] = {{"id", "particles/id", "Scalar", 1, int4},
-                                  {"radius", "particles/radius", "Scalar", 1, float4},
-                                  {"displacement", "particles/displacement", "Vector", 3, float4},
-                                  {"velocity", "particles/velocity", "Vector", 3, float4},
-                                  {"angular_velocity", "particles/angular_velocity", "Scalar", 1, float4},
-                                  {"angle", "particles/angle", "Scalar", 1, float4},
-                                  {"stress_xx_yy_xy", "particles/stress", "Vector", 3, float4},
-                                  {"coordination", "particles/coordination", "Scalar", 1, uchar1},
-                                  {"bonds_intact", "particles/bonds_intact", "Scalar", 1, uchar1},
-                                  {"bonds_initial", "particles/bonds_initial", "Scalar", 1, uchar1}};
-constexpr Attribute of_pairs[] = {{"state", "contacts/state", "Scalar", 1, uchar1},
-                                  {"normal_force", "contacts/normal_force", "Scalar", 1, as_rounded},
-                                  {"shear_force", "contacts/shear_force", "Scalar", 1, as_rounded},
-                                  {"moment", "contacts/moment", "Scalar", 1, as_rounded},
-                                  {"gap", "contacts/gap", "Scalar", 1, as_rounded},
-                                  {"width", "contacts/width", "Scalar", 1, as_rounded}};
+/// XDMF's NumberType and Precision.
+template <class Value>
+constexpr char const* number_type() {
+  return std::is_same_v<Value, std::uint8_t> ? uchar1 : std::is_same_v<Value, float> ? float4 : float8;
+}
 
-std::string data_item(std::string const& file, char const* dataset, std::size_t rows, int width, char const* number) {
+std::string data_item(std::string const& file, std::string const& dataset, std::size_t rows, int width, char const* number) {
   std::string const shape = width == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, width);
   return fmt::format("<DataItem Dimensions=\"{}\" {} Format=\"HDF\">{}:/{}</DataItem>", shape, number, file, dataset);
 }
 
-template <std::size_t Count>
-std::string attributes(Attribute const (&list)[Count], char const* centre, std::string const& file, std::size_t rows,
-                       SnapshotNumbers numbers) {
-  char const* const real = numbers == SnapshotNumbers::full ? float8 : float4;
-  std::string text;
-  for (Attribute const& a : list)
-    text += fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", a.name, a.kind,
-                        centre, data_item(file, a.dataset, rows, a.width, a.number ? a.number : real));
+std::string attribute(char const* name, char const* centre, std::string const& item, int width) {
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", name,
+                     width == 1 ? "Scalar" : "Vector", centre, item);
+}
+
+template <class Value, std::size_t Parts>
+std::string attribute(SnapshotColumn<Value, Parts> const& column, char const* centre, std::string const& file,
+                      std::string const& dataset, std::size_t rows, char const* number) {
+  auto const width = static_cast<int>(column.width);
+  return attribute(column.viewer_name ? column.viewer_name : column.name, centre,
+                   data_item(file, dataset + column.name, rows, width, number), width);
+}
+
+std::string disc_attributes(SnapshotEntry const& e) {
+  std::string text = attribute("id", "Node", data_item(e.file, "particles/id", e.discs, 1, int4), 1);
+  for_each_disc_column([&]<class Value, std::size_t Parts>(SnapshotColumn<Value, Parts> const& column) {
+    if (std::is_same_v<Value, double>) return;  // the position, which is the geometry
+    text += attribute(column, "Node", e.file, "particles/", e.discs, number_type<Value>());
+  });
+  return text;
+}
+
+std::string pair_attributes(SnapshotEntry const& e, SnapshotNumbers numbers) {
+  std::string text = attribute("state", "Cell", data_item(e.file, "contacts/state", e.pairs, 1, uchar1), 1);
+  for_each_pair_column([&](auto const& column) {
+    text += attribute(column, "Cell", e.file, "contacts/", e.pairs, numbers == SnapshotNumbers::full ? float8 : float4);
+  });
   return text;
 }
 
@@ -100,8 +99,7 @@ std::string SnapshotSeries::particles_index() const {
     std::string const topology =
         fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>", e.discs,
                     data_item(e.file, "particles/index", e.discs, 1, int4));
-    grids += grid("discs", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8),
-                  attributes(of_discs, "Node", e.file, e.discs, numbers_));
+    grids += grid("discs", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8), disc_attributes(e));
   }
   return collection("discs", grids);
 }
@@ -113,7 +111,7 @@ std::string SnapshotSeries::contacts_index() const {
         fmt::format("<Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>", e.pairs,
                     data_item(e.file, "contacts/pair", e.pairs, 2, uint4));
     grids += grid("contacts", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8),
-                  attributes(of_pairs, "Cell", e.file, e.pairs, numbers_));
+                  pair_attributes(e, numbers_));
   }
   return collection("contacts", grids);
 }

@@ -35,28 +35,6 @@ void for_each_scalar(Any& specimen, Visit&& visit) {
   visit("critical_thickness", specimen.critical_thickness, "m");
 }
 
-/// Visits every column of the discs.
-template <class Any, class Visit>
-void for_each_particle_column(Any& specimen, Visit&& visit) {
-  visit("x", specimen.x, "m");
-  visit("y", specimen.y, "m");
-  visit("angle", specimen.angle, "rad");
-  visit("vx", specimen.vx, "m/s");
-  visit("vy", specimen.vy, "m/s");
-  visit("omega", specimen.omega, "rad/s");
-  visit("radius", specimen.radius, "m");
-}
-
-/// Visits every number of a contact besides its ids.
-template <class Visit>
-void for_each_contact_column(Visit&& visit) {
-  visit("shear", &SpecimenContact::shear, "N/m");
-  visit("moment", &SpecimenContact::moment, "N m/m");
-  visit("equilibrium", &SpecimenContact::equilibrium, "m (1e300 = not bonded)");
-  visit("bond_shear", &SpecimenContact::bond_shear, "N/m");
-  visit("bond_moment", &SpecimenContact::bond_moment, "N m/m");
-}
-
 void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks) {
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
   file.set_attribute("format", std::string(format_name));
@@ -69,9 +47,8 @@ void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks)
   for_each_scalar(specimen, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
   file.write_text("provenance", specimen.provenance);
   file.write("particles/id", specimen.id, "");
-  for_each_particle_column(specimen, [&](std::string const& name, std::vector<double> const& column, char const* unit) {
-    file.write("particles/" + name, column, unit);
-  });
+  for (ParticleColumn const& column : particle_columns)
+    file.write(std::string("particles/") + column.name, specimen.*column.of, column.unit);
   std::size_t const count = specimen.contacts.size();
   std::vector<std::int32_t> ids(count);
   for (std::size_t i = 0; i < count; ++i) ids[i] = specimen.contacts[i].id_a;
@@ -79,10 +56,10 @@ void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks)
   for (std::size_t i = 0; i < count; ++i) ids[i] = specimen.contacts[i].id_b;
   file.write("contacts/id_b", ids, "");
   std::vector<double> column(count);
-  for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const* unit) {
-    for (std::size_t i = 0; i < count; ++i) column[i] = specimen.contacts[i].*member;
-    file.write("contacts/" + name, column, unit);
-  });
+  for (ContactNumber const& number : contact_numbers) {
+    for (std::size_t i = 0; i < count; ++i) column[i] = specimen.contacts[i].*number.of;
+    file.write(std::string("contacts/") + number.name, column, number.unit);
+  }
 }
 
 [[noreturn]] void damaged(std::filesystem::path const& path, std::string const& what) {
@@ -103,10 +80,10 @@ void check_particles(std::filesystem::path const& path, Specimen const& part, st
   for (int const id : part.id) {
     if (id < 0 || id >= discs) damaged(path, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
   }
-  for_each_particle_column(part, [&](char const* name, std::vector<double> const& column, char const*) {
+  for (ParticleColumn const& column : particle_columns)
     for (std::size_t i = 0; i < part.size(); ++i)
-      if (!std::isfinite(column[i])) damaged(path, fmt::format("{} of disc {} is not a finite number", name, part.id[i]));
-  });
+      if (!std::isfinite((part.*column.of)[i]))
+        damaged(path, fmt::format("{} of disc {} is not a finite number", column.name, part.id[i]));
   for (std::size_t i = 0; i < part.size(); ++i)
     if (!(part.radius[i] > 0)) damaged(path, fmt::format("the radius of disc {} is not above 0", part.id[i]));
 }
@@ -130,18 +107,16 @@ void check_contacts(std::filesystem::path const& path, Specimen const& specimen,
   for (SpecimenContact const& contact : specimen.contacts) {
     if (contact.id_a < 0 || contact.id_a >= contact.id_b || contact.id_b >= count)
       damaged(path, fmt::format("contact {} - {} is not between two discs in order of their ids", contact.id_a, contact.id_b));
-    for_each_contact_column([&](char const* name, double SpecimenContact::*member, char const*) {
-      if (!std::isfinite(contact.*member))
-        damaged(path, fmt::format("{} of contact {} - {} is not a finite number", name, contact.id_a, contact.id_b));
-    });
+    for (ContactNumber const& number : contact_numbers)
+      if (!std::isfinite(contact.*number.of))
+        damaged(path, fmt::format("{} of contact {} - {} is not a finite number", number.name, contact.id_a, contact.id_b));
   }
 }
 
 void read_discs(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   part.id = file.read<std::int32_t>("particles/id", rows);
-  for_each_particle_column(part, [&](std::string const& name, std::vector<double>& column, char const*) {
-    column = file.read<double>("particles/" + name, rows);
-  });
+  for (ParticleColumn const& column : particle_columns)
+    part.*column.of = file.read<double>(std::string("particles/") + column.name, rows);
 }
 
 void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
@@ -149,10 +124,10 @@ void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   std::vector<std::int32_t> const id_b = file.read<std::int32_t>("contacts/id_b", rows);
   part.contacts.resize(id_a.size());
   for (std::size_t i = 0; i < id_a.size(); ++i) part.contacts[i].id_a = id_a[i], part.contacts[i].id_b = id_b[i];
-  for_each_contact_column([&](std::string const& name, double SpecimenContact::*member, char const*) {
-    std::vector<double> const column = file.read<double>("contacts/" + name, rows);
-    for (std::size_t i = 0; i < column.size(); ++i) part.contacts[i].*member = column[i];
-  });
+  for (ContactNumber const& number : contact_numbers) {
+    std::vector<double> const column = file.read<double>(std::string("contacts/") + number.name, rows);
+    for (std::size_t i = 0; i < column.size(); ++i) part.contacts[i].*number.of = column[i];
+  }
 }
 
 /// A file of version 1 tells only of a specimen that was just generated that nobody has sheared it.
@@ -214,23 +189,15 @@ std::uint64_t specimen_hash(Specimen const& specimen) {
   std::vector<double> numbers;
   for_each_scalar(specimen, [&](char const*, double value, char const*) { numbers.push_back(value); });
   std::size_t const count = specimen.size(), start = numbers.size();
-  constexpr std::size_t columns = 7;
+  constexpr std::size_t columns = std::size(particle_columns);
   numbers.resize(start + columns * count);
-  std::size_t column_number = 0;
-  for_each_particle_column(specimen, [&](char const*, std::vector<double> const& column, char const*) {
-    for (std::size_t i = 0; i < count; ++i)
-      numbers[start + columns * static_cast<std::size_t>(specimen.id[i]) + column_number] = column[i];
-    ++column_number;
-  });
-  std::vector<SpecimenContact> contacts = specimen.contacts;
-  std::sort(contacts.begin(), contacts.end(),
-            [](auto const& a, auto const& b) { return std::pair(a.id_a, a.id_b) < std::pair(b.id_a, b.id_b); });
-  for (SpecimenContact const& contact : contacts) {
-    numbers.push_back(contact.id_a);
-    numbers.push_back(contact.id_b);
-    for_each_contact_column(
-        [&](char const*, double SpecimenContact::*member, char const*) { numbers.push_back(contact.*member); });
+  for (std::size_t c = 0; c < columns; ++c) {
+    std::vector<double> const& column = specimen.*particle_columns[c].of;
+    for (std::size_t i = 0; i < count; ++i) numbers[start + columns * static_cast<std::size_t>(specimen.id[i]) + c] = column[i];
   }
+  std::vector<SpecimenContact> contacts = specimen.contacts;
+  std::sort(contacts.begin(), contacts.end(), by_ids);
+  for (SpecimenContact const& contact : contacts) append_numbers(numbers, contact);
   return XXH3_64bits(numbers.data(), numbers.size() * sizeof(double));
 }
 

@@ -33,10 +33,6 @@ void write_all(int descriptor, std::string_view text, std::filesystem::path cons
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// A file that is open for reading until the end of the scope.
 struct OpenFile {
   /// Does not wait for a writer of a named pipe.

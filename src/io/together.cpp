@@ -1,9 +1,9 @@
 #include "io/together.hpp"
 
 #include <cstdio>
-#include <new>
 #include <optional>
 
+#include "io/failure.hpp"
 #include "io/printable.hpp"
 
 namespace clathra {
@@ -19,12 +19,9 @@ void on_each(Ranks const& ranks, std::function<void()> const& action) {
   std::optional<FileProblem> problem;
   try {
     action();
-  } catch (FileProblem const& caught) {
-    problem = caught;
-  } catch (std::bad_alloc const&) {
-    problem.emplace(ExitCode::refused, "refused: not enough memory");
-  } catch (std::exception const& caught) {
-    problem.emplace(ExitCode::internal, caught.what());
+  } catch (...) {
+    Failure const failure = failure_in_flight();
+    problem.emplace(failure.code, failure.text);
   }
   // The problem of the first rank that has one.
   int const teller = static_cast<int>(ranks.min(problem ? ranks.rank() : ranks.count()));

@@ -46,7 +46,7 @@ struct BondLaw {
     return width(common_radius, gap(equilibrium));
   }
   template <class L>
-  KOKKOS_FORCEINLINE_FUNCTION BondStiffness<L> stiffness(L const& width, L const& gap) const {
+  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> stiffness(L const& width, L const& gap) const {
     return bond_stiffness(particle_stiffness, modulus, width, effective_thickness(gap, L(thickness_partner)));
   }
 };
@@ -55,7 +55,7 @@ struct BondLaw {
 template <class L>
 struct BondForce {
   ContactForce<L> force;
-  BondStiffness<L> stiffness;
+  ContactStiffness<L> stiffness;
   L width, gap;
 };
 

@@ -2,14 +2,11 @@
 /// Strength of a hydrate bond: tension, compression and the F_n - F_s - M envelope (seed paper, Eqs. 9 to 15).
 #include <Kokkos_Core.hpp>
 
+#include "kernels/break_mode.hpp"
 #include "kernels/elementary.hpp"
 #include "kernels/lane.hpp"
 
 namespace clathra {
-
-/// How a bond broke. `none` = intact.
-enum class BreakMode : std::int8_t { none = 0, tension = 1, compression = 2, shear = 3, rolling = 4 };
-inline constexpr int break_mode_count = 5;
 
 /// Micro-bond strength of the hydrate: three times the strength of a macroscopic sample (Eq. 12).
 struct BondStrengthLaw {

@@ -7,7 +7,7 @@
 
 namespace clathra {
 
-/// One slice of `lane_count` discs per call: walks their rows side by side.
+/// One group of `lane_count` discs per call: walks their rows side by side.
 /// @tparam Friction  false where grain contacts carry no shear
 template <BondKind Bond, bool Friction, bool Rolling, bool Dashpot, bool Ledger>
 struct ContactKernel {
@@ -16,7 +16,7 @@ struct ContactKernel {
   static constexpr bool moments = Rolling || bonded_code;
 
   /// Numbers of the laws. The kernel works on a copy on its stack, which no store can change, so that what follows from them is
-  /// computed once a slice.
+  /// computed once a group.
   struct Constants {
     GrainLaw grain;
     BondLaw bond;
@@ -32,7 +32,7 @@ struct ContactKernel {
   EnergyLosses losses;
   Faults faults;
 
-  /// State of the slice's own discs and what has been summed for them.
+  /// State of the group's own discs and what has been summed for them.
   struct Own {
     Lanes x, y, vx, vy, omega, radius, inverse_mass;
     Lanes force_x, force_y, torque;
@@ -44,8 +44,9 @@ struct ContactKernel {
     Lanes shear, moment, equilibrium, width, bond_shear, bond_moment;
   };
 
-  KOKKOS_FUNCTION void operator()(int slice) const {
-    auto const first = static_cast<std::size_t>(slice) * lane_count;
+  KOKKOS_FUNCTION void operator()(int group) const {
+    auto const first = static_cast<std::size_t>(group) * lane_count;
+    int const slice = group / (slice_width / lane_count);
     Constants const law = constants;
     Own own{load(&p.x(first)),
             load(&p.y(first)),
@@ -65,12 +66,13 @@ struct ContactKernel {
     // Entries out of touch stay so nearly always, and those that carry a history still do: a branch on what the last step found
     // is foreseen, one on the distances is not.
     int const begin = rows.slice_start(slice), end = rows.slice_start(slice + 1);
-    std::uint64_t const active = rows.active(slice);
+    std::uint64_t const active = rows.active(group);
     std::uint64_t carrying = 0, bit = 1;
     for (int k = begin; k < end; ++k, bit <<= 1) {
-      if (add_block(law, first, static_cast<std::size_t>(k) * lane_count, (active & bit) != 0, own)) carrying |= bit;
+      if (add_block(law, first, static_cast<std::size_t>(k) * slice_width + first % slice_width, (active & bit) != 0, own))
+        carrying |= bit;
     }
-    rows.active(slice) = carrying;
+    rows.active(group) = carrying;
     store(&p.force_x(first), own.force_x);
     store(&p.force_y(first), own.force_y);
     store(&p.torque(first), own.torque);
@@ -85,7 +87,7 @@ struct ContactKernel {
     }
   }
 
-  /// Entry block `e .. e + lane_count`: the k-th neighbour of each disc of the slice.
+  /// Entry block `e .. e + lane_count`: the k-th neighbour of each disc of the group.
   /// @param active  false if none of them holds a history;  @return whether one does afterwards
   KOKKOS_FORCEINLINE_FUNCTION bool add_block(Constants const& law, std::size_t first, std::size_t e, bool active,
                                              Own& own) const {
@@ -143,11 +145,11 @@ struct ContactKernel {
   }
 
  private:
-  /// Neighbours lie scattered, and a load that waits for the outer caches holds up everything behind it. So the discs some slices
+  /// Neighbours lie scattered, and a load that waits for the outer caches holds up everything behind it. So the discs some groups
   /// ahead are fetched in their order, before a neighbour needs them.
   KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(std::size_t first) const {
-    constexpr std::size_t slices_ahead = 64;
-    std::size_t const wanted = first + slices_ahead * lane_count, last = p.x.extent(0) - 1;
+    constexpr std::size_t groups_ahead = 64;
+    std::size_t const wanted = first + groups_ahead * lane_count, last = p.x.extent(0) - 1;
     std::size_t const i = wanted < last ? wanted : last;
     prefetch(&p.x(i));
     prefetch(&p.y(i));
@@ -226,7 +228,8 @@ struct ContactKernel {
                                                             History& h, Own& own) const {
     Lanes const zero(0);
     if constexpr (Bond == BondKind::parallel) {
-      if constexpr (Ledger) own.breakage += select(bonded && !intact, Lanes(0.5) * bond_energy(trial), zero);
+      if constexpr (Ledger)
+        own.breakage += select(bonded && !intact, Lanes(0.5) * spring_energy(trial.force, trial.stiffness), zero);
       h.bond_shear = select(intact, trial.force.shear, zero);
       h.bond_moment = select(intact, trial.force.moment, zero);
       return {grain_part.normal + select(intact, trial.force.normal, zero), h.shear + h.bond_shear, h.moment + h.bond_moment};
@@ -266,14 +269,6 @@ struct ContactKernel {
     }
   }
 
-  /// Elastic energy of a bond, F_n^2/2k_bn + F_s^2/2k_bs + M^2/2k_bm [J/m].
-  KOKKOS_FORCEINLINE_FUNCTION static Lanes bond_energy(BondForce<Lanes> const& b) {
-    Lanes const floor(1e-300);
-    return Lanes(0.5) * (b.force.normal * b.force.normal / lane_max(b.stiffness.normal, floor) +
-                         b.force.shear * b.force.shear / lane_max(b.stiffness.shear, floor) +
-                         b.force.moment * b.force.moment / lane_max(b.stiffness.rolling, floor));
-  }
-
   /// Work of slip and plastic rolling of a grain contact in this step, by the mean force over the step: exactly what leapfrog
   /// takes out.
   KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(Constants const& law, ContactMotion<Lanes> const& motion,
@@ -290,8 +285,7 @@ struct ContactKernel {
       own.rolling += select(where, quarter * (old.moment + now.moment) * ((trial_moment - now.moment) / stiffness), zero);
     }
     if constexpr (Dashpot) {
-      Lanes const spring = lane_max(law.grain.normal_stiffness * motion.overlap, zero);
-      own.dashpot += select(where, Lanes(0.5) * (now.normal - spring) * (motion.approach * law.dt), zero);
+      own.dashpot += select(where, Lanes(0.5) * dashpot_loss(law.grain, motion, now.normal, law.dt), zero);
     }
   }
 
@@ -301,14 +295,10 @@ struct ContactKernel {
                                                       Lanes const& trial_moment, Mask const& bonded, Mask const& intact,
                                                       ContactForce<Lanes> const& unbonded, History const& old, Own& own) const {
     add_grain_losses(law, motion, trial_shear, trial_moment, old, unbonded, own, !bonded);
-    Lanes const spring = lane_max(law.grain.normal_stiffness * motion.overlap, Lanes(0));
-    Lanes after = spring * spring * Lanes(0.5 / law.grain.normal_stiffness) +
-                  unbonded.shear * unbonded.shear * Lanes(0.5 / law.grain.shear_stiffness);
-    if constexpr (Rolling) {
-      after += Lanes(0.5) * unbonded.moment * unbonded.moment /
-               lane_max(rolling_stiffness(law.grain, motion.common_radius), Lanes(1e-300));
-    }
-    own.breakage += select(bonded && !intact, Lanes(0.5) * (bond_energy(trial) - after), Lanes(0));
+    ContactForce<Lanes> elastic{normal_force(law.grain, motion, Undamped()), unbonded.shear,
+                                Rolling ? unbonded.moment : Lanes(0)};
+    Lanes const after = grain_energy(law.grain, elastic, grain_stiffness(law.grain, motion.overlap, motion.common_radius));
+    own.breakage += select(bonded && !intact, Lanes(0.5) * (spring_energy(trial.force, trial.stiffness) - after), Lanes(0));
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Neighbour rows and the history of contacts and bonds, as a structure of arrays.
+#include "kernels/bond_law.hpp"
 #include "kernels/particles.hpp"
 
 namespace clathra {
@@ -13,12 +14,19 @@ struct ContactFeatures {
   bool operator==(ContactFeatures const&) const = default;
 };
 
-/// Full rows (each pair stands in both rows) in sliced ELLPACK: `lane_count` discs form a slice, entry k of its discs lies side
+/// The place of entry k of a disc's row among all entries.
+template <class SliceStart>
+KOKKOS_INLINE_FUNCTION std::size_t entry_in(SliceStart const& slice_start, int disc, int k) {
+  return static_cast<std::size_t>(slice_start(disc / slice_width) + k) * slice_width +
+         static_cast<std::size_t>(disc % slice_width);
+}
+
+/// Full rows (each pair stands in both rows) in sliced ELLPACK: `slice_width` discs form a slice, entry k of its discs lies side
 /// by side. Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where
 /// discs are stored. Both sides of a pair hold equal `shear` and `equilibrium` and exactly opposite `moment`.
 struct ContactRows {
   ContactFeatures features;
-  Field<int> slice_start;   ///< [slices + 1] in units of lane_count entries
+  Field<int> slice_start;   ///< [slices + 1] in units of slice_width entries
   Field<int> length;        ///< [owned] entries in use
   Field<int> neighbour;     ///< [entries] index of the other disc, or the padding disc
   Field<Real> shear;        ///< [entries] F_s [N/m]; as the following, empty where no feature needs it
@@ -28,25 +36,43 @@ struct ContactRows {
   Field<Real> bond_moment;  ///< [entries] M of a separate bond [N m/m]
   // Derived, not part of the state: set by prepare_rows().
   Field<Real> width;            ///< [entries] B of the bond [m], 0 without one
-  Field<std::uint64_t> active;  ///< [slices] bit k: entries k of the slice may carry a history, so they must be evaluated
+  Field<std::uint64_t> active;  ///< [groups of lanes] bit k: entries k of the group may carry a history and must be evaluated
 
-  KOKKOS_INLINE_FUNCTION std::size_t entry(int disc, int k) const {
-    return static_cast<std::size_t>(slice_start(disc / lane_count) + k) * lane_count +
-           static_cast<std::size_t>(disc % lane_count);
-  }
+  KOKKOS_INLINE_FUNCTION std::size_t entry(int disc, int k) const { return entry_in(slice_start, disc, k); }
 };
 
-/// The history of an entry, field by field, with the value that an entry without history holds. Only fields that the features
-/// need exist.
+/// What there is to know of a field of the history beside its values.
+struct HistoryField {
+  char const* name;
+  Real empty = 0;    ///< value of an entry without history
+  bool odd = false;  ///< the two sides of a pair hold opposite values, else equal ones
+};
+
+/// The history of an entry, field by field, here and in kernels: visit(HistoryField, whether the features need it, the field of
+/// each of the rows, which have the same features). It drives allocation, the way through a neighbour search, the hash of the
+/// state, files, other ranks and byte counts.
+template <class Visit, class... Rows>
+KOKKOS_INLINE_FUNCTION void for_each_possible_history(ContactFeatures const& f, Visit&& visit, Rows&... rows) {
+  visit(HistoryField{"shear"}, f.shear, rows.shear...);
+  visit(HistoryField{"moment", 0, true}, f.rolling || f.bonds, rows.moment...);
+  visit(HistoryField{"equilibrium", no_bond}, f.bonds, rows.equilibrium...);
+  visit(HistoryField{"bond_shear"}, f.separate_bond, rows.bond_shear...);
+  visit(HistoryField{"bond_moment", 0, true}, f.separate_bond, rows.bond_moment...);
+}
+
+/// Those that the features need, visit(HistoryField, field...). No other exists.
+template <class Visit, class... Rows>
+KOKKOS_INLINE_FUNCTION void for_each_history(ContactFeatures const& features, Visit&& visit, Rows&... rows) {
+  for_each_possible_history(
+      features,
+      [&](HistoryField const& about, bool needed, auto&... fields) {
+        if (needed) visit(about, fields...);
+      },
+      rows...);
+}
 template <class Rows, class Visit>
-void for_each_history(Rows& rows, Visit&& visit) {
-  if (rows.features.shear) visit("shear", rows.shear, Real(0));
-  if (rows.features.rolling || rows.features.bonds) visit("moment", rows.moment, Real(0));
-  if (rows.features.bonds) visit("equilibrium", rows.equilibrium, Real(1e300));
-  if (rows.features.separate_bond) {
-    visit("bond_shear", rows.bond_shear, Real(0));
-    visit("bond_moment", rows.bond_moment, Real(0));
-  }
+KOKKOS_INLINE_FUNCTION void for_each_history(Rows& rows, Visit&& visit) {
+  for_each_history(rows.features, visit, rows);
 }
 
 /// Allocates empty rows of `entries` row entries with the history that the features ask for.

@@ -36,7 +36,7 @@ struct SetBondWidths {
   ContactRows rows;
   BondLaw law;
   KOKKOS_FUNCTION void operator()(int slot) const {
-    int const slice = slot / lane_count, used = slot < p.owned ? rows.length(slot) : 0;
+    int const slice = slot / slice_width, used = slot < p.owned ? rows.length(slot) : 0;
     for (int k = 0; k < rows.slice_start(slice + 1) - rows.slice_start(slice); ++k) {
       std::size_t const e = rows.entry(slot, k);
       bool const bonded = k < used && is_bonded(rows.equilibrium(e));
@@ -49,8 +49,8 @@ struct SetBondWidths {
 }  // namespace
 
 void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law) {
-  auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
-  if (rows.active.extent(0) != slices) rows.active = uninitialised<std::uint64_t>("active", slices);
+  auto const groups = static_cast<std::size_t>(group_count(particles.owned));
+  if (rows.active.extent(0) != groups) rows.active = uninitialised<std::uint64_t>("active", groups);
   Kokkos::deep_copy(rows.active, ~std::uint64_t(0));
   if (!rows.features.bonds) {
     rows.width = Field<Real>();
@@ -60,19 +60,19 @@ void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const
     rows.width = Field<Real>();
     rows.width = uninitialised<Real>("width", rows.equilibrium.extent(0));
   }
-  int const slots = slice_count(particles.owned) * lane_count;
+  int const slots = slice_count(particles.owned) * slice_width;
   Kokkos::parallel_for("set_bond_widths", Kokkos::RangePolicy<ExecutionSpace>(0, slots), SetBondWidths{particles, rows, law});
 }
 
 void compute_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
                     BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults) {
-  Kokkos::RangePolicy<ExecutionSpace> const slices(0, slice_count(particles.owned));
+  Kokkos::RangePolicy<ExecutionSpace> const groups(0, group_count(particles.owned));
   std::visit(
       [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
         ContactKernel<bond(), shears, rolling(), dashpot(), ledger()> const kernel{
             particles, rows, {laws.grain, laws.bond, least_strength(laws.bond), dt}, step, breaks, losses, faults};
-        Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", slices, kernel);
+        Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", groups, kernel);
       },
       bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
       on(laws.ledger));

@@ -1,24 +1,8 @@
 #pragma once
 /// The contact law of unbonded grains: normal, shear and rolling (seed paper, Eq. 8).
-#include "kernels/lane.hpp"
+#include "kernels/contact_law.hpp"
 
 namespace clathra {
-
-/// How two discs moved against each other during one step, seen from disc a. L is a lane type, all values per contact.
-template <class L>
-struct ContactMotion {
-  L overlap;        ///< u_n = r1 + r2 - d [m]; negative for a gap
-  L approach;       ///< -d(d)/dt, the normal closing velocity [m/s]
-  L slip;           ///< Delta u_s [m] during the step, equal on both sides
-  L turn;           ///< Delta theta = (omega_b - omega_a) dt [rad], opposite on the two sides
-  L common_radius;  ///< 2 r1 r2 / (r1 + r2) [m]
-};
-
-/// Forces of one contact: normal > 0 in compression [N/m], shear along t = (-n_y, n_x) [N/m], moment on disc a [N m/m].
-template <class L>
-struct ContactForce {
-  L normal, shear, moment;
-};
 
 /// Constants of the unbonded law. Stiffness in N/m per metre thickness.
 struct GrainLaw {
@@ -38,20 +22,47 @@ KOKKOS_FORCEINLINE_FUNCTION L rolling_stiffness(GrainLaw const& law, L const& co
   return law.rolling_factor() * common_radius * common_radius;
 }
 
+/// F_n = k_n u_n of a contact with overlap u_n > 0 [N/m] (Eq. 8); no force where it is not positive.
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L spring_force(GrainLaw const& law, L const& overlap) {
+  return law.normal_stiffness * overlap;
+}
+
+/// The tangent of forces and moment, at this overlap > 0 [m] with this common radius [m].
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> grain_stiffness(GrainLaw const& law, [[maybe_unused]] L const& overlap,
+                                                                L const& common_radius) {
+  return {L(law.normal_stiffness), L(law.shear_stiffness), rolling_stiffness(law, common_radius)};
+}
+
+/// Elastic energy of a contact under these forces, without dashpot part [J/m].
+/// @param stiffness  grain_stiffness() of the contact
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L grain_energy([[maybe_unused]] GrainLaw const& law, ContactForce<L> const& elastic,
+                                           ContactStiffness<L> const& stiffness) {
+  return spring_energy(elastic, stiffness);
+}
+
 /// In place of a dashpot coefficient: contacts are not viscous.
 struct Undamped {};
 
-/// F_n = k_n u_n >= 0 (Eq. 8) [N/m]; 0 for u_n <= 0.
+/// The normal force, >= 0 [N/m]; 0 for u_n <= 0.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L> const& motion, Undamped) {
-  return lane_max(law.normal_stiffness * motion.overlap, L(0));
+  return lane_max(spring_force(law, motion.overlap), L(0));
 }
 
 /// The same with a dashpot [N s/m per m]; the sum of both is never tensile.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L> const& motion, L const& dashpot) {
-  L const damped = lane_max(L(0), law.normal_stiffness * motion.overlap + dashpot * motion.approach);
+  L const damped = lane_max(L(0), spring_force(law, motion.overlap) + dashpot * motion.approach);
   return select(motion.overlap > L(0), damped, L(0));
+}
+
+/// What the dashpot takes out in a step, from a normal force that it has a part in [J/m].
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION L dashpot_loss(GrainLaw const& law, ContactMotion<L> const& motion, L const& normal, Real dt) {
+  return (normal - normal_force(law, motion, Undamped())) * (motion.approach * dt);
 }
 
 /// Eq. 8 with signed limits: F_n = k_n u_n >= 0; |F_s| <= mu F_n; |M| <= F_n B_c / 6. A contact with u_n <= 0 carries nothing.
@@ -87,5 +98,8 @@ template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L dashpot_coefficient(GrainLaw const& law, L const& inverse_mass_a, L const& inverse_mass_b) {
   return (2 * law.damping_ratio) * lane_sqrt(law.normal_stiffness / (inverse_mass_a + inverse_mass_b));
 }
+
+/// Bulk modulus of a dense packing of such grains, from the mean of many [Pa].
+inline Real packing_modulus(GrainLaw const& law) { return 0.8 * law.normal_stiffness; }
 
 }  // namespace clathra

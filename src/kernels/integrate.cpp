@@ -24,12 +24,12 @@ struct KickAndDrift {
   AffineFrame frame;
   Field<Accum> lost_to_damping;
   Faults faults;
-  int slices, share;  ///< in all, and of a thread
+  int groups, share;  ///< in all, and of a thread
 
   /// A thread goes through its share backwards, since what the forces touched last is still in its cache.
   KOKKOS_FUNCTION int backwards(int place) const {
     int const first = place / share * share, next = first + share;
-    return first + (next < slices ? next : slices) - 1 - place;
+    return first + (next < groups ? next : groups) - 1 - place;
   }
 
   KOKKOS_FUNCTION void operator()(int place, Real& longest_way) const {
@@ -55,7 +55,7 @@ struct KickAndDrift {
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
 
     Lanes way = lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
-    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(way, l, 0);  // ghosts share the last slice
+    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(way, l, 0);  // ghosts share the last group
     if (any(!(way < Lanes(1e5)))) report(i, way);
     longest_way = lane_max(longest_way, largest(select(way > Lanes(0), way, Lanes(0))));
   }
@@ -71,17 +71,17 @@ struct KickAndDrift {
 
 Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
                Faults const& faults) {
-  int const slices = slice_count(particles.owned), threads = ExecutionSpace().concurrency();
-  int const share = (slices + threads - 1) / threads;
+  int const groups = group_count(particles.owned), threads = ExecutionSpace().concurrency();
+  int const share = (groups + threads - 1) / threads;
   Real longest_way = 0;
   auto const run = [&](auto const& kernel) {
-    Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, slices), kernel,
+    Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, groups), kernel,
                             Kokkos::Max<Real>(longest_way));
   };
   if (losses.damping.extent(0) > 0) {
-    run(KickAndDrift<true>{particles, law, dt, frame, losses.damping, faults, slices, share});
+    run(KickAndDrift<true>{particles, law, dt, frame, losses.damping, faults, groups, share});
   } else {
-    run(KickAndDrift<false>{particles, law, dt, frame, losses.damping, faults, slices, share});
+    run(KickAndDrift<false>{particles, law, dt, frame, losses.damping, faults, groups, share});
   }
   return longest_way;
 }

@@ -7,8 +7,8 @@
 #include "kernels/real.hpp"
 
 // With Clang and AVX-512 a masked choice of libstdc++ takes all lanes from one side (so says a FIXME in its _S_blend_avx512).
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && !defined(KOKKOS_ENABLE_SYCL) && \
-    !(defined(__clang__) && defined(__AVX512F__)) && __has_include(<experimental/simd>)
+#if !defined(CLATHRA_SCALAR_LANES) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && \
+    !defined(KOKKOS_ENABLE_SYCL) && !(defined(__clang__) && defined(__AVX512F__)) && __has_include(<experimental/simd>)
 #define CLATHRA_SIMD 1
 #include <experimental/simd>
 #endif
@@ -135,6 +135,16 @@ KOKKOS_FORCEINLINE_FUNCTION int pack_set(bool mask, int const* from, int* to) {
 KOKKOS_FORCEINLINE_FUNCTION void prefetch(Real const*) {}
 KOKKOS_FORCEINLINE_FUNCTION Real gather(Real const* field, int const* index) { return field[*index]; }
 #endif
+
+/// Discs whose rows lie side by side in memory (contacts.hpp): a multiple of `lane_count`. Nobody's bits know it.
+#ifdef CLATHRA_SLICE_WIDTH
+inline constexpr int slice_width = CLATHRA_SLICE_WIDTH;
+#elif defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+inline constexpr int slice_width = 32;  // the threads that load together
+#else
+inline constexpr int slice_width = lane_count;
+#endif
+static_assert(slice_width % lane_count == 0, "a slice holds whole groups of lanes");
 
 /// `value` clamped to [-limit, limit]; limit >= 0. Odd in `value` even at limit 0, so both sides of a pair get exact
 /// opposites. What comes of a NaN depends on the machine: integrate() finds the motion that made it.

@@ -31,17 +31,17 @@ struct GiveLeeway {
   }
 };
 
-/// One slice of discs.
+/// One group of discs.
 struct Stray {
   ParticleSoA p;
   AffineFrame frame;
-  KOKKOS_FUNCTION void operator()(int slice, Real& greatest2) const {
-    auto const i = static_cast<std::size_t>(slice) * lane_count;
+  KOKKOS_FUNCTION void operator()(int group, Real& greatest2) const {
+    auto const i = static_cast<std::size_t>(group) * lane_count;
     Lanes const dx = load(&p.x(i)) - (frame.centre_x + frame.stretch_x * (load(&p.reference_x(i)) - frame.reference_centre_x));
     Lanes const dy = load(&p.y(i)) - (frame.centre_y + frame.stretch_y * (load(&p.reference_y(i)) - frame.reference_centre_y));
     Lanes const leeway = load(&p.leeway(i));
     Lanes share2 = (dx * dx + dy * dy) / (leeway * leeway);
-    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(share2, l, 0);  // ghosts share the last slice
+    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(share2, l, 0);  // ghosts share the last group
     greatest2 = lane_max(greatest2, largest(select(share2 > Lanes(0), share2, Lanes(0))));
   }
 };
@@ -66,7 +66,7 @@ void mark_reference(ParticleSoA const& particles) {
 
 Real largest_stray2(ParticleSoA const& particles, AffineFrame const& frame) {
   Real greatest2 = 0;
-  Kokkos::parallel_reduce("largest_stray", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(particles.owned)),
+  Kokkos::parallel_reduce("largest_stray", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
                           Stray{particles, frame}, Kokkos::Max<Real>(greatest2));
   return greatest2;
 }

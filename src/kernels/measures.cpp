@@ -18,8 +18,8 @@ enum Sum : int {
   force_carriers,
   unbalanced,
   kinetic,
-  grain_energy,
-  bond_energy_sum,
+  elastic,
+  elastic_of_bonds,
   deep,
   area,
   pair_sums
@@ -50,8 +50,8 @@ struct DiscSums {
       out[bonded] += s.bonded ? 0.5 : 0;
       out[contact_force] += 0.5 * std::sqrt(fx * fx + fy * fy);
       out[force_carriers] += 0.5;
-      out[grain_energy] += 0.5 * s.grain_energy;
-      out[bond_energy_sum] += 0.5 * s.bond_energy;
+      out[elastic] += 0.5 * s.grain_energy;
+      out[elastic_of_bonds] += 0.5 * s.bond_energy;
       out[deep] += s.overlap > 0.1 * lane_min(p.radius(i), p.radius(s.other)) ? 0.5 : 0;
       if (s.bonded) {
         Real const common = common_radius(p.radius(i), p.radius(s.other));
@@ -70,19 +70,19 @@ struct WallSums {
 
   KOKKOS_FUNCTION void operator()(int c, Real* out) const {
     int const i = contacts.disc(c);
-    Real const gap[wall_count] = {p.x(i) - walls.position[left], walls.position[right] - p.x(i), p.y(i) - walls.position[bottom],
-                                  walls.position[top] - p.y(i)};
+    GrainLaw const grain = law.as_grain();
     for (int wall = 0; wall < wall_count; ++wall) {
-      Real const overlap = p.radius(i) - gap[wall];
+      WallFace const face = wall_face(walls, wall, p.x(i), p.y(i));
+      Real const overlap = p.radius(i) - face.distance;
       if (overlap <= 0) continue;
-      Real const normal = law.normal_stiffness * overlap, shear = contacts.shear.extent(0) > 0 ? contacts.shear(c, wall) : 0;
-      bool const upright = wall == left || wall == right;
-      out[upright ? stress_xx : stress_yy] += normal * gap[wall];
-      // f . t against the disc times the branch: t = (-n_y, n_x), the branch is gap * n.
-      out[upright ? stress_yx : stress_xy] += (upright ? -shear : shear) * gap[wall];
+      Real const normal = spring_force(grain, overlap), shear = contacts.shear.extent(0) > 0 ? contacts.shear(c, wall) : 0;
+      bool const upright = face.nx != 0;
+      out[upright ? stress_xx : stress_yy] += normal * face.distance;
+      // f . t against the disc times the branch: t = (-n_y, n_x), the branch is distance * n.
+      out[upright ? stress_yx : stress_xy] += (upright ? -shear : shear) * face.distance;
       out[contact_force] += std::sqrt(normal * normal + shear * shear);
       out[force_carriers] += 1;
-      out[grain_energy] += spring_energy(normal, law.normal_stiffness) + spring_energy(shear, law.shear_stiffness);
+      out[elastic] += grain_energy(grain, {normal, shear, 0}, grain_stiffness(grain, overlap, 2 * p.radius(i)));
     }
   }
 };
@@ -102,7 +102,7 @@ struct DeepestOverlap {
 
 void set_units(SumUnits const& scale, Real (&unit)[pair_sums]) {
   for (Real& u : unit) u = 1;  // of numbers of contacts
-  for (int const sum : {stress_xx, stress_xy, stress_yx, stress_yy, kinetic, grain_energy, bond_energy_sum})
+  for (int const sum : {stress_xx, stress_xy, stress_yx, stress_yy, kinetic, elastic, elastic_of_bonds})
     unit[sum] = scale.energy();
   for (int const sum : {contact_force, unbalanced}) unit[sum] = scale.force();
   unit[area] = scale.area();
@@ -128,29 +128,31 @@ KOKKOS_INLINE_FUNCTION std::uint64_t mix(std::uint64_t z) {  // the finaliser of
 KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, std::uint64_t word) {
   return mix(hash * 0x9e3779b97f4a7c15ULL + word);
 }
-KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, Real value) { return chain(hash, detail::bits_of(value + 0.0)); }
+KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, double value) { return chain(hash, detail::bits_of(value + 0.0)); }
+KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, int value) {
+  return chain(hash, static_cast<std::uint64_t>(value));
+}
 
+/// Chains all fields of a disc, and for each entry that has a history both ids and all of it: as if none of it was left out where
+/// the features need it not. Which far neighbours are listed is no part of the state.
 struct HashDisc {
   ParticleSoA p;
   ContactRows rows;
   KOKKOS_FUNCTION void operator()(int i, std::uint64_t& sum) const {
-    std::uint64_t hash = chain(1, static_cast<std::uint64_t>(p.id(i)));
-    for (Real value : {p.x(i), p.y(i), p.angle(i), p.vx(i), p.vy(i), p.omega(i), p.radius(i), p.inverse_mass(i)})
-      hash = chain(hash, value);
+    std::uint64_t hash = 1;
+    for_each_field(p, [&](DiscField const&, auto const& field) { hash = chain(hash, field(i)); });
     sum += hash;
     for (int k = 0; k < rows.length(i); ++k) {
       std::size_t const e = rows.entry(i, k);
-      Real const history[] = {rows.shear.extent(0) ? rows.shear(e) : 0, rows.moment.extent(0) ? rows.moment(e) : 0,
-                              rows.equilibrium.extent(0) ? rows.equilibrium(e) : no_bond,
-                              rows.bond_shear.extent(0) ? rows.bond_shear(e) : 0,
-                              rows.bond_moment.extent(0) ? rows.bond_moment(e) : 0};
-      bool empty = !is_bonded(history[2]);
-      for (int f : {0, 1, 3, 4}) empty = empty && history[f] == 0;
-      if (empty) continue;  // which far neighbours are listed is no part of the state
-      std::uint64_t pair =
-          chain(chain(2, static_cast<std::uint64_t>(p.id(i))), static_cast<std::uint64_t>(p.id(rows.neighbour(e))));
-      for (Real value : history) pair = chain(pair, value);
-      sum += pair;
+      std::uint64_t pair = chain(chain(2, p.id(i)), p.id(rows.neighbour(e)));
+      bool empty = true;
+      auto const add = [&](HistoryField const& about, bool, auto const& field) {
+        Real const value = field.extent(0) > 0 ? field(e) : about.empty;
+        empty = empty && value == about.empty;
+        pair = chain(pair, value);
+      };
+      for_each_possible_history(rows.features, add, rows);
+      if (!empty) sum += pair;
     }
   }
 };
@@ -177,9 +179,9 @@ Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactL
   m.force_carriers = pairs[force_carriers] + at_walls[force_carriers];
   m.unbalanced = pairs[unbalanced];
   m.kinetic = pairs[kinetic];
-  m.grain_energy = pairs[grain_energy];
-  m.bond_energy = pairs[bond_energy_sum];
-  m.wall_energy = at_walls[grain_energy];
+  m.grain_energy = pairs[elastic];
+  m.bond_energy = pairs[elastic_of_bonds];
+  m.wall_energy = at_walls[elastic];
   m.deep = pairs[deep];
   m.bond_area = pairs[area];
   return m;

@@ -1,8 +1,9 @@
 #include "kernels/neighbours.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "kernels/cell_grid.hpp"
 
@@ -178,13 +179,13 @@ struct ScanSlices {
   int discs;
   KOKKOS_FUNCTION void operator()(int slice, std::int64_t& sum, bool const final) const {
     int longest = 0;
-    for (int l = 0; l < lane_count; ++l) {
-      int const i = slice * lane_count + l;
+    for (int l = 0; l < slice_width; ++l) {
+      int const i = slice * slice_width + l;
       if (i < discs && length(i) > longest) longest = length(i);
     }
     if (final) slice_start(slice) = static_cast<int>(sum);
     sum += longest;
-    if (final && (slice + 1) * lane_count >= discs) slice_start(slice + 1) = static_cast<int>(sum);
+    if (final && (slice + 1) * slice_width >= discs) slice_start(slice + 1) = static_cast<int>(sum);
   }
 };
 
@@ -196,7 +197,7 @@ struct FillRows {
   Field<int> source;  // [entries] the old entry with the history of each new one, -1 for none
 
   KOKKOS_FUNCTION void operator()(int slot) const {
-    int const slice = slot / lane_count;
+    int const slice = slot / slice_width;
     int const width = rows.slice_start(slice + 1) - rows.slice_start(slice);
     bool const real = slot < search.p.owned;
     int const used = real ? fill(slot) : 0;
@@ -242,27 +243,29 @@ struct FillRows {
 };
 
 /// One field of the history in its new order.
+template <class T>
 struct CarryHistory {
-  Field<Real> here, arrived, to;
+  Field<T> here, arrived, to;
   Field<int> source;
   int entries_here;
-  Real empty;
+  T empty;
   KOKKOS_FUNCTION void operator()(int e) const {
     int const from = source(e);
     to(e) = from < 0 ? empty : from < entries_here ? here(from) : arrived(from - entries_here);
   }
 };
 
-/// Of the rows of one slice.
+/// Of the rows of one group of discs.
 struct WidestBondedGap {
   ParticleSoA p;
   ContactRows rows;
-  KOKKOS_FUNCTION void operator()(int slice, Real& widest) const {
-    auto const i = static_cast<std::size_t>(slice) * lane_count;
+  KOKKOS_FUNCTION void operator()(int group, Real& widest) const {
+    auto const i = static_cast<std::size_t>(group) * lane_count;
+    int const slice = group / (slice_width / lane_count);
     Lanes const x = load(&p.x(i)), y = load(&p.y(i)), radius = load(&p.radius(i));
     Lanes widest_here(0);
     for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
-      auto const e = static_cast<std::size_t>(k) * lane_count;
+      std::size_t const e = static_cast<std::size_t>(k) * slice_width + i % slice_width;
       auto const bonded = is_bonded(load(&rows.equilibrium(e)));
       if (!any(bonded)) continue;
       int const* const other = &rows.neighbour(e);
@@ -289,20 +292,20 @@ struct CountOwnBonds {
 /// free, so that a search needs room for one field and not for a second set of rows.
 void carry_history(OldRows old, ContactRows& found, Field<int> const& source, std::size_t entries) {
   std::size_t const size = found.neighbour.extent(0);
-  std::vector<Field<Real>> arrived;
-  for_each_history(old.arrived, [&](char const*, Field<Real> const& field, Real) { arrived.push_back(field); });
-  Field<Real> room;
-  auto from_others = arrived.begin();
-  for_each_history(old.here, [&](char const* name, Field<Real>& field, Real empty) {
+  std::tuple<Field<float>, Field<double>> free;
+  auto const carry = [&](HistoryField const& about, auto& field, auto const& arrived) {
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    auto& room = std::get<Field<T>>(free);
     if (room.extent(0) != size) {
-      room = Field<Real>();
-      room = uninitialised<Real>(name, size);
+      room = Field<T>();
+      room = uninitialised<T>(about.name, size);
     }
     Kokkos::parallel_for("carry_history", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(entries)),
-                         CarryHistory{field, *from_others++, room, source, old.entries_here, empty});
+                         CarryHistory<T>{field, arrived, room, source, old.entries_here, static_cast<T>(about.empty)});
     Kokkos::fence();
     std::swap(field, room);
-  });
+  };
+  for_each_history(old.here.features, carry, old.here, old.arrived);
   old.here.slice_start = found.slice_start;
   old.here.length = found.length;
   old.here.neighbour = found.neighbour;
@@ -318,7 +321,7 @@ OldRows take_as_old(ParticleSoA const& particles, ContactRows const& rows) {
   old.slots_here = static_cast<int>(rows.length.extent(0));
   if (old.slots_here > 0) {
     Kokkos::deep_copy(old.entries_here, Kokkos::subview(rows.slice_start, slice_count(old.slots_here)));
-    old.entries_here *= lane_count;
+    old.entries_here *= slice_width;
   }
   Kokkos::parallel_for("name_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, old.entries_here),
                        NameNeighbours{particles, rows});
@@ -342,7 +345,7 @@ int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows) {
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
   if (rows.equilibrium.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
   Real widest = 0;
-  Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(particles.owned)),
+  Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
                           WidestBondedGap{particles, rows}, Kokkos::Max<Real>(widest));
   return lane_max(widest, Real(0));
 }
@@ -365,14 +368,14 @@ std::size_t find_neighbours(ParticleSoA const& particles, Real widest_leeway, Ol
   std::int64_t total = 0;
   Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices)),
                         ScanSlices{found.length, found.slice_start, particles.owned}, total);
-  require_countable(total * lane_count, particles.all());
-  std::size_t const entries = static_cast<std::size_t>(total) * lane_count, held = rows.neighbour.extent(0);
+  require_countable(total * slice_width, particles.all());
+  std::size_t const entries = static_cast<std::size_t>(total) * slice_width, held = rows.neighbour.extent(0);
   // A little more than needed, so that the next search finds fields of the right size; never nothing.
-  std::size_t const wanted = std::max<std::size_t>(entries, lane_count);
+  std::size_t const wanted = std::max<std::size_t>(entries, slice_width);
   std::size_t const size = held >= wanted && held <= wanted + wanted / 8 ? held : wanted + wanted / 16;
   found.neighbour = uninitialised<int>("rows.neighbour", size);
   Field<int> const source = uninitialised<int>("rows.source", size);
-  Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * lane_count),
+  Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * slice_width),
                        FillRows{search, near, found, source});
   std::size_t const lists = near.neighbour.span() * sizeof(int) + bytes(search.candidates) + bytes(search.grid);
   near = Found();

@@ -74,12 +74,11 @@ struct SumLoads {
       ++carriers;
       bonds += s.bonded ? 1 : 0;
     }
-    Real const gap[wall_count] = {p.x(i) - walls.position[left], walls.position[right] - p.x(i), p.y(i) - walls.position[bottom],
-                                  walls.position[top] - p.y(i)};
     for (int wall = 0; wall < wall_count; ++wall) {
-      Real const overlap = p.radius(i) - gap[wall];
+      WallFace const face = wall_face(walls, wall, p.x(i), p.y(i));
+      Real const overlap = p.radius(i) - face.distance;
       if (overlap <= 0) continue;
-      (wall == left || wall == right ? xx : yy) += wall_law.normal_stiffness * overlap * gap[wall];
+      (face.nx != 0 ? xx : yy) += spring_force(wall_law.as_grain(), overlap) * face.distance;
       ++carriers;
     }
     Real const area = pi * p.radius(i) * p.radius(i);

@@ -13,15 +13,19 @@ struct PairState {
   Real arm = 0, other_arm = 0;                            ///< lever arms of the shear force [m], arm + other_arm = distance
   Real normal = 0, shear = 0, moment = 0;                 ///< total force and moment of grain contact and bond
   Real bond_normal = 0, bond_shear = 0, bond_moment = 0;  ///< the bond's part
-  Real normal_stiffness = 0, shear_stiffness = 0, rolling_stiffness = 0;  ///< tangent stiffness while nothing slips or breaks
-  Real grain_energy = 0, bond_energy = 0;                                 ///< elastic [J/m]
-  Real width = 0, gap = 0;                                                ///< B and h_cr of the bond [m]
+  ContactStiffness<Real> stiffness{0, 0, 0};              ///< of both together
+  Real grain_energy = 0, bond_energy = 0;                 ///< elastic [J/m]
+  Real width = 0, gap = 0;                                ///< B and h_cr of the bond [m]
   KOKKOS_INLINE_FUNCTION bool carries() const { return touching || bonded; }
 };
 
-/// Half of F^2 / k, 0 for a spring that is not there.
-KOKKOS_INLINE_FUNCTION Real spring_energy(Real force, Real stiffness) {
-  return stiffness > 0 ? 0.5 * force * force / stiffness : 0;
+/// The tangent of a grain contact with what these rows keep: no shear and no rolling where the scene has none.
+KOKKOS_INLINE_FUNCTION ContactStiffness<Real> kept_stiffness(ContactRows const& rows, GrainLaw const& grain, Real overlap,
+                                                             Real common_radius) {
+  ContactStiffness<Real> k = grain_stiffness(grain, overlap, common_radius);
+  if (rows.shear.extent(0) == 0) k.shear = 0;
+  if (!rows.features.rolling) k.rolling = 0;
+  return k;
 }
 
 /// The pair behind entry `e` of disc `i`. No dashpot part.
@@ -42,15 +46,13 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   Real const common = common_radius(p.radius(i), p.radius(s.other));
   Real const moment = rows.moment.extent(0) > 0 ? rows.moment(e) : 0;
   if (s.touching && (!s.bonded || separate)) {
-    Real const k_m = rows.features.rolling ? rolling_stiffness(laws.grain, common) : 0;
-    s.normal = laws.grain.normal_stiffness * s.overlap;
-    s.shear = rows.shear.extent(0) > 0 ? rows.shear(e) : 0;
-    s.moment = moment;
-    s.normal_stiffness = laws.grain.normal_stiffness;
-    s.shear_stiffness = rows.shear.extent(0) > 0 ? laws.grain.shear_stiffness : 0;
-    s.rolling_stiffness = k_m;
-    s.grain_energy = spring_energy(s.normal, laws.grain.normal_stiffness) + spring_energy(s.shear, laws.grain.shear_stiffness) +
-                     spring_energy(s.moment, k_m);
+    ContactForce<Real> const grain{spring_force(laws.grain, s.overlap), rows.shear.extent(0) > 0 ? Real(rows.shear(e)) : 0,
+                                   moment};
+    s.normal = grain.normal;
+    s.shear = grain.shear;
+    s.moment = grain.moment;
+    s.stiffness = kept_stiffness(rows, laws.grain, s.overlap, common);
+    s.grain_energy = grain_energy(laws.grain, grain, s.stiffness);
   }
   if (s.bonded) {
     ContactMotion<Real> const still{s.overlap, 0, 0, 0, common};
@@ -65,11 +67,9 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
     s.normal += s.bond_normal;
     s.shear += s.bond_shear;
     s.moment += s.bond_moment;
-    s.normal_stiffness += bond.stiffness.normal;
-    s.shear_stiffness += bond.stiffness.shear;
-    s.rolling_stiffness += bond.stiffness.rolling;
-    s.bond_energy = spring_energy(s.bond_normal, bond.stiffness.normal) + spring_energy(s.bond_shear, bond.stiffness.shear) +
-                    spring_energy(s.bond_moment, bond.stiffness.rolling);
+    s.stiffness = {s.stiffness.normal + bond.stiffness.normal, s.stiffness.shear + bond.stiffness.shear,
+                   s.stiffness.rolling + bond.stiffness.rolling};
+    s.bond_energy = spring_energy(bond.force, bond.stiffness);
   }
   return s;
 }

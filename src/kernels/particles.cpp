@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -9,34 +10,15 @@ namespace clathra {
 
 namespace {
 
-/// Visits the fields that are computed from the state.
-template <class Visit>
-void for_each_derived_field(ParticleSoA& p, Visit&& visit) {
-  visit("force_x", p.force_x);
-  visit("force_y", p.force_y);
-  visit("torque", p.torque);
-  visit("reference_x", p.reference_x);
-  visit("reference_y", p.reference_y);
-  visit("leeway", p.leeway);
-}
-
-template <class T>
-struct Gather {
-  Field<T> from, to;
-  Field<int> order;
-  KOKKOS_FUNCTION void operator()(int i) const { to(i) = from(order(i)); }
-};
-
 struct FillPadding {
   ParticleSoA p;
   int first;
   KOKKOS_FUNCTION void operator()(int k) const {
-    int const i = first + k;
-    p.id(i) = -1;
-    p.x(i) = p.y(i) = p.reference_x(i) = p.reference_y(i) = 1e10;
-    p.angle(i) = p.vx(i) = p.vy(i) = p.omega(i) = p.radius(i) = p.inverse_mass(i) = p.inverse_inertia(i) = 0;
-    p.force_x(i) = p.force_y(i) = p.torque(i) = 0;
-    p.leeway(i) = 1;
+    auto const fill = [i = first + k](DiscField const& about, auto const& field) {
+      field(i) = static_cast<typename std::decay_t<decltype(field)>::value_type>(about.padding);
+    };
+    for_each_field(p, fill);
+    for_each_derived_field(p, fill);
   }
 };
 
@@ -71,12 +53,12 @@ ParticleSoA allocate_particles(int discs) {
 }
 
 void reserve(ParticleSoA& particles, int discs) {
-  std::size_t const wanted = static_cast<std::size_t>(slice_count(discs) + 1) * lane_count + 1;
+  std::size_t const wanted = static_cast<std::size_t>(slice_count(discs) + 1) * slice_width + 1;
   if (particles.x.extent(0) >= wanted) return;
   std::size_t const size = particles.x.extent(0) == 0 ? wanted : wanted + wanted / 8;
-  auto const grow = [&](char const* name, auto& field) {
+  auto const grow = [&](DiscField const& about, auto& field) {
     using T = typename std::decay_t<decltype(field)>::value_type;
-    Field<T> larger((std::string(name)), size);
+    Field<T> larger((std::string(about.name)), size);
     if (particles.owned > 0) {
       auto const range = std::pair<std::size_t, std::size_t>(0, static_cast<std::size_t>(particles.owned));
       Kokkos::deep_copy(Kokkos::subview(larger, range), Kokkos::subview(field, range));
@@ -96,19 +78,13 @@ void fill_padding(ParticleSoA const& particles) {
 void permute(ParticleSoA& particles, Field<int> const& order) {
   particles.owned = static_cast<int>(order.extent(0));
   particles.ghosts = 0;
-  // Each field is gathered into the storage that the one before it left free.
-  Field<int> free_int;
-  Field<Real> free_real;
-  for_each_field(particles, [&](char const* name, auto& field) {
+  // Each field is gathered into the storage that the one of its type before it left free.
+  std::tuple<Field<int>, Field<float>, Field<double>> free;
+  for_each_field(particles, [&](DiscField const& about, auto& field) {
     using T = typename std::decay_t<decltype(field)>::value_type;
-    auto& to = [&]() -> Field<T>& {
-      if constexpr (std::is_same_v<T, int>)
-        return free_int;
-      else
-        return free_real;
-    }();
-    if (to.extent(0) != field.extent(0)) to = uninitialised<T>(name, field.extent(0));
-    Kokkos::parallel_for("permute", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), Gather<T>{field, to, order});
+    auto& to = std::get<Field<T>>(free);
+    if (to.extent(0) != field.extent(0)) to = uninitialised<T>(about.name, field.extent(0));
+    Kokkos::parallel_for("permute", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), GatherField<T>{field, to, order});
     std::swap(field, to);
   });
   fill_padding(particles);
@@ -124,23 +100,6 @@ void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, C
                        ScalePositions{particles, factor, fixed_x, fixed_y});
 }
 
-namespace {
-
-template <class T>
-Field<T> gathered(Field<T> const& field, Field<int> const& order, std::size_t size) {
-  Field<T> to("permuted", size);
-  Kokkos::parallel_for("permuted", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))),
-                       Gather<T>{field, to, order});
-  return to;
-}
-
-}  // namespace
-
-Field<Accum> permuted(Field<Accum> const& field, Field<int> const& order, std::size_t size) {
-  return gathered(field, order, size);
-}
-Field<int> permuted(Field<int> const& field, Field<int> const& order, std::size_t size) { return gathered(field, order, size); }
-
 void stop_motion(ParticleSoA const& particles) {
   Kokkos::deep_copy(particles.vx, 0);
   Kokkos::deep_copy(particles.vy, 0);
@@ -148,13 +107,12 @@ void stop_motion(ParticleSoA const& particles) {
 }
 
 std::size_t bytes(ParticleSoA const& particles) {
-  ParticleSoA copy = particles;
   std::size_t total = 0;
-  auto const count = [&](char const*, auto const& field) {
+  auto const count = [&](DiscField const&, auto const& field) {
     total += field.span() * sizeof(typename std::decay_t<decltype(field)>::value_type);
   };
-  for_each_field(copy, count);
-  for_each_derived_field(copy, count);
+  for_each_field(particles, count);
+  for_each_derived_field(particles, count);
   return total;
 }
 

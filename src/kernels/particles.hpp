@@ -5,8 +5,8 @@
 namespace clathra {
 
 /// Discs `0 .. owned` have neighbour rows and move; `owned .. owned + ghosts` are images of discs across a periodic boundary.
-/// Behind them every field holds `lane_count` padding discs of radius 0 far outside, so that vector loads may overrun and unused
-/// row entries have a disc to point at. The order is spatial and changes; `id` is the identity of a disc.
+/// Behind them every field holds `slice_width` padding discs or more of radius 0 far outside, so that vector loads may overrun
+/// and unused row entries have a disc to point at. The order is spatial and changes; `id` is the identity of a disc.
 struct ParticleSoA {
   int owned = 0;
   int ghosts = 0;
@@ -29,24 +29,54 @@ struct ParticleSoA {
   KOKKOS_FUNCTION int padding() const { return static_cast<int>(x.extent(0)) - 1; }
 };
 
-/// The state of a disc, field by field: drives permutation, ghosts, hashing, files and byte counts, so that a new field cannot be
-/// forgotten.
+/// What there is to know of a field of a disc beside its values.
+struct DiscField {
+  char const* name;
+  Real padding = 0;    ///< value of a padding disc
+  bool moves = false;  ///< changes in each step, and neighbours need to know it
+};
+inline constexpr Coord far_outside = 1e10;  ///< where padding discs are [m]
+
+/// The state of a disc, field by field, here and in kernels: visit(DiscField, field). It drives allocation, padding, permutation,
+/// ghosts, the hash of the state, files, other ranks and byte counts, so that a new field cannot be forgotten.
 template <class Particles, class Visit>
-void for_each_field(Particles& p, Visit&& visit) {
-  visit("id", p.id);
-  visit("x", p.x);
-  visit("y", p.y);
-  visit("angle", p.angle);
-  visit("vx", p.vx);
-  visit("vy", p.vy);
-  visit("omega", p.omega);
-  visit("radius", p.radius);
-  visit("inverse_mass", p.inverse_mass);
-  visit("inverse_inertia", p.inverse_inertia);
+KOKKOS_INLINE_FUNCTION void for_each_field(Particles&& p, Visit&& visit) {
+  visit(DiscField{"id", -1}, p.id);
+  visit(DiscField{"x", far_outside, true}, p.x);
+  visit(DiscField{"y", far_outside, true}, p.y);
+  visit(DiscField{"angle"}, p.angle);
+  visit(DiscField{"vx", 0, true}, p.vx);
+  visit(DiscField{"vy", 0, true}, p.vy);
+  visit(DiscField{"omega", 0, true}, p.omega);
+  visit(DiscField{"radius"}, p.radius);
+  visit(DiscField{"inverse_mass"}, p.inverse_mass);
+  visit(DiscField{"inverse_inertia"}, p.inverse_inertia);
 }
 
-/// Number of slices of `lane_count` discs that cover `discs`.
-KOKKOS_INLINE_FUNCTION int slice_count(int discs) { return (discs + lane_count - 1) / lane_count; }
+/// Likewise what is computed from the state: the forces
+template <class Particles, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_force(Particles& p, Visit&& visit) {
+  visit(DiscField{"force_x"}, p.force_x);
+  visit(DiscField{"force_y"}, p.force_y);
+  visit(DiscField{"torque"}, p.torque);
+}
+/// and what the last neighbour search has left.
+template <class Particles, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_mark_of_search(Particles& p, Visit&& visit) {
+  visit(DiscField{"reference_x", far_outside}, p.reference_x);
+  visit(DiscField{"reference_y", far_outside}, p.reference_y);
+  visit(DiscField{"leeway", 1}, p.leeway);
+}
+template <class Particles, class Visit>
+KOKKOS_INLINE_FUNCTION void for_each_derived_field(Particles& p, Visit&& visit) {
+  for_each_force(p, visit);
+  for_each_mark_of_search(p, visit);
+}
+
+/// Number of slices of `slice_width` discs that cover `discs`.
+KOKKOS_INLINE_FUNCTION int slice_count(int discs) { return (discs + slice_width - 1) / slice_width; }
+/// Number of groups of `lane_count` discs, which kernels treat side by side.
+KOKKOS_INLINE_FUNCTION int group_count(int discs) { return (discs + lane_count - 1) / lane_count; }
 
 /// Storage for `discs` discs and their padding; the padding is filled in, the discs are not.
 ParticleSoA allocate_particles(int discs);
@@ -67,9 +97,22 @@ void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y,
 /// Scales all owned centres about a fixed point: x = fixed + factor (x - fixed).
 void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, Coord fixed_y);
 
+/// Gathers from(order(i)) into to(i).
+template <class T>
+struct GatherField {
+  Field<T> from, to;
+  Field<int> order;
+  KOKKOS_FUNCTION void operator()(int i) const { to(i) = from(order(i)); }
+};
+
 /// `field` in the order `order`, as permute() does, in a new field of `size` places.
-Field<Accum> permuted(Field<Accum> const& field, Field<int> const& order, std::size_t size);
-Field<int> permuted(Field<int> const& field, Field<int> const& order, std::size_t size);
+template <class T>
+Field<T> permuted(Field<T> const& field, Field<int> const& order, std::size_t size) {
+  Field<T> const to(field.label(), size);
+  Kokkos::parallel_for("permuted", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))),
+                       GatherField<T>{field, to, order});
+  return to;
+}
 
 /// Sets all velocities to zero.
 void stop_motion(ParticleSoA const& particles);

@@ -13,18 +13,19 @@ struct WorkOfSlots {
   int first;
   Field<int> work;  ///< [slots] first + slot is set
 
-  KOKKOS_FUNCTION void operator()(int slice) const {
+  KOKKOS_FUNCTION void operator()(int group) const {
+    int const begin = group * lane_count, slice = begin / slice_width;
     bool const shear = rows.shear.extent(0) > 0, bonds = rows.equilibrium.extent(0) > 0;
     Lanes carrying(0);
     for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
-      auto const e = static_cast<std::size_t>(k) * lane_count;
+      std::size_t const e = static_cast<std::size_t>(k) * slice_width + static_cast<std::size_t>(begin % slice_width);
       Mask marked(false);
       if (shear) marked = load(&rows.shear(e)) != Lanes(0);
       if (bonds) marked = marked || is_bonded(load(&rows.equilibrium(e)));
       carrying += select(marked, Lanes(1), Lanes(0));
     }
     for (int l = 0; l < lane_count; ++l) {
-      int const slot = slice * lane_count + l;
+      int const slot = begin + l;
       if (slot < static_cast<int>(rows.length.extent(0)))
         work(first + slot) = static_cast<int>(lane(carrying, l)) * (longest_row + 1) + rows.length(slot);
     }
@@ -65,9 +66,9 @@ struct SortByWork {
 Field<int> work_of_slots(OldRows const& old) {
   auto const arrived = static_cast<int>(old.arrived.length.extent(0));
   Field<int> const work = uninitialised<int>("work_of_slots", static_cast<std::size_t>(old.slots_here + arrived));
-  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(old.slots_here)),
+  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(old.slots_here)),
                        WorkOfSlots{old.here, 0, work});
-  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, slice_count(arrived)),
+  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(arrived)),
                        WorkOfSlots{old.arrived, old.slots_here, work});
   return work;
 }

@@ -37,16 +37,16 @@ namespace detail {
 KOKKOS_INLINE_FUNCTION Spring pair_spring(SpringNetwork const& net, int i, PairState const& s, bool closed) {
   GrainLaw const& grain = net.laws.grain;
   ParticleSoA const& p = net.particles;
-  Spring spring{s.other, s.nx, s.ny, s.arm, s.other_arm, s.normal_stiffness, s.shear_stiffness, s.rolling_stiffness, 0};
+  Spring spring{s.other, s.nx, s.ny, s.arm, s.other_arm, s.stiffness.normal, s.stiffness.shear, s.stiffness.rolling, 0};
   bool const parallel = net.laws.bond_kind == BondKind::parallel;
   bool const grains_carry = s.touching && (!s.bonded || parallel);
   if (closed && !grains_carry) {
-    Real const shear = net.rows.shear.extent(0) > 0 ? grain.shear_stiffness : 0;
-    Real const rolling = net.rows.features.rolling ? rolling_stiffness(grain, common_radius(p.radius(i), p.radius(s.other))) : 0;
+    ContactStiffness<Real> const k =
+        kept_stiffness(net.rows, grain, lane_max(s.overlap, Real(0)), common_radius(p.radius(i), p.radius(s.other)));
     bool const beside = !s.bonded || parallel;
-    spring.normal = beside ? spring.normal + grain.normal_stiffness : lane_max(spring.normal, grain.normal_stiffness);
-    spring.shear = beside ? spring.shear + shear : lane_max(spring.shear, shear);
-    spring.rolling = beside ? spring.rolling + rolling : lane_max(spring.rolling, rolling);
+    spring.normal = beside ? spring.normal + k.normal : lane_max(spring.normal, k.normal);
+    spring.shear = beside ? spring.shear + k.shear : lane_max(spring.shear, k.shear);
+    spring.rolling = beside ? spring.rolling + k.rolling : lane_max(spring.rolling, k.rolling);
   }
   if (grain.damping_ratio > 0 && (grains_carry || closed))
     spring.dashpot = dashpot_coefficient(grain, p.inverse_mass(i), p.inverse_mass(s.other));
@@ -66,14 +66,13 @@ KOKKOS_INLINE_FUNCTION void for_each_spring(SpringNetwork const& net, int i, Spr
     if (s.carries() || closed) visit(detail::pair_spring(net, i, s, closed));
   }
   for (int wall = 0; wall < wall_count; ++wall) {
-    bool const upright = wall == left || wall == right;
-    Real const outward = wall == right || wall == top ? 1 : -1;
-    Real const distance = std::fabs((upright ? p.x(i) : p.y(i)) - net.walls.position[wall]);
-    if (distance >= p.radius(i) * (1 + set.closing_gaps)) continue;
-    WallLaw const& law = net.wall_law;
-    Real const shear = law.friction > 0 ? law.shear_stiffness : 0;
-    Real const dashpot = law.damping_ratio > 0 ? 2 * law.damping_ratio * std::sqrt(law.normal_stiffness / p.inverse_mass(i)) : 0;
-    visit(Spring{-1, upright ? outward : 0, upright ? 0 : outward, distance, 0, law.normal_stiffness, shear, 0, dashpot});
+    WallFace const face = wall_face(net.walls, wall, p.x(i), p.y(i));
+    Real const distance = std::fabs(face.distance), radius = p.radius(i);
+    if (distance >= radius * (1 + set.closing_gaps)) continue;
+    GrainLaw const law = net.wall_law.as_grain();
+    ContactStiffness<Real> const k = grain_stiffness(law, lane_max(radius - distance, Real(0)), 2 * radius);
+    Real const dashpot = law.damping_ratio > 0 ? dashpot_coefficient(law, p.inverse_mass(i), Real(0)) : 0;
+    visit(Spring{-1, face.nx, face.ny, distance, 0, k.normal, law.friction > 0 ? k.shear : 0, 0, dashpot});
   }
 }
 

@@ -16,7 +16,6 @@ struct LocalPeriod {
 
   KOKKOS_FUNCTION void operator()(int i, Real& least) const {
     ParticleSoA const& p = net.particles;
-    GrainLaw const& grain = net.laws.grain;
     Real const r = p.radius(i);
     Real kxx = 0, kyy = 0, rotation = 0, stiffest = 0, stiffest_turn = 0;
     int contacts = 0;
@@ -31,9 +30,9 @@ struct LocalPeriod {
       ++contacts;
     });
     if (contacts == 0) {
-      Real const shear = net.rows.shear.extent(0) > 0 ? grain.shear_stiffness : 0;
-      stiffest = 0.5 * (grain.normal_stiffness + shear);
-      stiffest_turn = shear * r * r + (net.rows.features.rolling ? rolling_stiffness(grain, r) : 0);
+      ContactStiffness<Real> const k = kept_stiffness(net.rows, net.laws.grain, 0, r);  // with a disc of its own size
+      stiffest = 0.5 * (k.normal + k.shear);
+      stiffest_turn = k.shear * r * r + k.rolling;
     }
     int const missing = contacts < least_contacts ? least_contacts - contacts : 0;
     Real const translation = lane_max(kxx, kyy) + missing * stiffest;

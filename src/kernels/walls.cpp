@@ -6,26 +6,12 @@ namespace {
 
 constexpr int reaction_count = 3 * wall_count;
 
-/// Overlap u_n of a disc with a wall [m]; negative for a gap.
-KOKKOS_INLINE_FUNCTION Real wall_overlap(Walls const& walls, int wall, Coord x, Coord y, Real radius) {
-  switch (wall) {
-    case left:
-      return radius - (x - walls.position[left]);
-    case right:
-      return radius - (walls.position[right] - x);
-    case bottom:
-      return radius - (y - walls.position[bottom]);
-    default:
-      return radius - (walls.position[top] - y);
-  }
-}
-
 /// Adds the forces of up to four walls to one disc; its terms are the reactions.
 struct WallForces {
   ParticleSoA p;
   WallContacts contacts;
   Walls walls;
-  GrainLaw law;  // a wall contact follows the grain law with the wall's constants
+  GrainLaw law;
   Real dt;
   EnergyLosses losses;
   Faults faults;
@@ -34,14 +20,11 @@ struct WallForces {
     int const i = contacts.disc(c);
     bool const friction = contacts.shear.extent(0) > 0;
     for (int wall = 0; wall < wall_count; ++wall) {
-      Real const overlap = wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i));
-      Real const old_shear = friction ? contacts.shear(c, wall) : 0;
+      WallFace const face = wall_face(walls, wall, p.x(i), p.y(i));
+      Real const overlap = p.radius(i) - face.distance, old_shear = friction ? contacts.shear(c, wall) : 0;
       if (overlap <= 0 && old_shear == 0) continue;
-      bool const upright = wall == left || wall == right;
-      Real const outward = wall == right || wall == top ? 1 : -1;  // the normal points from the disc into the wall
-      Real const nx = upright ? outward : 0, ny = upright ? 0 : outward;
-      Real const wall_vx = upright ? walls.velocity[wall] : 0, wall_vy = upright ? 0 : walls.velocity[wall];
-      Real const dvx = wall_vx - p.vx(i), dvy = wall_vy - p.vy(i), arm = p.radius(i) - overlap;
+      Real const nx = face.nx, ny = face.ny, arm = p.radius(i) - overlap;
+      Real const dvx = face.vx - p.vx(i), dvy = face.vy - p.vy(i);
       ContactMotion<Real> const motion{overlap, -(dvx * nx + dvy * ny), ((dvy * nx - dvx * ny) - p.omega(i) * arm) * dt, 0,
                                        2 * p.radius(i)};
       Real const dashpot = law.damping_ratio > 0 ? dashpot_coefficient(law, p.inverse_mass(i), Real(0)) : 0;
@@ -53,7 +36,7 @@ struct WallForces {
       p.force_y(i) += force.shear * nx - force.normal * ny;
       p.torque(i) += arm * force.shear;
       reactions[wall] = force.normal;
-      reactions[wall_count + wall] = force.shear * (upright ? -nx : ny);  // on the wall: opposite to the force on the disc
+      reactions[wall_count + wall] = force.shear * (nx != 0 ? -nx : ny);  // on the wall: opposite to the force on the disc
       reactions[2 * wall_count + wall] = overlap > 0 ? 1 : 0;
     }
   }
@@ -65,8 +48,7 @@ struct WallForces {
       Real const slid = motion.slip + (old_shear - now.shear) / law.shear_stiffness;
       losses.sliding(i) += 0.5 * (old_shear + now.shear) * slid;
     }
-    if (law.damping_ratio > 0 && losses.dashpot.extent(0) > 0)
-      losses.dashpot(i) += (now.normal - lane_max(law.normal_stiffness * motion.overlap, Real(0))) * (motion.approach * dt);
+    if (law.damping_ratio > 0 && losses.dashpot.extent(0) > 0) losses.dashpot(i) += dashpot_loss(law, motion, now.normal, dt);
   }
 };
 
@@ -78,7 +60,7 @@ struct FindNearWalls {
   KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
     Real nearest = -1e300;
     for (int wall = 0; wall < wall_count; ++wall)
-      nearest = lane_max(nearest, wall_overlap(walls, wall, p.x(i), p.y(i), p.radius(i)));
+      nearest = lane_max(nearest, p.radius(i) - wall_face(walls, wall, p.x(i), p.y(i)).distance);
     if (nearest < -2 * p.leeway(i)) return;
     if (final) disc(slot) = i;
     ++slot;
@@ -129,11 +111,11 @@ WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls
 
 WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
                               Real dt, EnergyLosses const& losses, Faults const& faults, Summation const& summation) {
-  GrainLaw const as_grain{law.normal_stiffness, law.shear_stiffness, law.friction, 0, law.damping_ratio};
   Real sums[reaction_count], unit[reaction_count];
   for (int k = 0; k < reaction_count; ++k) unit[k] = k < 2 * wall_count ? summation.unit.force() : 1;
-  exact_sums<reaction_count>("wall_forces", contacts.size, WallForces{particles, contacts, walls, as_grain, dt, losses, faults},
-                             unit, sums, summation.over_ranks);
+  exact_sums<reaction_count>("wall_forces", contacts.size,
+                             WallForces{particles, contacts, walls, law.as_grain(), dt, losses, faults}, unit, sums,
+                             summation.over_ranks);
   WallReactions reactions;
   for (int wall = 0; wall < wall_count; ++wall) {
     reactions.normal[wall] = sums[wall];

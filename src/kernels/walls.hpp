@@ -28,7 +28,24 @@ struct WallLaw {
   Real shear_stiffness = 2.0e8;
   Real friction = 0;       ///< mu_w; 0 = smooth: no shear history exists
   Real damping_ratio = 0;  ///< xi of the normal dashpot
+
+  /// A wall contact follows the law of grains, without rolling.
+  KOKKOS_INLINE_FUNCTION GrainLaw as_grain() const { return {normal_stiffness, shear_stiffness, friction, 0, damping_ratio}; }
 };
+
+/// A wall as a disc meets it.
+struct WallFace {
+  Real nx, ny;    ///< from the disc into the wall
+  Real distance;  ///< of the disc's centre [m], negative behind the wall
+  Real vx, vy;    ///< of the wall [m/s]
+};
+KOKKOS_INLINE_FUNCTION WallFace wall_face(Walls const& walls, int wall, Coord x, Coord y) {
+  bool const upright = wall == left || wall == right, ahead = wall == right || wall == top;
+  Real const outward = ahead ? 1 : -1, speed = walls.velocity[wall];
+  Coord const at = upright ? x : y, position = walls.position[wall];
+  return {upright ? outward : 0, upright ? 0 : outward, ahead ? position - at : at - position, upright ? speed : 0,
+          upright ? 0 : speed};
+}
 
 /// The discs near a wall, in no particular order, with the shear history of their four possible wall contacts.
 struct WallContacts {

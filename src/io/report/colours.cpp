@@ -35,18 +35,25 @@ Stroke run_stroke(std::size_t i) {
 }
 
 Rgb state_colour(ContactState state) {
-  for (ModeStyle const& mode : mode_styles())
-    if (mode.state == state) return mode.stroke.colour;
+  for (BreakModeNames const& m : break_modes)
+    if (broken_in(m.mode) == state) return mode_stroke(m.mode).colour;
   return state == ContactState::bonded ? colours::grey : colours::dark;
 }
 
-std::array<ModeStyle, 4> const& mode_styles() {
-  static std::array<ModeStyle, 4> const styles{
-      {{ContactState::broken_tension, "tension", "broken_tension", {colours::green, "8 3"}},
-       {ContactState::broken_compression, "compression", "broken_compression", {colours::orange, "2 2.5"}},
-       {ContactState::broken_shear, "shear", "broken_shear", {colours::blue, "9 3 2 3"}},
-       {ContactState::broken_rolling, "rolling", "broken_rolling", {colours::vermilion, ""}}}};
-  return styles;
+Stroke mode_stroke(BreakMode mode) {
+  switch (mode) {
+    case BreakMode::tension:
+      return {colours::green, "8 3"};
+    case BreakMode::compression:
+      return {colours::orange, "2 2.5"};
+    case BreakMode::shear:
+      return {colours::blue, "9 3 2 3"};
+    case BreakMode::rolling:
+      return {colours::vermilion, ""};
+    case BreakMode::none:
+      break;
+  }
+  return {colours::dark, ""};
 }
 
 Rgb ramp(double part) {

@@ -30,14 +30,8 @@ Stroke run_stroke(std::size_t i);
 /// Of a pair's state: intact bonds grey, broken ones by mode, unbonded contacts dark.
 Rgb state_colour(ContactState state);
 
-/// The modes of breakage in the order of ContactState, with their names and strokes.
-struct ModeStyle {
-  ContactState state;
-  char const* name;
-  char const* column;  ///< of history.csv
-  Stroke stroke;
-};
-std::array<ModeStyle, 4> const& mode_styles();
+/// How what broke in a mode is drawn.
+Stroke mode_stroke(BreakMode mode);
 
 /// Dark blue over green to yellow, lightness rising evenly. @param part  0 to 1, clamped
 Rgb ramp(double part);

@@ -78,21 +78,21 @@ std::string intact_figure(std::vector<RunResults> const& runs) {
 /// Whether a history says what broke the bonds.
 bool has_modes(HistoryTable const& history) {
   std::vector<std::string> columns{"bonds_intact"};
-  for (ModeStyle const& mode : mode_styles()) columns.push_back(mode.column);
+  for (BreakModeNames const& m : break_modes) columns.push_back(m.broken);
   return history.has_all(columns);
 }
 
 /// What broke the bonds of a run: a curve for each mode.
 std::vector<Curve> mode_curves(HistoryTable const& history) {
   std::vector<Curve> curves;
-  for (ModeStyle const& mode : mode_styles()) {
-    Curve curve{"", scaled(history["eps1"], percent), {}, mode.stroke};
+  for (BreakModeNames const& m : break_modes) {
+    Curve curve{"", scaled(history["eps1"], percent), {}, mode_stroke(m.mode)};
     for (std::size_t i = 0; i < history.rows(); ++i) {
       double all = history["bonds_intact"][i];
-      for (ModeStyle const& other : mode_styles()) all += history[other.column][i];
-      curve.y.push_back(all > 0 ? history[mode.column][i] / all * percent : 0);
+      for (BreakModeNames const& other : break_modes) all += history[other.broken][i];
+      curve.y.push_back(all > 0 ? history[m.broken][i] / all * percent : 0);
     }
-    curve.name = fmt::format("{}: {:.3g} % at the end", mode.name, curve.y.back());
+    curve.name = fmt::format("{}: {:.3g} % at the end", m.name, curve.y.back());
     curves.push_back(std::move(curve));
   }
   return curves;

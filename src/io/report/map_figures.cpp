@@ -72,7 +72,8 @@ std::string strip(std::string const& contents) { return "<div class=\"strip\">\n
 
 std::string mode_entries() {
   std::string entries;
-  for (ModeStyle const& mode : mode_styles()) entries += patch_entry(mode.stroke.colour, std::string("broken in ") + mode.name);
+  for (BreakModeNames const& m : break_modes)
+    entries += patch_entry(mode_stroke(m.mode).colour, std::string("broken in ") + m.name);
   return entries;
 }
 

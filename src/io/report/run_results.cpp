@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 
+#include "domain/csv_rows.hpp"
 #include "domain/history_row.hpp"
 #include "io/snapshot_file.hpp"
 #include "io/text_file.hpp"
@@ -15,17 +16,6 @@ namespace clathra {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 30;
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  for (std::size_t comma = line.find(','); comma != line.npos; comma = line.find(',')) {
-    cells.push_back(line.substr(0, comma));
-    line.remove_prefix(comma + 1);
-  }
-  cells.push_back(line);
-  return cells;
-}
 
 double number_in(std::string_view cell, std::string const& column, std::size_t line, std::filesystem::path const& path) {
   double value = 0;
@@ -109,10 +99,9 @@ HistoryTable::HistoryTable(std::filesystem::path const& path) {
   std::string const text = read_text_file(path, largest_file);
   std::vector<std::string> names;
   std::vector<bool> known;
-  std::size_t line = 0;
-  for (std::size_t from = 0, end; (end = text.find('\n', from)) != text.npos; from = end + 1) {
-    std::vector<std::string_view> const cells = split(std::string_view(text).substr(from, end - from));
-    if (++line == 1) {
+  for (CsvRows rows(text); rows.next();) {
+    std::vector<std::string_view> const& cells = rows.cells();
+    if (rows.line() == 1) {
       names.assign(cells.begin(), cells.end());
       known = known_columns(names, path);
       require_essentials(names, path);
@@ -120,9 +109,9 @@ HistoryTable::HistoryTable(std::filesystem::path const& path) {
     }
     if (cells.size() != names.size())
       throw FileProblem(ExitCode::bad_input, path,
-                        fmt::format("line {}: {} cells, the header has {}", line, cells.size(), names.size()));
+                        fmt::format("line {}: {} cells, the header has {}", rows.line(), cells.size(), names.size()));
     for (std::size_t i = 0; i < names.size(); ++i)
-      if (known[i]) columns_[names[i]].push_back(number_in(cells[i], names[i], line, path));
+      if (known[i]) columns_[names[i]].push_back(number_in(cells[i], names[i], rows.line(), path));
     ++rows_;
   }
   if (rows_ < 2) throw FileProblem(ExitCode::bad_input, path, "has fewer than two rows, there is nothing to draw");
@@ -143,8 +132,8 @@ bool HistoryTable::has_all(std::vector<std::string> const& columns) const {
 }
 
 std::vector<std::string> HistoryTable::missing() const {
-  std::vector<std::string> names{"eps_v",          "sigma3_Pa",          "void_ratio",   "bonds_intact",  "intact_initial_pct",
-                                 "broken_tension", "broken_compression", "broken_shear", "broken_rolling"};
+  std::vector<std::string> names{"eps_v", "sigma3_Pa", "void_ratio", "bonds_intact", "intact_initial_pct"};
+  for (BreakModeNames const& m : break_modes) names.emplace_back(m.broken);
   std::vector<std::string> const ledger = columns_of_the_ledger();
   if (std::any_of(ledger.begin(), ledger.end(), [this](std::string const& name) { return has(name); }))
     names.insert(names.end(), ledger.begin(), ledger.end());

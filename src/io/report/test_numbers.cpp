@@ -1,18 +1,11 @@
 #include "io/report/test_numbers.hpp"
 
-#include <cmath>
 #include <limits>
+
+#include "domain/test_phases.hpp"
 
 namespace clathra {
 namespace {
-
-/// Row of the largest finite value; 0 where there is none.
-std::size_t largest(std::vector<double> const& values) {
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (std::isfinite(values[i]) && !(values[i] <= values[best])) best = i;
-  return best;
-}
 
 /// Over the rows with at least this axial strain.
 double mean_from(HistoryTable const& history, char const* column, double eps1) {
@@ -38,15 +31,14 @@ std::optional<double> secant_modulus(HistoryTable const& history, double peak_q)
 }  // namespace
 
 TestNumbers test_numbers(HistoryTable const& history) {
-  constexpr double long_test = 0.14, residual_strain = 0.12, last_fifth = 0.8;
   TestNumbers n;
   std::size_t const last = history.rows() - 1;
-  n.peak = largest(history["q_Pa"]);
+  n.peak = peak_row(history["q_Pa"]);
   n.peak_q = history["q_Pa"][n.peak];
   n.peak_eps1 = history["eps1"][n.peak];
   n.peak_sigma3 = history["sigma3_Pa"][n.peak];
   n.end_eps1 = history["eps1"][last];
-  n.residual_from = n.end_eps1 > long_test ? residual_strain : last_fifth * n.end_eps1;
+  n.residual_from = residual_from(n.end_eps1);
   n.residual_q = mean_from(history, "q_Pa", n.residual_from);
   n.residual_sigma3 = mean_from(history, "sigma3_Pa", n.residual_from);
   n.secant_modulus = secant_modulus(history, n.peak_q);

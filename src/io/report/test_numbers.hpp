@@ -13,7 +13,7 @@ struct TestNumbers {
   double peak_sigma3 = 0;  ///< at the peak
   double residual_q = 0;   ///< mean over `residual_from` to the end
   double residual_sigma3 = 0;
-  double residual_from = 0;              ///< axial strain: 12 % of a test to about 15 %, else the last fifth
+  double residual_from = 0;              ///< axial strain, see residual_from()
   std::optional<double> secant_modulus;  ///< E50 = (q_peak / 2) / (eps_1 where q first gets there) [Pa]
   double eps_v_peak = 0, eps_v_end = 0;
   double end_eps1 = 0;
