@@ -278,5 +278,30 @@ TEST(GrainContact, HidesNoNan) {
   EXPECT_TRUE(std::isnan(force.moment));
 }
 
+// Whatever the law: its tangent is the slope of its force, and its energy what the force has done.
+TEST(GrainContact, HasTheTangentAndTheEnergyOfItsForce) {
+  for (Real const overlap : {1e-8, 1e-6, 3e-5}) {
+    Real const step = 1e-4 * overlap;
+    auto const energy = [&](Real u) {
+      return grain_energy(sand, {spring_force(sand, u), 0, 0}, grain_stiffness(sand, u, radius));
+    };
+    Real const slope = (spring_force(sand, overlap + step) - spring_force(sand, overlap - step)) / (2 * step);
+    EXPECT_NEAR(grain_stiffness(sand, overlap, radius).normal / slope, 1, 1e-6) << overlap;
+    Real const work = (energy(overlap + step) - energy(overlap - step)) / (2 * step);
+    EXPECT_NEAR(work / spring_force(sand, overlap), 1, 1e-6) << overlap;
+  }
+  ContactStiffness<Real> const k = grain_stiffness(sand, 1e-6, radius);
+  EXPECT_EQ(k.shear, sand.shear_stiffness);
+  EXPECT_EQ(k.rolling, rolling_stiffness(sand, radius));
+  EXPECT_DOUBLE_EQ(grain_energy(sand, {0, 3, 0}, k), 4.5 / k.shear);
+  EXPECT_DOUBLE_EQ(grain_energy(sand, {0, 0, 1e-6}, k), 0.5e-12 / k.rolling);
+}
+
+TEST(GrainContact, LosesToItsDashpotWhatTheForceHasMoreThanTheSpring) {
+  ContactMotion<Real> const motion{1e-6, 0.02, 0, 0, radius};
+  EXPECT_DOUBLE_EQ(dashpot_loss(sand, motion, spring_force(sand, 1e-6) + 50, 1e-7), 50 * 0.02 * 1e-7);
+  EXPECT_EQ(dashpot_loss(sand, motion, normal_force(sand, motion, Undamped()), 1e-7), 0);
+}
+
 }  // namespace
 }  // namespace clathra

@@ -10,6 +10,7 @@
 #include "domain/quasi_static.hpp"
 #include "domain/redistribution.hpp"
 #include "domain/sample_design.hpp"
+#include "domain/scene_laws.hpp"
 #include "domain/settling.hpp"
 #include "domain/shear_watch.hpp"
 
@@ -26,13 +27,12 @@ BondKind bond_kind(Scene const& scene) {
 /// The laws of consolidation and shear: only what the scene needs.
 SimulationLaws test_laws(Scene const& scene, double h_max) {
   SimulationLaws laws;
-  laws.contact.grain = {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor,
-                        scene.grains.contact_damping};
+  laws.contact.grain = grain_law(scene);
   if (h_max > 0) {
     laws.contact.bond_kind = bond_kind(scene);
     laws.contact.bond = make_bond_law(scene, h_max);
   }
-  laws.wall = {scene.grains.kn, scene.grains.ks, scene.test.wall_friction, 0};
+  laws.wall = wall_law(scene, scene.test.wall_friction);
   laws.motion.damping = 0.7;
   return laws;
 }

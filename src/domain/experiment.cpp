@@ -6,6 +6,7 @@
 #include "domain/packing.hpp"
 #include "domain/quasi_static.hpp"
 #include "domain/sample_design.hpp"
+#include "domain/scene_laws.hpp"
 #include "domain/tiled.hpp"
 
 namespace clathra {
@@ -24,8 +25,7 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
   double const r = 0.5 * grading.smallest(), mass = pi * r * r * scene.grains.density;
   double const bond_share = bonded ? 0.5 : 0;  // Eq. 16: k_bn < k_n / 2
   double const ks = scene.grains.ks + bond_share * scene.grains.kn * 2 / 3;
-  double const rolling =
-      scene.grains.kn * scene.grains.shape_factor * scene.grains.shape_factor / 12 * (1 + 2 * bond_share) * 1.5;
+  double const rolling = grain_law(scene).rolling_factor() * (1 + 2 * bond_share) * 1.5;
   double const turn = 6 * (ks + rolling) * r * r;
   return scene.run.dt_safety * std::sqrt(2 * 0.5 * mass * r * r / turn);
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "domain/progress.hpp"
+#include "domain/scene_laws.hpp"
 #include "domain/settling.hpp"
 
 namespace clathra {
@@ -29,7 +30,7 @@ RateNumbers rate_numbers(Scene const& scene, double d50, double height, double v
   n.strain_rate =
       scene.test.strain_rate > 0 ? scene.test.strain_rate : strain_rate_of(scene.test.inertial_number, stress, density, d50);
   n.inertial_number = n.strain_rate * d50 * std::sqrt(density / stress);
-  double const bulk_density = density / (1 + void_ratio), speed = std::sqrt(0.8 * scene.grains.kn / bulk_density);
+  double const bulk_density = density / (1 + void_ratio), speed = std::sqrt(packing_modulus(grain_law(scene)) / bulk_density);
   n.wave_number = bulk_density * speed * (0.5 * n.strain_rate * height) / stress;
   return n;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "domain/scene_laws.hpp"
+
 namespace clathra {
 
 namespace {
@@ -98,8 +100,9 @@ double wave_speed(Simulation const& simulation) {
 
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction) {
   SimulationLaws laws;
-  laws.contact.grain = friction.apply({scene.grains.kn, scene.grains.ks, 0, 0, 0});
-  laws.wall = {scene.grains.kn, scene.grains.ks, 0, 0};
+  laws.contact.grain = friction.apply(grain_law(scene));
+  laws.contact.grain.damping_ratio = 0;
+  laws.wall = wall_law(scene, 0);
   laws.motion.damping = 0.7;
   return laws;
 }

@@ -9,6 +9,7 @@
 #include "domain/quasi_static.hpp"
 #include "domain/redistribution.hpp"
 #include "domain/sample_design.hpp"
+#include "domain/scene_laws.hpp"
 #include "domain/settling.hpp"
 #include "domain/tiled.hpp"
 
@@ -93,7 +94,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   scene.hydrate.saturation = bonded ? 0.55 : 0;
   Specimen specimen = make_specimen(scene, setup.discs, ranks);
   SimulationLaws laws;
-  laws.contact.grain = {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor, 0};
+  laws.contact.grain = grain_law(scene);
   laws.motion.damping = scene.run.damping;
   if (bonded) {
     StageRecord record;

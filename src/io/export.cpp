@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "io/problems.hpp"
-#include "io/snapshot_columns.hpp"
 #include "io/text_file.hpp"
 
 namespace clathra {

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "io/event_columns.hpp"
-#include "io/snapshot_columns.hpp"
 
 namespace clathra {
 namespace {

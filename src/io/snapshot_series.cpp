@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "io/problems.hpp"
-#include "io/snapshot_columns.hpp"
 #include "io/snapshot_file.hpp"
 #include "io/text_file.hpp"
 #include "io/together.hpp"
