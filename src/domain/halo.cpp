@@ -91,25 +91,25 @@ void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, Parti
   reserve(particles, particles.owned + ghosts);
   particles.ghosts = ghosts;
   fill_padding(particles);
-  std::vector<Column> all;
+  std::vector<AnyField> all;
   for_each_field(particles, [&](DiscField const&, auto const& field) { all.push_back(field); });
   trade(ranks, particles, all);
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
-  std::vector<Column> moving;
+  std::vector<AnyField> moving;
   for_each_field(particles, [&](DiscField const& about, auto const& field) {
     if (about.moves) moving.push_back(field);
   });
   trade(ranks, particles, moving);
 }
 
-void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles, Field<Real> const& field) const {
+void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles, AnyField const& field) const {
   trade(ranks, particles, {field});
 }
 
 /// Doubles hold every value of every kind of field.
-void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Column> const& columns) const {
+void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<AnyField> const& columns) const {
   auto const width = static_cast<int>(columns.size());
   Field<double> const out = uninitialised<double>("halo.out", source_.extent(0) * columns.size()),
                       in = uninitialised<double>("halo.in", static_cast<std::size_t>(particles.ghosts) * columns.size());
@@ -118,7 +118,7 @@ void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<C
   auto const pack = [&]<class T>(Field<T> const& field) {
     Kokkos::parallel_for("pack_halo", each_sent, PackColumn<T>{field, out, source_, at++, width});
   };
-  for (Column const& column : columns) std::visit(pack, column);
+  for (AnyField const& column : columns) std::visit(pack, column);
   auto const host_out = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
   auto host_in = Kokkos::create_mirror_view(in);
   Kokkos::fence();
@@ -130,7 +130,7 @@ void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<C
   auto const unpack = [&]<class T>(Field<T> const& field) {
     Kokkos::parallel_for("unpack_halo", each_ghost, UnpackColumn<T>{in, field, particles.owned, at++, width});
   };
-  for (Column const& column : columns) std::visit(unpack, column);
+  for (AnyField const& column : columns) std::visit(unpack, column);
 }
 
 std::size_t Halo::bytes() const {

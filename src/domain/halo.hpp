@@ -1,6 +1,5 @@
 #pragma once
 /// Copies of the discs that other ranks own near this rank's rectangle, kept as ghosts behind the owned discs.
-#include <variant>
 #include <vector>
 
 #include "domain/decomposition.hpp"
@@ -15,13 +14,12 @@ class Halo {
   /// Gives every ghost the present place and velocity of its disc.
   void refresh(Ranks const& ranks, ParticleSoA const& particles) const;
   /// Gives every ghost the value of its disc.
-  void refresh(Ranks const& ranks, ParticleSoA const& particles, Field<Real> const& field) const;
+  void refresh(Ranks const& ranks, ParticleSoA const& particles, AnyField const& field) const;
   std::size_t discs_sent() const { return source_.extent(0); }
   std::size_t bytes() const;
 
  private:
-  using Column = std::variant<Field<int>, Field<float>, Field<double>>;
-  void trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<Column> const& columns) const;
+  void trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<AnyField> const& columns) const;
 
   Field<int> source_;                     ///< [sent] index of each disc that goes to another rank
   std::vector<Stretch> sent_, received_;  ///< discs, by rank

@@ -93,9 +93,12 @@ void PeriodicImages::copy(ParticleSoA const& particles, PeriodicCell const& cell
 
 void PeriodicImages::refresh(ParticleSoA const& particles, PeriodicCell const& cell) const { copy(particles, cell, false); }
 
-void PeriodicImages::refresh(ParticleSoA const& particles, Field<Real> const& field) const {
-  Kokkos::parallel_for("refresh_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
-                       CopyValues<Real>{field, source_, particles.owned});
+void PeriodicImages::refresh(ParticleSoA const& particles, AnyField const& field) const {
+  auto const copy = [&]<class T>(Field<T> const& values) {
+    Kokkos::parallel_for("refresh_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
+                         CopyValues<T>{values, source_, particles.owned});
+  };
+  std::visit(copy, field);
 }
 
 }  // namespace clathra

@@ -19,7 +19,7 @@ class PeriodicImages {
   /// Gives every image the present place and velocity of its disc.
   void refresh(ParticleSoA const& particles, PeriodicCell const& cell) const;
   /// Gives every image the value of its disc.
-  void refresh(ParticleSoA const& particles, Field<Real> const& field) const;
+  void refresh(ParticleSoA const& particles, AnyField const& field) const;
 
  private:
   void copy(ParticleSoA const& particles, PeriodicCell const& cell, bool all) const;

@@ -214,8 +214,8 @@ void Simulation::set_ledger(bool on) {
 }
 
 void Simulation::mark_start() {
-  start_x_ = Field<Accum>("start_x", particles_.x.extent(0));
-  start_y_ = Field<Accum>("start_y", particles_.x.extent(0));
+  start_x_ = Field<Coord>("start_x", particles_.x.extent(0));
+  start_y_ = Field<Coord>("start_y", particles_.x.extent(0));
   Kokkos::deep_copy(start_x_, particles_.x);
   Kokkos::deep_copy(start_y_, particles_.y);
 }
@@ -230,7 +230,7 @@ void Simulation::refresh_ghosts() const {
   if (!ranks_.alone()) halo_.refresh(ranks_, particles_);
 }
 
-void Simulation::refresh_ghosts(Field<Real> const& field) const {
+void Simulation::refresh_ghosts(AnyField const& field) const {
   if (periodic()) images_.refresh(particles_, field);
   if (!ranks_.alone()) halo_.refresh(ranks_, particles_, field);
 }

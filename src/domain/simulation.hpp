@@ -131,10 +131,10 @@ class Simulation {
   ContactRows const& rows() const { return rows_; }
   WallContacts const& wall_contacts() const { return wall_contacts_; }
   EnergyLosses const& energy_losses() const { return losses_; }
-  Field<Accum> const& start_x() const { return start_x_; }  ///< [owned] where mark_start() found the discs [m]
-  Field<Accum> const& start_y() const { return start_y_; }
+  Field<Coord> const& start_x() const { return start_x_; }  ///< [owned] where mark_start() found the discs [m]
+  Field<Coord> const& start_y() const { return start_y_; }
   /// Gives every ghost the value of its disc.
-  void refresh_ghosts(Field<Real> const& field) const;
+  void refresh_ghosts(AnyField const& field) const;
   void throw_if_unstable() const;
 
  private:
@@ -188,7 +188,7 @@ class Simulation {
   std::int64_t step_ = 0, rebuilds_ = 0;
   double rebuild_seconds_ = 0;
   int discs_ = 0;
-  Field<Accum> start_x_, start_y_;
+  Field<Coord> start_x_, start_y_;
   int searches_until_sorting_ = 0;  // in space; the first sorts
   Real strayed_ = 1e300;            // at most, since the last search, as a share of a leeway
   double busy_seconds_ = 0;         // of this rank since the cuts were made

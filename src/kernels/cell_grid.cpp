@@ -9,7 +9,7 @@ namespace {
 
 struct Bounds {
   ParticleSoA p;
-  KOKKOS_FUNCTION void operator()(int i, Real& x0, Real& x1, Real& y0, Real& y1) const {
+  KOKKOS_FUNCTION void operator()(int i, Coord& x0, Coord& x1, Coord& y0, Coord& y1) const {
     x0 = lane_min(x0, p.x(i));
     x1 = lane_max(x1, p.x(i));
     y0 = lane_min(y0, p.y(i));
@@ -80,10 +80,10 @@ void require_countable(std::int64_t entries, std::int64_t discs) {
 CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size) {
   require_countable(0, discs);
   Kokkos::RangePolicy<ExecutionSpace> const each(0, discs);
-  Real x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  Coord x0 = 0, x1 = 0, y0 = 0, y1 = 0;
   if (discs > 0)
-    Kokkos::parallel_reduce("bounds", each, Bounds{particles}, Kokkos::Min<Real>(x0), Kokkos::Max<Real>(x1),
-                            Kokkos::Min<Real>(y0), Kokkos::Max<Real>(y1));
+    Kokkos::parallel_reduce("bounds", each, Bounds{particles}, Kokkos::Min<Coord>(x0), Kokkos::Max<Coord>(x1),
+                            Kokkos::Min<Coord>(y0), Kokkos::Max<Coord>(y1));
   CellGrid grid;
   grid.x0 = x0;
   grid.y0 = y0;

@@ -60,9 +60,10 @@ class OldRow {
 /// Discs in the order of the grid's cells, so that candidates lie side by side; [discs + lane_count].
 struct Candidates {
   Field<int> disc;
-  Field<Real> x, y, radius, leeway;
+  Field<Coord> x, y;
+  Field<Real> radius, leeway;
 };
-std::size_t bytes(Candidates const& c) { return c.disc.span() * (sizeof(int) + 4 * sizeof(Real)); }
+std::size_t bytes(Candidates const& c) { return c.disc.span() * (sizeof(int) + 2 * sizeof(Coord) + 2 * sizeof(Real)); }
 
 /// Discs listed in groups of lanes, hence the room behind them.
 using DiscList = int[longest_row + 1 + lane_count];
@@ -91,8 +92,8 @@ struct LineUp {
 Candidates line_up(ParticleSoA const& particles, CellGrid const& grid) {
   Candidates candidates;
   std::size_t const size = grid.disc.extent(0) + lane_count;
-  for (Field<Real>* field : {&candidates.x, &candidates.y, &candidates.radius, &candidates.leeway})
-    *field = uninitialised<Real>("candidates", size);
+  for (Field<Coord>* field : {&candidates.x, &candidates.y}) *field = uninitialised<Coord>("candidates", size);
+  for (Field<Real>* field : {&candidates.radius, &candidates.leeway}) *field = uninitialised<Real>("candidates", size);
   candidates.disc = uninitialised<int>("candidates", size);
   Kokkos::parallel_for("line_up", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(size)),
                        LineUp{particles, grid.disc, candidates});

@@ -1,8 +1,13 @@
 #pragma once
 /// The discs as a structure of arrays: the storage of record.
+#include <variant>
+
 #include "kernels/lane.hpp"
 
 namespace clathra {
+
+/// A field of whatever kind, for those who only carry it.
+using AnyField = std::variant<Field<int>, Field<float>, Field<double>>;
 
 /// Discs `0 .. owned` have neighbour rows and move; `owned .. owned + ghosts` are images of discs across a periodic boundary.
 /// Behind them every field holds `slice_width` padding discs or more of radius 0 far outside, so that vector loads may overrun

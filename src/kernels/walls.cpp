@@ -88,7 +88,7 @@ struct CollectShear {
 WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts) {
   WallShear shear;
   if (contacts.shear.extent(0) == 0 && !contacts.rough) return shear;
-  for (auto& field : shear.of) field = Field<Accum>("wall_shear_of_discs", particles.x.extent(0));
+  for (auto& field : shear.of) field = Field<Real>("wall_shear_of_discs", particles.x.extent(0));
   Kokkos::parallel_for("spread_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, contacts.size), SpreadShear{contacts, shear});
   return shear;
 }

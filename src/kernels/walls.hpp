@@ -64,7 +64,7 @@ struct WallReactions {
 
 /// The shear of rough walls by disc, while discs change their places: [owned] each, empty for smooth walls.
 struct WallShear {
-  Field<Accum> of[wall_count];
+  Field<Real> of[wall_count];
 };
 WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts);
 
