@@ -4,28 +4,11 @@
 
 #include <numeric>
 
-#include "domain/experiment.hpp"
 #include "domain/random.hpp"
+#include "small_test.hpp"
 
 namespace clathra {
 namespace {
-
-/// A small hydrate-bearing specimen, sheared well past its peak.
-Scene small_test() {
-  Scene scene;
-  scene.sample.particles = 400;
-  scene.sample.void_ratio = 0.24;
-  scene.sample.layers = 2;
-  scene.hydrate.saturation = 0.55;
-  scene.test.axial_strain = 0.04;
-  scene.output.records = 40;
-  return scene;
-}
-
-Specimen const& small_specimen() {
-  static Specimen const specimen = generate_specimen(small_test(), {}).specimen;
-  return specimen;
-}
 
 /// The same specimen with its discs in another order.
 Specimen shuffled(Specimen specimen) {
@@ -98,96 +81,6 @@ TEST(Determinism, AChangedBitChangesTheHash) {
   other.x[0] = std::nextafter(other.x[0], 1.0);
   SimulationLaws const laws;
   EXPECT_NE(Simulation(other, laws, 1e-5).hash(), Simulation(small_specimen(), laws, 1e-5).hash());
-}
-
-TEST(Consolidation, ThatIsCutShortIsSaidAndNeverCalledQuasiStatic) {
-  Scene scene = small_test();
-  BiaxialTest const whole(scene, small_specimen(), {});
-  EXPECT_EQ(whole.preparation().at("quasi_static"), 1);
-  EXPECT_TRUE(whole.warnings().empty());
-  EXPECT_GT(whole.preparation().at("consolidation_steps"), 400);
-  for (int const steps : {0, 350}) {
-    scene.test.consolidation_steps = steps;
-    BiaxialTest const cut(scene, small_specimen(), {});
-    EXPECT_EQ(cut.preparation().at("consolidation_steps"), steps);
-    EXPECT_EQ(cut.preparation().at("quasi_static"), 0);
-    ASSERT_EQ(cut.warnings().size(), 1u);
-    EXPECT_NE(cut.warnings()[0].find("within " + std::to_string(steps) + " steps"), std::string::npos) << cut.warnings()[0];
-  }
-}
-
-/// A time step so short that the specimen is nowhere near rest when the budget ends.
-TEST(Consolidation, ThatDoesNotComeToRestIsRefused) {
-  Scene scene = small_test();
-  scene.sample.particles = 60;
-  scene.sample.void_ratio = 0.28;
-  scene.sample.layers = 1;
-  scene.hydrate.saturation = 0;
-  Specimen const specimen = generate_specimen(scene, {}).specimen;
-  scene.run.dt_safety = 1e-3;
-  try {
-    BiaxialTest const test(scene, specimen, {});
-    ADD_FAILURE() << "was sheared";
-  } catch (Refused const& refusal) {
-    std::string const text = refusal.what();
-    EXPECT_NE(text.find("within 200000 steps: unbalanced ratio"), std::string::npos) << text;
-    EXPECT_NE(text.find("test.consolidation_steps"), std::string::npos) << text;
-  }
-}
-
-/// The verdict on a shear and what it rests on.
-struct Verdict {
-  double quasi_static, looks, unbalanced, largest;
-  std::vector<std::string> warnings;
-};
-Verdict verdict_on(Scene const& scene) {
-  BiaxialTest test(scene, small_specimen(), {});
-  EXPECT_EQ(test.preparation().at("quasi_static"), 1);
-  while (!test.finished()) (void)test.advance(1000);
-  StageRecord const looks = test.shear_looks();
-  return {test.preparation().at("quasi_static"), looks.at("looks"), looks.at("looks_unbalanced"), looks.at("largest_unbalanced"),
-          test.shear_warnings()};
-}
-
-TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
-  Scene scene = small_test();
-  scene.hydrate.saturation = 0;  // breaking bonds shake a slow shear, too
-  scene.test.axial_strain = 0.01;
-  scene.test.inertial_number = 2e-5;
-  Verdict const slow = verdict_on(scene);
-  EXPECT_EQ(slow.quasi_static, 1);
-  EXPECT_EQ(slow.looks, 50);
-  EXPECT_TRUE(slow.warnings.empty()) << slow.warnings[0];
-  scene.hydrate.saturation = 0.55;
-  scene.test.axial_strain = 0.02;
-  scene.test.inertial_number = 9e-4;  // no warning of the rate
-  for (int const records : {1, 7, 300}) {
-    scene.output.records = records;
-    Verdict const fast = verdict_on(scene);
-    EXPECT_EQ(fast.quasi_static, 0);
-    EXPECT_EQ(fast.looks, 100);
-    EXPECT_GT(fast.unbalanced, 1);
-    ASSERT_EQ(fast.warnings.size(), 1u);
-    EXPECT_NE(fast.warnings[0].find("of 100 looks"), std::string::npos) << fast.warnings[0];
-  }
-}
-
-TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
-  Scene scene = small_test();
-  scene.hydrate.saturation = 0;
-  scene.test.axial_strain = 0.01;
-  scene.grains.kn = 2.4e7;
-  scene.grains.ks = 1.6e7;
-  BiaxialTest test(scene, small_specimen(), {});
-  while (!test.finished()) (void)test.advance(1000);
-  StageRecord const looks = test.shear_looks();
-  EXPECT_GT(looks.at("deep_overlap_share"), 0.01);
-  EXPECT_GT(looks.at("deepest_overlap"), 0.1);
-  EXPECT_LT(looks.at("deepest_overlap"), 1);
-  bool said = false;
-  for (std::string const& text : test.shear_warnings())
-    said = said || text.find("overlapped by more than 10 % of the smaller radius") != std::string::npos;
-  EXPECT_TRUE(said);
 }
 
 }  // namespace

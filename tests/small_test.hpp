@@ -1,0 +1,24 @@
+#pragma once
+/// A biaxial test of a few seconds.
+#include "domain/experiment.hpp"
+
+namespace clathra {
+
+/// A small hydrate-bearing specimen, sheared well past its peak.
+inline Scene small_test() {
+  Scene scene;
+  scene.sample.particles = 400;
+  scene.sample.void_ratio = 0.24;
+  scene.sample.layers = 2;
+  scene.hydrate.saturation = 0.55;
+  scene.test.axial_strain = 0.04;
+  scene.output.records = 40;
+  return scene;
+}
+
+inline Specimen const& small_specimen() {
+  static Specimen const specimen = generate_specimen(small_test(), {}).specimen;
+  return specimen;
+}
+
+}  // namespace clathra
