@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "clathra_version.hpp"
-#include "domain/ranks.hpp"
-#include "io/failure.hpp"
-#include "io/schema.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "io/errors/failure.hpp"
+#include "io/scene/schema.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "domain/hydrate.hpp"
-#include "domain/quasi_static.hpp"
-#include "domain/ranks.hpp"
-#include "domain/sample_design.hpp"
+#include "domain/biaxial/quasi_static.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/hydrate.hpp"
+#include "domain/scene/sample_design.hpp"
 #include "progress_line.hpp"
 #include "threads.hpp"
 

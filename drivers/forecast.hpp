@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/experiment.hpp"
-#include "domain/specimen.hpp"
-#include "io/scene_file.hpp"
+#include "domain/biaxial/experiment.hpp"
+#include "domain/scene/specimen.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace clathra {
 

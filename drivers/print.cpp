@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "domain/ranks.hpp"
-#include "io/printable.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "io/errors/printable.hpp"
 
 namespace clathra {
 namespace {

@@ -3,7 +3,7 @@
 /// file, are written as "\x1b": a terminal would obey them.
 #include <string>
 
-#include "io/problems.hpp"
+#include "io/errors/problems.hpp"
 
 namespace clathra {
 

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "domain/ranks.hpp"
-#include "io/printable.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "io/errors/printable.hpp"
 
 namespace clathra {
 namespace {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "clathra_version.hpp"
-#include "domain/progress.hpp"
-#include "io/digest.hpp"
-#include "io/failure.hpp"
-#include "io/run_record.hpp"
-#include "io/together.hpp"
+#include "domain/scene/progress.hpp"
+#include "io/errors/failure.hpp"
+#include "io/errors/rank_errors.hpp"
+#include "io/formats/digest.hpp"
+#include "io/results/run_record.hpp"
 
 namespace clathra {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/ranks.hpp"
-#include "io/problems.hpp"
-#include "io/scene_file.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "io/errors/problems.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace clathra {
 

@@ -1,8 +1,8 @@
 #include "resumption.hpp"
 
-#include "io/problems.hpp"
-#include "io/run_record.hpp"
-#include "io/together.hpp"
+#include "io/errors/problems.hpp"
+#include "io/errors/rank_errors.hpp"
+#include "io/results/run_record.hpp"
 
 namespace clathra {
 namespace {

@@ -2,8 +2,8 @@
 /// Going on with a run from one of its checkpoints.
 #include <memory>
 
-#include "io/checkpoint.hpp"
-#include "io/history.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/results/history.hpp"
 
 namespace clathra {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "domain/hydrate.hpp"
-#include "io/together.hpp"
+#include "domain/scene/hydrate.hpp"
+#include "io/errors/rank_errors.hpp"
 
 namespace clathra {
 

@@ -2,10 +2,10 @@
 /// The files of a run that grow while its specimen is sheared: history, events, snapshots.
 #include <optional>
 
-#include "io/checkpoint.hpp"
-#include "io/events.hpp"
-#include "io/history.hpp"
-#include "io/snapshot_file.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/results/events.hpp"
+#include "io/results/history.hpp"
+#include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "domain/specimen.hpp"
-#include "io/scene_file.hpp"
+#include "domain/scene/specimen.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace clathra {
 

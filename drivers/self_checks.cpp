@@ -7,11 +7,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "domain/bonding.hpp"
-#include "domain/hydrate.hpp"
-#include "domain/random.hpp"
-#include "domain/simulation.hpp"
-#include "io/specimen_file.hpp"
+#include "domain/generation/bonding.hpp"
+#include "domain/generation/random.hpp"
+#include "domain/scene/hydrate.hpp"
+#include "domain/simulation/simulation.hpp"
+#include "io/results/specimen_file.hpp"
 
 namespace clathra {
 namespace {

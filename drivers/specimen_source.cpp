@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/digest.hpp"
-#include "io/specimen_label.hpp"
+#include "io/formats/digest.hpp"
+#include "io/results/specimen_label.hpp"
 #include "stage_progress.hpp"
 
 namespace clathra {

@@ -1,8 +1,8 @@
 #pragma once
 /// Where a run's specimen comes from: generated now, or read from a file.
-#include "domain/experiment.hpp"
-#include "io/run_record.hpp"
-#include "io/scene_comparison.hpp"
+#include "domain/biaxial/experiment.hpp"
+#include "io/results/run_record.hpp"
+#include "io/scene/scene_comparison.hpp"
 
 namespace clathra {
 

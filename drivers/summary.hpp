@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "domain/experiment.hpp"
-#include "domain/test_phases.hpp"
+#include "domain/biaxial/experiment.hpp"
+#include "domain/measurement/test_phases.hpp"
 
 namespace clathra {
 

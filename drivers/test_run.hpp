@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "domain/experiment.hpp"
-#include "io/scene_file.hpp"
+#include "domain/biaxial/experiment.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace clathra {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/ranks.hpp"
+#include "domain/parallel/ranks.hpp"
 
 namespace clathra {
 namespace {

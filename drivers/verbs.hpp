@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "io/problems.hpp"
+#include "io/errors/problems.hpp"
 
 namespace clathra {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/throughput.hpp"
+#include "domain/biaxial/throughput.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "domain/throughput.hpp"
+#include "domain/biaxial/throughput.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/measures.hpp"
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/test_phases.hpp"
-#include "io/events.hpp"
-#include "io/report/run_results.hpp"
+#include "domain/measurement/test_phases.hpp"
+#include "io/results/events.hpp"
+#include "io/results/run_results.hpp"
 
 namespace clathra {
 namespace {

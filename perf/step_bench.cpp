@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/throughput.hpp"
+#include "domain/biaxial/throughput.hpp"
 #include "phases.hpp"
 
 namespace {

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/checkpoint.hpp"
-#include "io/checkpoint_content.hpp"
-#include "io/digest.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/run_record.hpp"
-#include "io/scene_file.hpp"
-#include "io/text_file.hpp"
+#include "io/formats/digest.hpp"
+#include "io/formats/hdf5_file.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/results/checkpoint_content.hpp"
+#include "io/results/run_record.hpp"
+#include "io/scene/scene_file.hpp"
 #include "scenes.hpp"
 
 namespace clathra {

@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "comma_locale.hpp"
-#include "io/digest.hpp"
-#include "io/events.hpp"
-#include "io/history.hpp"
-#include "io/output_folder.hpp"
-#include "io/problems.hpp"
-#include "io/run_record.hpp"
+#include "io/errors/problems.hpp"
+#include "io/formats/digest.hpp"
+#include "io/results/events.hpp"
+#include "io/results/history.hpp"
+#include "io/results/output_folder.hpp"
+#include "io/results/run_record.hpp"
 
 namespace clathra {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
-#include "io/schema.hpp"
+#include "io/scene/schema.hpp"
 
 namespace clathra {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "command.hpp"
 #include "io/report/plot.hpp"
-#include "io/report/run_results.hpp"
 #include "io/report/test_numbers.hpp"
+#include "io/results/run_results.hpp"
 #include "report_page.hpp"
 
 namespace clathra {

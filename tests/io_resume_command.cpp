@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "command.hpp"
-#include "io/checkpoint.hpp"
-#include "io/checkpoint_content.hpp"
-#include "io/scene_file.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/results/checkpoint_content.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace clathra {
 namespace {

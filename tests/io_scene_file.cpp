@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/scene_file.hpp"
-#include "io/scene_value.hpp"
-#include "io/schema.hpp"
+#include "io/scene/scene_file.hpp"
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
 
 namespace clathra {
 namespace {

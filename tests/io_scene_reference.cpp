@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "command.hpp"
-#include "io/run_record.hpp"
-#include "io/scene_file.hpp"
-#include "io/scene_reference.hpp"
+#include "io/results/run_record.hpp"
+#include "io/scene/scene_file.hpp"
+#include "io/scene/scene_reference.hpp"
 
 namespace clathra {
 namespace {

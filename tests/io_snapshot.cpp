@@ -9,11 +9,11 @@
 #include <regex>
 #include <sstream>
 
-#include "domain/sample_design.hpp"
-#include "domain/tiled.hpp"
-#include "io/export.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/snapshot_file.hpp"
+#include "domain/generation/tiled.hpp"
+#include "domain/scene/sample_design.hpp"
+#include "io/formats/hdf5_file.hpp"
+#include "io/results/export.hpp"
+#include "io/results/snapshot_file.hpp"
 #include "scenes.hpp"
 
 namespace clathra {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <random>
 
-#include "io/digest.hpp"
-#include "io/specimen_file.hpp"
+#include "io/formats/digest.hpp"
+#include "io/results/specimen_file.hpp"
 
 namespace clathra {
 namespace {

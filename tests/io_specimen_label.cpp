@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "io/specimen_file.hpp"
-#include "io/specimen_label.hpp"
+#include "io/results/specimen_file.hpp"
+#include "io/results/specimen_label.hpp"
 #include "scenes.hpp"
 
 namespace clathra {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "command.hpp"
-#include "io/printable.hpp"
+#include "io/errors/printable.hpp"
 
 namespace clathra {
 namespace {

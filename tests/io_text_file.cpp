@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "command.hpp"
-#include "io/problems.hpp"
-#include "io/text_file.hpp"
+#include "io/errors/problems.hpp"
+#include "io/formats/text_file.hpp"
 
 namespace clathra {
 namespace {

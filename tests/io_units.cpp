@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "domain/units.hpp"
+#include "domain/scene/units.hpp"
 
 namespace clathra {
 namespace {

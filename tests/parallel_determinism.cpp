@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "domain/random.hpp"
+#include "domain/generation/random.hpp"
 #include "small_test.hpp"
 
 namespace clathra {

@@ -1,5 +1,5 @@
 /// The laws do not see a constant velocity or a rigid rotation of the whole, and stresses agree inside and at the walls.
-#include "domain/settling.hpp"
+#include "domain/generation/equilibration.hpp"
 #include "kernels/stability.hpp"
 #include "scenes.hpp"
 

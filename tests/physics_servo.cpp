@@ -1,5 +1,5 @@
 /// Servo walls on an elastic block.
-#include "domain/settling.hpp"
+#include "domain/generation/equilibration.hpp"
 #include "kernels/stability.hpp"
 #include "scenes.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The ranks that a test program was started on.
-#include "domain/ranks.hpp"
+#include "domain/parallel/ranks.hpp"
 
 namespace clathra {
 

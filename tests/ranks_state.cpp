@@ -2,7 +2,7 @@
 #include <array>
 #include <map>
 
-#include "domain/snapshot.hpp"
+#include "domain/measurement/snapshot.hpp"
 #include "golden_states.hpp"
 #include "ranks_main.hpp"
 

@@ -8,9 +8,9 @@
 #include <sstream>
 #include <string>
 
-#include "io/history.hpp"
-#include "io/run_record.hpp"
-#include "io/snapshot_file.hpp"
+#include "io/results/history.hpp"
+#include "io/results/run_record.hpp"
+#include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "domain/bonding.hpp"
-#include "domain/hydrate.hpp"
-#include "domain/random.hpp"
-#include "domain/simulation.hpp"
+#include "domain/generation/bonding.hpp"
+#include "domain/generation/random.hpp"
+#include "domain/scene/hydrate.hpp"
+#include "domain/simulation/simulation.hpp"
 
 namespace clathra {
 

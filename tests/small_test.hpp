@@ -1,6 +1,6 @@
 #pragma once
 /// A biaxial test of a few seconds.
-#include "domain/experiment.hpp"
+#include "domain/biaxial/experiment.hpp"
 
 namespace clathra {
 

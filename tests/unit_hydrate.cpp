@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "domain/hydrate.hpp"
+#include "domain/scene/hydrate.hpp"
 #include "golden_bonds.hpp"
 #include "printed_number.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "domain/csv_rows.hpp"
-#include "domain/test_phases.hpp"
+#include "domain/measurement/test_phases.hpp"
+#include "domain/scene/csv_rows.hpp"
 #include "kernels/break_mode.hpp"
 
 namespace clathra {

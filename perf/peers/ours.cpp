@@ -13,11 +13,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "domain/experiment.hpp"
-#include "domain/hydrate.hpp"
-#include "domain/snapshot.hpp"
-#include "domain/throughput.hpp"
-#include "io/specimen_file.hpp"
+#include "domain/biaxial/experiment.hpp"
+#include "domain/biaxial/throughput.hpp"
+#include "domain/measurement/snapshot.hpp"
+#include "domain/scene/hydrate.hpp"
+#include "io/results/specimen_file.hpp"
 #include "kernels/stability.hpp"
 
 namespace {

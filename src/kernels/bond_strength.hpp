@@ -17,7 +17,7 @@ struct BondStrengthLaw {
 };
 
 /// R_t = 3 B q_max,t + 2.67e5 (h_cr - 0.6 mm) [N/m] (Eqs. 11a, 12a; with the printed stress this is Eq. 15a). Can be <= 0: such a
-/// bond is not formed (see domain/bonding.hpp).
+/// bond is not formed (see domain/generation/bonding.hpp).
 /// @param width  bond width B [m];  @param gap  h_cr [m], >= 0
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L tensile_strength(BondStrengthLaw const& law, L const& width, L const& gap) {

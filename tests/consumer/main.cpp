@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "domain/simulation.hpp"
+#include "domain/simulation/simulation.hpp"
 
 int main(int argc, char** argv) {
   Kokkos::ScopeGuard const kokkos(argc, argv);

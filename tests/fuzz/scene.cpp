@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "io/scene_file.hpp"
+#include "io/scene/scene_file.hpp"
 
 using namespace clathra;
 

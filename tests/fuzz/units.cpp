@@ -1,5 +1,5 @@
 /// Any text is a quantity or is refused; a quantity reads back from its text to the same bits. The first byte is the dimension.
-#include "domain/units.hpp"
+#include "domain/scene/units.hpp"
 
 #include <bit>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/snapshot.hpp"
+#include "domain/measurement/snapshot.hpp"
 #include "io/report/canvas.hpp"
 
 namespace clathra {

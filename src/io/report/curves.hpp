@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/report/run_results.hpp"
+#include "io/results/run_results.hpp"
 
 namespace clathra {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "domain/snapshot.hpp"
+#include "domain/measurement/snapshot.hpp"
 
 namespace clathra {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domain/grading.hpp"
+#include "domain/scene/grading.hpp"
 #include "io/report/markup.hpp"
 
 namespace clathra {

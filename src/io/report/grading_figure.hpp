@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/report/plot.hpp"
-#include "io/report/run_results.hpp"
+#include "io/results/run_results.hpp"
 
 namespace clathra {
 

@@ -15,7 +15,7 @@
 #include "io/report/png.hpp"
 #include "io/report/strain_field.hpp"
 #include "io/report/test_numbers.hpp"
-#include "io/snapshot_file.hpp"
+#include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 namespace {

@@ -2,7 +2,7 @@
 /// Pictures of a snapshot.
 #include <vector>
 
-#include "domain/snapshot.hpp"
+#include "domain/measurement/snapshot.hpp"
 #include "io/report/canvas.hpp"
 
 namespace clathra {

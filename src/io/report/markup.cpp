@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "io/printable.hpp"
+#include "io/errors/printable.hpp"
 #include "io/report/png.hpp"
 
 namespace clathra {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
+#include "io/formats/text_file.hpp"
 #include "io/report/curves.hpp"
 #include "io/report/grading_figure.hpp"
 #include "io/report/map_figures.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/strength.hpp"
 #include "io/report/summary_table.hpp"
-#include "io/text_file.hpp"
 
 namespace clathra {
 namespace {

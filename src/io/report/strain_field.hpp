@@ -2,7 +2,7 @@
 /// How much the specimen was sheared, place by place.
 #include <vector>
 
-#include "domain/snapshot.hpp"
+#include "domain/measurement/snapshot.hpp"
 
 namespace clathra {
 

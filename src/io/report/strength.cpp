@@ -8,9 +8,9 @@
 #include <set>
 
 #include "io/report/curves.hpp"
-#include "io/report/likeness.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/test_numbers.hpp"
+#include "io/results/likeness.hpp"
 
 namespace clathra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "domain/test_phases.hpp"
+#include "domain/measurement/test_phases.hpp"
 
 namespace clathra {
 namespace {

@@ -2,7 +2,7 @@
 /// The numbers by which a biaxial test is known, from its history.
 #include <optional>
 
-#include "io/report/run_results.hpp"
+#include "io/results/run_results.hpp"
 
 namespace clathra {
 

@@ -1,0 +1,101 @@
+/// `clathra bench`: how fast this machine runs whole time steps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "domain/biaxial/throughput.hpp"
+#include "io/results/run_record.hpp"
+#include "print.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct BenchOptions {
+  std::string what = "bonded";
+  ThroughputSetup setup;
+  double seconds = 3;
+  int threads = 0;
+  bool json = false;
+};
+
+nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simulation, Throughput const& t, double bandwidth,
+                            double arithmetic) {
+  double const moved = t.disc_steps_per_second * t.moved_per_step;
+  return {{"case", options.what},
+          {"discs", simulation.discs()},
+          {"threads", ExecutionSpace().concurrency()},
+          {"lanes", lane_count},
+          {"disc_steps_per_second", t.disc_steps_per_second},
+          {"contact_steps_per_s", t.contact_steps_per_s},
+          {"bytes_per_disc", t.bytes_per_disc},
+          {"bytes_moved_per_disc_and_step", t.moved_per_step},
+          {"bandwidth_bytes_per_s", bandwidth},
+          {"bandwidth_share", bandwidth > 0 ? moved / bandwidth : 0},
+          {"flops_per_s", t.flops_per_s},
+          {"arithmetic_limit_flops_per_s", arithmetic},
+          {"flop_share", arithmetic > 0 ? t.flops_per_s / arithmetic : 0},
+          {"rebuild_share", t.rebuild_share},
+          {"steps", t.steps},
+          {"rebuilds", t.rebuilds},
+          {"seconds", t.seconds},
+          {"compiler", compiler_name()},
+          {"kokkos", kokkos_version()},
+          {"backend", backend_name()}};
+}
+
+std::string card_text(nlohmann::ordered_json const& c) {
+  auto const number = [&](char const* key) { return c.at(key).get<double>(); };
+  return fmt::format(
+      "{} discs, {}, {} threads, {} lanes, {}\n"
+      "disc-steps        {:.4g} million a second\n"
+      "contact steps     {:.4g} million a second (pairs that touch or are bonded)\n"
+      "memory            {:.0f} bytes a disc\n"
+      "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a disc and step at the "
+      "least)\n"
+      "arithmetic        {:.3g} % of the {:.3g} GFLOP/s that products and sums reach\n"
+      "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
+      c.at("discs").dump(), c.at("case").get<std::string>(), c.at("threads").dump(), c.at("lanes").dump(),
+      c.at("backend").get<std::string>(), number("disc_steps_per_second") * 1e-6, number("contact_steps_per_s") * 1e-6,
+      number("bytes_per_disc"), number("bandwidth_share") * 100, number("bandwidth_bytes_per_s") * 1e-9,
+      number("bytes_moved_per_disc_and_step"), number("flop_share") * 100, number("arithmetic_limit_flops_per_s") * 1e-9,
+      number("rebuild_share") * 100, number("steps") / std::max(1.0, number("rebuilds")));
+}
+
+ExitCode bench(BenchOptions options) {
+  settle_threads(options.threads);
+  auto const named = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), options.what);
+  options.setup.what = static_cast<ThroughputCase>(named - std::begin(throughput_case_names));
+  KokkosSession const kokkos;
+  Simulation simulation = throughput_simulation(options.setup);
+  measure_throughput(simulation, 0.2 * options.seconds);  // caches and clock speed settle
+  Throughput const measured = measure_throughput(simulation, options.seconds);
+  nlohmann::ordered_json const result =
+      card(options, simulation, measured, update_bandwidth(simulation.bytes()), arithmetic_rate());
+  return print_result(options.json ? result.dump(2) + "\n" : card_text(result));
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<BenchOptions>();
+  CLI::App* const verb = program.add_subcommand("bench", "Measure how fast this machine runs whole time steps");
+  verb->add_option("--case", options->what,
+                   "grains with rolling resistance, bonded with 55 % hydrate, or sheared until bonds break")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(throughput_case_names), std::end(throughput_case_names))))
+      ->capture_default_str();
+  verb->add_option("--discs", options->setup.discs, "number of discs, about")
+      ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))
+      ->capture_default_str();
+  verb->add_option("--threads", options->threads, "threads")->check(CLI::Range(1, 4096))->type_name("N");
+  verb->add_option("--seconds", options->seconds, "time to measure")->check(CLI::Range(0.01, 3600.0))->capture_default_str();
+  verb->add_flag("--json", options->json, "one JSON object, SI units");
+  verb->footer("Example: clathra bench --case bonded --discs 20000 --threads 1 --json");
+  verb->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,55 @@
+/// `clathra check`: is a scene right, and what does it cost?
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "forecast.hpp"
+#include "io/results/specimen_file.hpp"
+#include "io/results/specimen_label.hpp"
+#include "print.hpp"
+#include "scene_options.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct CheckOptions {
+  SceneOptions scene;
+  double rate = 0;
+  int ranks = 1;
+};
+
+ExitCode check(CheckOptions const& options) {
+  LoadedScene input = options.scene.load();
+  Scene scene = input.scene;
+  std::optional<Specimen> specimen;
+  if (scene.sample.generator == Generator::file) {
+    specimen = read_specimen(scene.sample.file);
+    std::vector<std::string> const found = compare_with_scene(scene.sample.file, *specimen, scene);
+    input.warnings.insert(input.warnings.end(), found.begin(), found.end());
+    scene = sized_by(scene, *specimen, static_cast<std::int64_t>(specimen->size()));
+  }
+  Forecast result = forecast(scene, options.rate, options.ranks);
+  if (specimen) judge_size(result, *specimen);
+  ExitCode const printed = print_result(fmt::format("{}: the scene is right\n{}{}", options.scene.file,
+                                                    forecast_text(scene, result), warnings_text(input, result)));
+  refuse_if_needed(scene, result);
+  return printed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<CheckOptions>();
+  CLI::App* const verb = program.add_subcommand("check", "Check a scene and say what its run will cost");
+  options->scene.add_to(*verb);
+  verb->add_option("--disc-steps-per-second", options->rate, "speed to assume (default: 15 million a thread)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--ranks", options->ranks, "ranks that will share the run on this machine (mpirun -n N)")
+      ->check(CLI::Range(1, 1000000));
+  verb->footer("Example: clathra check examples/quick.toml --set test.strain_rate=\"5 %/min\"");
+  verb->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
+}
+
+}  // namespace clathra

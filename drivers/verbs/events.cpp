@@ -1,0 +1,114 @@
+/// `clathra events`: which bonds broke, when and how.
+#include "io/results/events.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "io/results/run_results.hpp"
+#include "kernels/bond_strength.hpp"
+#include "print.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct EventsOptions {
+  std::filesystem::path folder;
+  std::string mode;
+  double from = 0, to = 100;  // axial strain [%]
+  int parts = 10;
+  bool csv = false;
+};
+
+struct BreakRow {
+  BreakEvent event;
+  double eps1;
+};
+
+std::vector<std::string> mode_names() {
+  std::vector<std::string> names;
+  for (BreakModeNames const& m : break_modes) names.emplace_back(m.name);
+  return names;
+}
+
+/// The axial strain at a step, between the records of the history.
+double strain_at(HistoryTable const& history, double step) {
+  auto const &steps = history["step"], &strains = history["eps1"];
+  auto const after = static_cast<std::size_t>(std::lower_bound(steps.begin(), steps.end(), step) - steps.begin());
+  if (after == 0) return strains.front();
+  if (after == steps.size()) return strains.back();
+  double const share = (step - steps[after - 1]) / (steps[after] - steps[after - 1]);
+  return strains[after - 1] + share * (strains[after] - strains[after - 1]);
+}
+
+std::vector<BreakRow> chosen_events(EventsOptions const& options, HistoryTable const& history) {
+  std::error_code error;
+  if (!std::filesystem::exists(options.folder / "events.csv", error))
+    throw FileProblem(ExitCode::file_missing, options.folder,
+                      "has no events.csv: the sand is clean, or output.events is false in its scene");
+  std::vector<BreakRow> rows;
+  for (BreakEvent const& event : read_events(options.folder / "events.csv"))
+    rows.push_back({event, strain_at(history, static_cast<double>(event.step))});
+  std::erase_if(rows, [&](BreakRow const& row) {
+    bool const other_mode = !options.mode.empty() && options.mode != break_mode_name(row.event.mode);
+    return other_mode || row.eps1 * 100 < options.from || row.eps1 * 100 > options.to;
+  });
+  return rows;
+}
+
+std::string csv_text(std::vector<BreakRow> const& rows) {
+  std::string text = "eps1,step,id_a,id_b,mode,x_m,y_m\n";
+  for (BreakRow const& row : rows)
+    text += fmt::format("{},{},{},{},{},{},{}\n", row.eps1, row.event.step, row.event.id_a, row.event.id_b,
+                        break_mode_name(row.event.mode), row.event.x, row.event.y);
+  return text;
+}
+
+/// How many bonds broke in each of equal parts of a range of axial strain.
+std::string count_text(std::vector<BreakRow> const& rows, double first, double last, int parts) {
+  if (rows.empty()) return "no bond broke there\n";
+  std::string text = fmt::format("{:>16}", "eps1 [%]");
+  for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", m.name);
+  text += fmt::format(" {:>12}\n", "all");
+  double const width = std::max(last - first, 1e-12) / parts;
+  for (int part = 0; part < parts; ++part) {
+    double const begin = first + part * width, end = part == parts - 1 ? HUGE_VAL : begin + width;
+    BreakCounts counts;
+    for (BreakRow const& row : rows) {
+      if (row.eps1 < begin || row.eps1 >= end) continue;
+      ++counts[static_cast<BreakMode>(row.event.mode)];
+    }
+    text += fmt::format("{:>16}", fmt::format("{:.3g} - {:.3g}", begin * 100, (begin + width) * 100));
+    for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", counts[m.mode]);
+    text += fmt::format(" {:>12}\n", counts.total());
+  }
+  return text;
+}
+
+ExitCode show_events(EventsOptions const& options) {
+  HistoryTable const history(options.folder / "history.csv");
+  std::vector<BreakRow> const rows = chosen_events(options, history);
+  double const last = std::min(options.to / 100, history["eps1"].back());
+  return print_result(options.csv ? csv_text(rows) : count_text(rows, std::max(options.from / 100, 0.0), last, options.parts));
+}
+
+}  // namespace
+
+void add_events(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<EventsOptions>();
+  CLI::App* const verb = program.add_subcommand("events", "Count or list the bonds that broke in a run");
+  verb->add_option("folder", options->folder, "folder of a run")->required();
+  verb->add_option("--mode", options->mode, "only those broken in this mode")->check(CLI::IsMember(mode_names()));
+  verb->add_option("--from", options->from, "only from this axial strain on [%]")->type_name("PERCENT");
+  verb->add_option("--to", options->to, "only up to this axial strain [%]")->type_name("PERCENT");
+  verb->add_option("--parts", options->parts, "rows of the table of counts")->check(CLI::Range(1, 1000))->capture_default_str();
+  verb->add_flag("--csv", options->csv, "list them as CSV, with their axial strain, instead of counting");
+  verb->footer("Example: clathra events out/quick --mode shear --from 1 --to 3");
+  verb->callback([options, &chosen] { chosen = [options] { return show_events(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,86 @@
+/// `clathra generate`: make a specimen and keep it.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "clathra_version.hpp"
+#include "forecast.hpp"
+#include "interrupt.hpp"
+#include "io/errors/rank_errors.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/results/specimen_file.hpp"
+#include "print.hpp"
+#include "rank_checks.hpp"
+#include "scene_options.hpp"
+#include "specimen_source.hpp"
+#include "stage_progress.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct GenerateOptions {
+  SceneOptions scene;
+  std::string output = "specimen.h5";
+};
+
+std::string record_text(RunRecord const& record) {
+  std::string text;
+  for (auto const& [name, value] : record.stages.at("generate")) text += fmt::format("  {:<26} {:.6g}\n", name, value);
+  text += fmt::format("  {:<26}", "layer void ratios");
+  for (double const ratio : record.layer_void_ratios) text += fmt::format(" {:.4f}", ratio);
+  return text + fmt::format("\n  {:<26} {:.1f}\n", "wall seconds", record.wall_seconds.at("generate"));
+}
+
+ExitCode generate_on(Ranks const& ranks, std::string const& output, RunRecord& record) {
+  Scene const& scene = record.input.scene;
+  require_same_everywhere(ranks, record.input);
+  on_root(ranks, [&] { require_creatable(output); });
+  StageRecord const cost = predict(scene, launched_ranks());
+  std::vector<std::string> refusals;
+  if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) refusals.push_back(refusal);
+  share_refusals(ranks, refusals);
+  if (!refusals.empty()) throw Refused(refusals.front());
+  require_enough_discs(ranks, static_cast<std::int64_t>(cost.at("particles")));
+  watch_for_interrupt();
+  ProgressLine line;
+  for (std::string const& warning : record.input.warnings) line.warn(warning);
+  if (std::string const warning = thread_warning(scene.run.threads); !warning.empty()) line.warn(warning);
+  KokkosSession const kokkos;
+  Specimen const specimen = generate_recorded(scene, show_stage(line, ranks), record, ranks);
+  write_specimen(output, specimen, ranks);
+  line.repeat_warnings();
+  return print_result(fmt::format("{}: {:.0f} discs\n{}", output, record.stages.at("generate").at("discs"), record_text(record)));
+}
+
+ExitCode generate(GenerateOptions const& options) {
+  RunRecord record;
+  record.version = CLATHRA_VERSION;
+  record.git_hash = CLATHRA_GIT_HASH;
+  record.input = options.scene.load();
+  Scene const& scene = record.input.scene;
+  if (scene.sample.generator == Generator::file)
+    throw Refused("the scene reads its specimen from a file: there is nothing to generate");
+  settle_threads(scene.run.threads);
+  RankSession const session;
+  return guarded_together(session.ranks(), [&] { return generate_on(session.ranks(), options.output, record); });
+}
+
+}  // namespace
+
+void add_generate(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<GenerateOptions>();
+  CLI::App* const verb = program.add_subcommand("generate", "Make a specimen file that later runs can read");
+  options->scene.add_to(*verb);
+  verb->add_option("-o,--output", options->output, "specimen file to write")
+      ->capture_default_str()
+      ->type_name("FILE")
+      ->check(CLI::Validator(name_problem, ""));
+  verb->footer(
+      "Example: clathra generate examples/quick.toml -o specimen.h5\n"
+      "         clathra run examples/quick.toml --set sample.generator=file --set sample.file=specimen.h5");
+  verb->callback([options, &chosen] { chosen = [options] { return generate(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,169 @@
+/// `clathra info`: what a specimen file, a snapshot or the folder of a run holds.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "domain/biaxial/experiment.hpp"
+#include "domain/scene/grading.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/results/checkpoint.hpp"
+#include "io/results/export.hpp"
+#include "io/results/run_record.hpp"
+#include "io/results/snapshot_file.hpp"
+#include "io/results/specimen_file.hpp"
+#include "kernels/bond_law.hpp"
+#include "print.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct InfoOptions {
+  std::string file;
+  bool state_hash = false;
+};
+
+constexpr std::size_t largest_record = std::size_t{64} << 20;
+
+/// Area of the discs [m^2], overlaps counted twice.
+double solid_area(Specimen const& specimen) {
+  return std::accumulate(specimen.radius.begin(), specimen.radius.end(), 0.0,
+                         [](double sum, double r) { return sum + pi * r * r; });
+}
+
+/// One line of a text: what it is, and its value.
+std::string row(char const* name, std::string const& value) { return fmt::format("{:<18} {}\n", name, value); }
+
+std::string snapshot_text(Snapshot const& s) {
+  std::array<std::size_t, contact_state_count> pairs{};
+  for (std::uint8_t const state : s.state) ++pairs[state];
+  std::string text;
+  text += row("step", fmt::format("{}, {:.6g} s after the shear began", s.step, s.time));
+  text += row("strain", fmt::format("eps1 {:.4g} %, eps_v {:.4g} %", s.eps1 * 100, s.eps_v * 100));
+  text += row("stress", fmt::format("sigma1 {:.5g} MPa, sigma3 {:.5g} MPa", s.sigma1 * 1e-6, s.sigma3 * 1e-6));
+  text += row("discs", fmt::format("{}", s.id.size()));
+  text += row("box", fmt::format("{:.6g} mm x {:.6g} mm", (s.right - s.left) * 1e3, (s.top - s.bottom) * 1e3));
+  for (std::size_t state = 0; state < pairs.size(); ++state)
+    text += row(std::string(contact_state_name(static_cast<std::uint8_t>(state))).c_str(), fmt::format("{} pairs", pairs[state]));
+  text += row("events", fmt::format("{} bonds broke since the snapshot before", s.events.size()));
+  return text;
+}
+
+std::string number_text(nlohmann::json const& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
+}
+
+/// The numbers of a stage, one a line under its name.
+std::string stage_text(std::string const& stage, nlohmann::json const& numbers) {
+  std::string text = stage + "\n";
+  for (auto const& [name, value] : numbers.items()) text += fmt::format("  {:<30} {}\n", name, number_text(value));
+  return text;
+}
+
+/// What a specimen file says of its origin.
+std::string provenance_text(std::string const& provenance) {
+  auto const json = nlohmann::json::parse(provenance, nullptr, false);
+  if (!json.is_object()) return row("made by", provenance);
+  std::string text;
+  for (auto const& [name, value] : json.items())
+    if (!value.is_object()) text += row(name.c_str(), value.is_string() ? value.get<std::string>() : value.dump());
+  for (auto const& [name, value] : json.items())
+    if (value.is_object()) text += stage_text(name, value);
+  return text;
+}
+
+std::string specimen_text(Specimen const& specimen) {
+  auto const bonds = std::count_if(specimen.contacts.begin(), specimen.contacts.end(),
+                                   [](SpecimenContact const& c) { return is_bonded(c.equilibrium); });
+  double const area = specimen.width() * specimen.height();
+  auto const diameter = [&](double part) { return diameter_finer(specimen.radius, part) * 1e3; };
+  std::string text;
+  text += row("discs", fmt::format("{}", specimen.size()));
+  text += row("box", fmt::format("{:.6g} mm x {:.6g} mm{}", specimen.width() * 1e3, specimen.height() * 1e3,
+                                 specimen.periodic ? ", periodic" : ""));
+  text += row("void ratio", fmt::format("{:.5g}", area / solid_area(specimen) - 1));
+  text += row("grading", fmt::format("d10 {:.4g} mm, d50 {:.4g} mm, d60 {:.4g} mm", diameter(0.1), diameter(0.5), diameter(0.6)));
+  text += row("grain density", fmt::format("{:g} kg/m^3", specimen.density));
+  text += row("rests under", fmt::format("{:.6g} MPa", specimen.stress * 1e-6));
+  if (specimen.axial_strain.value_or(0) != 0)
+    text += row("sheared", fmt::format("to an axial strain of {:.4g} %", *specimen.axial_strain * 100));
+  text += row("contacts", fmt::format("{}", specimen.contacts.size()));
+  text += row("bonds", fmt::format("{}", bonds));
+  if (specimen.critical_thickness > 0) text += row("h_max", fmt::format("{:.4g} um", specimen.critical_thickness * 1e6));
+  if (!specimen.provenance.empty()) text += provenance_text(specimen.provenance);
+  return text;
+}
+
+std::string run_text(nlohmann::json const& record) {
+  std::string text = fmt::format("exit               {} (code {})\n", record.at("exit").at("reason").get<std::string>(),
+                                 record.at("exit").at("code").dump());
+  auto const& program = record.at("program");
+  text += fmt::format("program            clathra {} ({}), {}, threads: {}\n", program.at("version").get<std::string>(),
+                      program.at("git_hash").get<std::string>(), program.at("backend").get<std::string>(),
+                      program.at("threads").dump());
+  auto const& stages = record.at("stages");
+  for (char const* const stage : {"generate", "prepare", "plan", "shear"})
+    if (stages.contains(stage)) text += stage_text(stage, stages.at(stage));
+  for (auto const& [stage, seconds] : record.at("wall_seconds").items())
+    text += fmt::format("{:<18} {} s\n", "time of " + stage, number_text(seconds));
+  text += fmt::format("{:<18} {:.4g} M\n", "disc-steps/s", record.at("disc_steps_per_second").get<double>() * 1e-6);
+  for (auto const& warning : record.at("warnings")) text += "warning: " + warning.get<std::string>() + "\n";
+  if (record.contains("state_hash")) text += fmt::format("{:<18} {}\n", "state hash", record.at("state_hash").get<std::string>());
+  return text;
+}
+
+ExitCode info_of_run(std::filesystem::path const& file, bool only_hash) {
+  std::string const text = read_text_file(file, largest_record);
+  try {
+    nlohmann::json const record = nlohmann::json::parse(text);
+    if (!only_hash) return print_result(run_text(record));
+    if (!record.contains("state_hash"))
+      throw FileProblem(ExitCode::bad_input, file, "the run has not finished, there is no state hash");
+    return print_result(record.at("state_hash").get<std::string>() + "\n");
+  } catch (nlohmann::json::exception const& problem) {
+    throw FileProblem(ExitCode::bad_input, file, fmt::format("is not a record of a run: {}", problem.what()));
+  }
+}
+
+ExitCode info(InfoOptions const& options) {
+  std::filesystem::path const file = options.file;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) return info_of_run(file / "run.json", options.state_hash);
+  if (file.extension() == ".json") return info_of_run(file, options.state_hash);
+  if (is_snapshot(file)) {
+    if (options.state_hash)
+      throw FileProblem(ExitCode::bad_input, file, "is a snapshot, whose numbers are rounded: it has no state hash");
+    return print_result(snapshot_text(read_snapshot(file)));
+  }
+  if (is_checkpoint(file)) {
+    std::optional<std::string> const known = checkpoint_state_hash(file);
+    if (options.state_hash && !known)
+      throw FileProblem(ExitCode::bad_input, file, "is of an earlier version, whose state hash cannot be compared");
+    std::string const hash = known.value_or("that of an earlier version, not to be compared");
+    return print_result(options.state_hash ? hash + "\n"
+                                           : fmt::format("{:<18} {}\n{:<18} {}\n", "checkpoint of",
+                                                         file.parent_path().parent_path().string(), "state hash", hash));
+  }
+  Specimen const specimen = read_specimen(file);
+  if (options.state_hash) return print_result(hash_text(specimen_hash(specimen)) + "\n");
+  return print_result(specimen_text(specimen));
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<InfoOptions>();
+  CLI::App* const verb = program.add_subcommand("info", "Say what a specimen file, a snapshot or the folder of a run holds");
+  verb->add_option("file", options->file, "specimen file, snapshot, run.json, or folder of a run")->required();
+  verb->add_flag("--state-hash", options->state_hash, "print only the hash of the state");
+  verb->footer("Example: clathra info out/quick/specimen.h5");
+  verb->callback([options, &chosen] { chosen = [options] { return info(*options); }; });
+}
+
+}  // namespace clathra

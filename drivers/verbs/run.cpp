@@ -1,0 +1,96 @@
+/// `clathra run`: from a scene file to a sheared specimen and its curves.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "duration.hpp"
+#include "forecast.hpp"
+#include "interrupt.hpp"
+#include "io/results/specimen_file.hpp"
+#include "io/results/specimen_label.hpp"
+#include "print.hpp"
+#include "rank_checks.hpp"
+#include "scene_options.hpp"
+#include "test_run.hpp"
+#include "threads.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct RunOptions {
+  SceneOptions scene;
+  std::string output;
+  bool dry_run = false, resume = false, overwrite = false;
+  std::string most_time, checkpoint_every = "10m";
+};
+
+ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& endurance, LoadedScene input) {
+  require_same_everywhere(ranks, input);
+  if (std::string warning = thread_warning(input.scene.run.threads); !warning.empty())
+    input.warnings.push_back(std::move(warning));
+  std::optional<Specimen> specimen;
+  Scene sized = input.scene;
+  if (input.scene.sample.generator == Generator::file) {
+    specimen = read_specimen(input.scene.sample.file, ranks);
+    std::vector<std::string> const found = compare_with_scene(input.scene.sample.file, *specimen, input.scene);
+    input.warnings.insert(input.warnings.end(), found.begin(), found.end());
+    sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
+  }
+  Forecast cost = forecast(sized, 0, launched_ranks());
+  if (specimen) judge_size(cost, *specimen, ranks);
+  share_refusals(ranks, cost.refusals);
+  if (options.dry_run) {
+    ExitCode const printed = print_result(forecast_text(sized, cost) + warnings_text(input, cost));
+    refuse_if_needed(sized, cost);
+    return printed;
+  }
+  refuse_if_needed(sized, cost);
+  require_enough_discs(ranks, static_cast<std::int64_t>(cost.numbers.at("particles")));
+  watch_for_interrupt();
+  std::vector<std::string> const warnings = warnings_of(input, cost);
+  KokkosSession const kokkos;
+  TestRun now(std::move(input), std::move(specimen), endurance, ranks);
+  for (std::string const& warning : warnings) now.warn(warning);
+  return now.run();
+}
+
+ExitCode run(RunOptions const& options) {
+  Endurance const endurance{options.resume, options.overwrite, options.most_time.empty() ? 0 : duration_of(options.most_time),
+                            duration_of(options.checkpoint_every)};
+  std::vector<std::string> more;
+  if (!options.output.empty()) more.push_back("output.folder=" + options.output);
+  LoadedScene input = options.scene.load(more);
+  if (!options.dry_run) settle_threads(input.scene.run.threads);
+  RankSession const session;
+  Ranks const& ranks = session.ranks();
+  return guarded_together(ranks, [&] { return run_on(ranks, options, endurance, std::move(input)); });
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<RunOptions>();
+  CLI::App* const verb = program.add_subcommand("run", "Generate, consolidate and shear the specimen of a scene");
+  options->scene.add_to(*verb);
+  verb->add_option("--output", options->output, "folder of the results (output.folder)")
+      ->type_name("DIR")
+      ->check(CLI::Validator(name_problem, ""));
+  verb->add_flag("--dry-run", options->dry_run, "only say what the run will cost");
+  CLI::Option* const resume = verb->add_flag("--resume", options->resume,
+                                             "go on from the newest checkpoint in the folder of the results, if there is one");
+  verb->add_flag("--overwrite", options->overwrite, "delete the unfinished run in the folder of the results, if there is one")
+      ->excludes(resume);
+  verb->add_option("--max-walltime", options->most_time, "stop after this time with a checkpoint (3h50m, 90s)")
+      ->type_name("TIME")
+      ->check(CLI::Validator(duration_problem, ""));
+  verb->add_option("--checkpoint-every", options->checkpoint_every, "time between checkpoints, 0s for none")
+      ->capture_default_str()
+      ->type_name("TIME")
+      ->check(CLI::Validator(duration_problem, ""));
+  verb->footer("Example: clathra run examples/quick.toml --set hydrate.saturation=\"41 %\" --output out/s41");
+  verb->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace clathra

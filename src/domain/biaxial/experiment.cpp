@@ -1,0 +1,106 @@
+#include "domain/biaxial/experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/biaxial/quasi_static.hpp"
+#include "domain/generation/packing.hpp"
+#include "domain/generation/tiled.hpp"
+#include "domain/scene/sample_design.hpp"
+#include "domain/scene/scene_laws.hpp"
+
+namespace clathra {
+
+namespace {
+
+double standard_deviation(std::vector<double> const& values) {
+  double mean = 0, square = 0;
+  for (double v : values) mean += v / static_cast<double>(values.size());
+  for (double v : values) square += (v - mean) * (v - mean) / static_cast<double>(values.size());
+  return std::sqrt(square);
+}
+
+/// The time step that a specimen of this scene will get [s]: its smallest disc in six contacts, bonded if the scene has hydrate.
+double estimated_time_step(Scene const& scene, Grading const& grading, bool bonded) {
+  double const r = 0.5 * grading.smallest(), mass = pi * r * r * scene.grains.density;
+  double const bond_share = bonded ? 0.5 : 0;  // Eq. 16: k_bn < k_n / 2
+  double const ks = scene.grains.ks + bond_share * scene.grains.kn * 2 / 3;
+  double const rolling = grain_law(scene).rolling_factor() * (1 + 2 * bond_share) * 1.5;
+  double const turn = 6 * (ks + rolling) * r * r;
+  return scene.run.dt_safety * std::sqrt(2 * 0.5 * mass * r * r / turn);
+}
+
+}  // namespace
+
+GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
+  SampleDesign const design = design_sample(scene);
+  PackedSpecimen packed = scene.sample.generator == Generator::tiled ? pack_by_tiling(scene, design, progress, ranks)
+                                                                     : pack_by_under_compaction(scene, design, progress, ranks);
+  GeneratedSpecimen generated;
+  generated.layer_void_ratios = layer_void_ratios(packed.specimen, std::max(1, scene.sample.layers), ranks);
+  StageRecord& r = generated.record;
+  r["discs"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(packed.specimen.size())));
+  r["void_ratio"] = packed.specimen.void_ratio;
+  r["void_ratio_wanted"] = design.void_ratio;
+  r["layer_void_ratio_sd"] = standard_deviation(generated.layer_void_ratios);
+  r["d50_m"] = diameter_finer(packed.specimen.radius, 0.5, ranks);
+  r["d50_wanted_m"] = design.grading.d50();
+  r["grading_distance"] = grading_distance(design.grading, packed.specimen.radius, ranks);
+  r["generation_friction"] = packed.friction;
+  r["generation_shape_factor"] = packed.shape_factor;
+  r["stress_x_Pa"] = packed.stress_x;
+  r["stress_y_Pa"] = packed.stress_y;
+  r["unbalanced"] = packed.unbalanced;
+  r["disc_steps"] = static_cast<double>(packed.disc_steps);
+  r["width_m"] = packed.specimen.width();
+  r["height_m"] = packed.specimen.height();
+  generated.specimen = std::move(packed.specimen);
+  return generated;
+}
+
+namespace {
+
+/// The largest resident memory of all ranks together [bytes], as measured with samples of 1,000,000 discs.
+double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
+  // Numbers of an entry: shear, moment, u_0, width and the two of a separate bond; with the index, and one number and two indices
+  // more while neighbours are searched.
+  int const numbers = 1 + (scene.grains.shape_factor > 0 || bonded ? 1 : 0) + (bonded ? 2 : 0) +
+                      (bonded && scene.bond.composite == Composite::parallel ? 2 : 0);
+  constexpr double entries = 5.2;  // a disc, empty places of slices included
+  int const extras =
+      (scene.output.energy ? 5 : 0) + (scene.output.snapshots > 0 ? 2 : 0) + (scene.test.wall_friction > 0 ? 4 : 0);
+  double const state = 8 * (16 + extras) + 4 + entries * (4 + 8 * numbers + 16);
+  // Beside the state there is, in turns, the specimen that it was made from, a checkpoint and the last specimen; ranks also send
+  // parts of these to each other.
+  double const beside = ranks > 1 ? 1 : 0.85;
+  constexpr double program = 25e6, program_with_messages = 35e6;
+  return discs * state * (1 + beside) + (ranks > 1 ? ranks * program_with_messages : program);
+}
+
+}  // namespace
+
+StageRecord predict(Scene const& scene, int ranks) {
+  SampleDesign const design = design_sample(scene);
+  bool const bonded = scene.bond.law != BondLawKind::none && scene.hydrate.saturation > 0;
+  RateNumbers const rate = rate_numbers(scene, design.grading.d50(), design.height, design.void_ratio);
+  auto const discs = static_cast<double>(design.particles);
+  StageRecord p;
+  p["particles"] = discs;
+  p["width_m"] = design.width;
+  p["height_m"] = design.height;
+  p["void_ratio"] = design.void_ratio;
+  p["d50_m"] = design.grading.d50();
+  p["time_step_s"] = estimated_time_step(scene, design.grading, bonded);
+  p["strain_rate_per_s"] = rate.strain_rate;
+  p["inertial_number"] = rate.inertial_number;
+  p["wave_number"] = rate.wave_number;
+  p["steps"] = std::ceil(scene.test.axial_strain / (rate.strain_rate * p["time_step_s"]));
+  p["disc_steps"] = p["steps"] * discs;
+  p["memory_bytes"] = memory_of_run(scene, bonded, discs, ranks);
+  double const snapshot_bytes = scene.output.full_precision ? 120 : 35;  // a disc, compressed
+  p["disk_bytes"] = discs * 2 * 150 + scene.output.records * 400 + (bonded ? discs * 40 : 0) +
+                    (scene.output.snapshots > 0 ? discs * snapshot_bytes * (scene.output.snapshots + 1) : 0);
+  return p;
+}
+
+}  // namespace clathra

@@ -1,0 +1,78 @@
+#include "domain/biaxial/quasi_static.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "domain/generation/equilibration.hpp"
+#include "domain/scene/progress.hpp"
+#include "domain/scene/scene_laws.hpp"
+
+namespace clathra {
+
+namespace {
+
+std::string short_number(double value, int digits = 3) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+/// W follows the void ratio, which is known only when the specimen is consolidated: with these digits the forecast says the same.
+constexpr int digits_of_wave = 2;
+
+double stiffness_number(Scene const& scene) { return scene.grains.kn / scene.test.confining_stress; }
+
+}  // namespace
+
+RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio) {
+  RateNumbers n;
+  double const stress = scene.test.confining_stress, density = scene.grains.density;
+  n.strain_rate =
+      scene.test.strain_rate > 0 ? scene.test.strain_rate : strain_rate_of(scene.test.inertial_number, stress, density, d50);
+  n.inertial_number = n.strain_rate * d50 * std::sqrt(density / stress);
+  double const bulk_density = density / (1 + void_ratio), speed = std::sqrt(packing_modulus(grain_law(scene)) / bulk_density);
+  n.wave_number = bulk_density * speed * (0.5 * n.strain_rate * height) / stress;
+  return n;
+}
+
+std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n) {
+  std::vector<std::string> refusals;
+  if (n.inertial_number > inertial_limit)
+    refusals.push_back("inertial number I = " + short_number(n.inertial_number) + " is above " + short_number(inertial_limit) +
+                       ": the loading is not quasi-static");
+  if (double const stiffness = stiffness_number(scene); stiffness < stiffness_limit)
+    refusals.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_limit) +
+                       ": grains overlap by more than a tenth of their diameter, which no contact law here describes");
+  return refusals;
+}
+
+std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n) {
+  std::vector<std::string> warnings;
+  if (n.inertial_number > inertial_warning && n.inertial_number <= inertial_limit)
+    warnings.push_back("inertial number I = " + short_number(n.inertial_number) +
+                       " is above 1e-3: rate effects of several percent");
+  if (n.wave_number > wave_limit) {
+    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
+                       " is above 0.5: this run is not quasi-static, lower the inertial number");
+  } else if (n.wave_number > wave_warning) {
+    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
+                       " is above 0.2: stress varies along the specimen");
+  }
+  if (double const stiffness = stiffness_number(scene); stiffness < stiffness_warning && stiffness >= stiffness_limit)
+    warnings.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_warning) +
+                       ": grains overlap noticeably");
+  return warnings;
+}
+
+std::vector<std::string> judge_rate(Scene const& scene, RateNumbers const& n) {
+  std::vector<std::string> warnings = rate_warnings(scene, n);
+  std::string all;
+  for (std::string const& refusal : rate_refusals(scene, n)) {
+    warnings.push_back("forced: " + refusal);
+    all += (all.empty() ? "" : "; ") + refusal;
+  }
+  if (!all.empty() && !scene.run.force) throw Refused(all + " (use run.force = true to run it all the same)");
+  return warnings;
+}
+
+}  // namespace clathra

@@ -1,0 +1,186 @@
+#include "domain/biaxial/throughput.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/biaxial/experiment.hpp"
+#include "domain/biaxial/quasi_static.hpp"
+#include "domain/generation/bonding.hpp"
+#include "domain/generation/equilibration.hpp"
+#include "domain/generation/tiled.hpp"
+#include "domain/parallel/redistribution.hpp"
+#include "domain/scene/hydrate.hpp"
+#include "domain/scene/sample_design.hpp"
+#include "domain/scene/scene_laws.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr std::int64_t cell_discs = 2000;
+
+/// The specimen under 1 MPa, with its scene's grains.
+Specimen make_specimen(Scene const& scene, std::int64_t discs, Ranks const& ranks) {
+  PackedSpecimen const cell = pack_periodic_cell(scene, design_sample(scene), cell_discs, {});
+  double const area = static_cast<double>(discs) / cell_discs * cell.specimen.width() * cell.specimen.height();
+  double const width = std::sqrt(area / 2);
+  return replicate(cell.specimen, width, 2 * width, ranks);
+}
+
+std::int64_t total(Simulation const& simulation, std::size_t of_this_rank) {
+  return simulation.ranks().sum(static_cast<std::int64_t>(of_this_rank));
+}
+
+/// Bytes that one step touches at the least, a disc: the contact pass reads discs and rows and writes forces and history, the
+/// drift reads and writes the discs.
+double moved_bytes(Simulation const& simulation) {
+  double const entries = static_cast<double>(total(simulation, simulation.contact_entries())) / simulation.discs();
+  ContactRows rows = simulation.rows();
+  double written = 0;
+  for_each_history(rows, [&](HistoryField const&, auto const& field) { written += &field == &rows.equilibrium ? 0 : 1; });
+  double const row = sizeof(int) + sizeof(Real) * (2 * written + (rows.features.bonds ? 2 : 0));
+  constexpr double contact_pass = 6 + 3, drift = 11 + 6;  // fields of a disc
+  return entries * row + sizeof(Real) * (contact_pass + drift);
+}
+
+/// Double precision operations of the laws, counted in their machine code: a pair in touch or bonded, once from either side, and
+/// the drift of a disc.
+constexpr double flops_of_contact = 58, flops_of_bonded_pair = 113, flops_of_drift = 33;
+
+double flops_per_step(Simulation const& simulation, Measures const& m) {
+  double const pairs = flops_of_bonded_pair * m.bonded + flops_of_contact * (m.mechanical - m.bonded);
+  return 2 * pairs + flops_of_drift * simulation.discs();
+}
+
+constexpr int block = 64 * lane_count;  // numbers that one call updates
+
+struct UpdateBlock {
+  Field<Real> values;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < block; k += lane_count) {
+      Real* const at = &values(static_cast<std::size_t>(i) * block + static_cast<std::size_t>(k));
+      store(at, load(at) + Lanes(1));
+    }
+  }
+};
+
+constexpr int chains = 12;              // independent ones: more than the latency of a product or a sum
+constexpr int links = 20000;            // of a chain
+constexpr int strands_of_a_thread = 4;  // for an even load
+
+/// Chains of products and sums that nothing but the arithmetic units holds up.
+struct Arithmetic {
+  Field<Real> result;
+  KOKKOS_FUNCTION void operator()(int strand) const {
+    Lanes values[chains];
+    for (int c = 0; c < chains; ++c) values[c] = Lanes(1 + 0.001 * c);
+    for (int n = 0; n < links; ++n) {
+      for (int c = 0; c < chains; ++c) values[c] = values[c] * Lanes(0.999) + Lanes(0.001);
+    }
+    Lanes sum(0);
+    for (int c = 0; c < chains; ++c) sum += values[c];
+    result(static_cast<std::size_t>(strand)) = lane(sum, 0);
+  }
+};
+
+}  // namespace
+
+Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& ranks) {
+  bool const bonded = setup.what != ThroughputCase::rolling, breaking = setup.what == ThroughputCase::breaking;
+  Scene scene;
+  scene.sample.particles = cell_discs;
+  scene.sample.void_ratio = 0.23;
+  scene.bond.stress = 1e6;
+  scene.hydrate.saturation = bonded ? 0.55 : 0;
+  Specimen specimen = make_specimen(scene, setup.discs, ranks);
+  SimulationLaws laws;
+  laws.contact.grain = grain_law(scene);
+  laws.motion.damping = scene.run.damping;
+  if (bonded) {
+    StageRecord record;
+    specimen = by_place(ranks, std::move(specimen));
+    bond_specimen(scene, specimen, record, ranks);
+    laws.contact.bond_kind = BondKind::parallel;
+    laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
+  }
+  Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
+  // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a
+  // test.
+  prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.dt_safety);
+  for (int n = 0; n < setup.settle_steps; ++n) simulation.step();
+  scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
+  prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.dt_safety);
+  RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
+  simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
+  simulation.add_uniform_strain_rate(-0.25 * rate.strain_rate, rate.strain_rate);
+  if (breaking) {
+    // Faster to where bonds break, but platens no faster than those of a small specimen, or large ones burst; then a while for
+    // the waves of that to die.
+    constexpr double strain = 0.05, hurry_of_small = 10, calming_of_small = 500, small = 20000;
+    double const length = std::sqrt(std::max(1.0, simulation.discs() / small)), hurry = std::max(1.0, hurry_of_small / length);
+    simulation.loading.y = AxisDrive::at_rate(hurry * rate.strain_rate);
+    auto const steps = static_cast<int>(strain / (hurry * rate.strain_rate * simulation.time_step));
+    for (int n = 0; n < steps; ++n) simulation.step();
+    simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
+    for (int n = 0; n < calming_of_small * length; ++n) simulation.step();
+  }
+  return simulation;
+}
+
+Throughput measure_throughput(Simulation& simulation, double seconds) {
+  Throughput result;
+  std::int64_t const first = simulation.steps(), first_rebuilds = simulation.rebuilds();
+  int const broken = simulation.broken_bonds();
+  double const rebuilding = simulation.rebuild_seconds();
+  Kokkos::Timer const clock;
+  while (simulation.ranks().max(clock.seconds()) < seconds) {
+    for (int n = 0; n < 20; ++n) simulation.step();
+  }
+  Kokkos::fence();
+  result.seconds = clock.seconds();
+  result.steps = simulation.steps() - first;
+  result.rebuilds = simulation.rebuilds() - first_rebuilds;
+  double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
+  result.disc_steps_per_second = steps_per_s * simulation.discs();
+  Measures const m = simulation.measures();
+  result.contact_steps_per_s = steps_per_s * m.mechanical;
+  result.flops_per_s = steps_per_s * flops_per_step(simulation, m);
+  result.broken = simulation.broken_bonds() - broken;
+  result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.discs();
+  result.moved_per_step = moved_bytes(simulation);
+  result.rebuild_share = (simulation.rebuild_seconds() - rebuilding) / result.seconds;
+  return result;
+}
+
+double update_bandwidth(std::size_t bytes) {
+  auto const blocks = static_cast<int>(std::max<std::size_t>(bytes / (block * sizeof(Real)), 1));
+  Field<Real> const values("bandwidth", static_cast<std::size_t>(blocks) * block);
+  double const moved = 2.0 * blocks * block * sizeof(Real);
+  int const passes = static_cast<int>(std::max(1.0, 2e8 / moved));  // long enough for the clock
+  double best = 0;
+  for (int n = 0; n < 5; ++n) {
+    Kokkos::Timer const clock;
+    for (int pass = 0; pass < passes; ++pass) {
+      Kokkos::parallel_for("update_bandwidth", Kokkos::RangePolicy<ExecutionSpace>(0, blocks), UpdateBlock{values});
+    }
+    Kokkos::fence();
+    best = std::max(best, passes * moved / clock.seconds());
+  }
+  return best;
+}
+
+double arithmetic_rate() {
+  int const strands = strands_of_a_thread * ExecutionSpace().concurrency();
+  Field<Real> const result("arithmetic", static_cast<std::size_t>(strands));
+  double const operations = 2.0 * links * chains * lane_count * strands;
+  double best = 0;
+  for (int n = 0; n < 5; ++n) {
+    Kokkos::Timer const clock;
+    Kokkos::parallel_for("arithmetic", Kokkos::RangePolicy<ExecutionSpace>(0, strands), Arithmetic{result});
+    Kokkos::fence();
+    best = std::max(best, operations / clock.seconds());
+  }
+  return best;
+}
+
+}  // namespace clathra

@@ -1,0 +1,41 @@
+#pragma once
+/// Where hydrate bonds form in a resting specimen (seed paper, section 4), and how much hydrate they are.
+#include "domain/biaxial/experiment.hpp"
+
+namespace clathra {
+
+/// A pair of discs by index and the distance of their surfaces [m] (negative: overlap).
+struct NearPair {
+  std::size_t a, b;
+  double gap;
+};
+
+/// All pairs with a gap below `reach` [m], sorted by (id of a, id of b), a having the smaller id.
+/// @param own  only pairs whose disc a is among the first `own` discs of the list
+std::vector<NearPair> near_pairs(Specimen const& specimen, double reach, std::size_t own);
+
+/// This rank's share of a specimen with the discs of other ranks behind it that lie within `reach` [m] (surface to surface) of
+/// any of its own: ids, positions and radii alone. The share must be spatially together, or everything comes.
+Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double reach);
+
+/// What bonding did.
+struct BondingOutcome {
+  double critical_thickness = 0;  ///< h_max [m]
+  std::int64_t bonds = 0;
+  std::int64_t rejected_no_tension = 0;  ///< pairs in reach whose R_t <= 0
+  std::int64_t rejected_out_of_fit = 0;  ///< pairs whose R_c, K_s or K_r is not positive (gaps of millimetres)
+  double bond_area = 0;                  ///< sum of Eq. 5 [m^2]
+  double areal_saturation = 0;           ///< bond area / void area
+  double target_area = 0;                ///< (S - 20 %) e/(1+e) A of Eq. 4 [m^2]
+};
+
+/// h_max [m] of a scene: Eq. 3 (`eq3`), the given one, or by bisection the one whose bond area meets Eq. 4 (`areal_target`).
+double critical_thickness(Scene const& scene, Specimen const& share, Ranks const& ranks);
+
+/// Adds a bond to every pair of `specimen` with gap < h_max (strictly), R_t > 0 and a positive envelope. The bond is stress-free
+/// at its formation: u_0 = u_n. Grain contact history stays; `replace` and `memory` begin with the grain's shear and moment only
+/// where they keep it.
+/// @param share  this rank's discs and the contacts whose smaller id is among them;  @return the outcome of all ranks
+BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& ranks = {});
+
+}  // namespace clathra

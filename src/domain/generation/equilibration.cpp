@@ -1,0 +1,161 @@
+#include "domain/generation/equilibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/scene/scene_laws.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr int chunk = 200;  // steps between looks at the assembly
+
+std::string percent_text(double value, int digits) {
+  std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + 1 + static_cast<std::size_t>(digits));
+}
+
+/// Steers the isotropic stretching of a periodic cell for the next chunk of steps.
+void steer_cell(Simulation& simulation, double stress, double largest_rate) {
+  double const modulus = packing_modulus(simulation.laws().contact.grain);  // a tenth of the error is taken out in a chunk
+  double const rate = 0.1 * (stress - mean_stress(simulation)) / (modulus * chunk * simulation.time_step);
+  simulation.stretch_cell(std::clamp(rate, -largest_rate, largest_rate));
+}
+
+/// Whether walls and contacts agree on the wanted stress: a wave on its way through the specimen shows in the contacts first.
+bool holds_stress(Simulation const& simulation, Measures const& m, double stress) {
+  constexpr double tolerance = 0.005;
+  auto const near = [&](double value) { return std::abs(value / stress - 1) < tolerance; };
+  double const x = m.stress_area_xx / simulation.area(), y = m.stress_area_yy / simulation.area();
+  if (simulation.periodic()) return near(0.5 * (x + y));
+  return near(x) && near(y) && near(simulation.stress().x) && near(simulation.stress().y);
+}
+
+/// Sets walls and discs, or the periodic cell, closing at a homogeneous isotropic rate [1/s]; 0 stops them.
+void close_homogeneously(Simulation& simulation, double rate, double present_rate) {
+  if (simulation.periodic()) {
+    simulation.stretch_cell(rate);
+    return;
+  }
+  simulation.loading.x = simulation.loading.y = AxisDrive::at_rate(rate);
+  simulation.add_uniform_strain_rate(rate - present_rate, rate - present_rate);
+}
+
+/// Closes the assembly to the target's void ratio, ever slower towards it, so that it arrives at rest: the force network of a
+/// flowing assembly would collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
+/// @return the lowest share of the friction that was needed
+double close_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction& friction, SettlingTarget const& target,
+                           ProgressCallback const& progress) {
+  constexpr int look = 10;                 // steps between looks at the stress
+  constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
+  constexpr double slowing_range = 0.004;  // in void ratio
+  double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.density(), target.d50);
+  double rate = 0, lowest = 1;
+  while (simulation.void_ratio() > target.void_ratio + 1e-5) {
+    double const above = simulation.void_ratio() - target.void_ratio;
+    double const hurry = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
+    double const slowed = full_rate * hurry * std::clamp(above / slowing_range, 0.05, 1.0);
+    close_homogeneously(simulation, slowed, rate);
+    rate = slowed;
+    for (int n = 0; n < look; ++n) simulation.step();
+    double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
+    friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
+    lowest = std::min(lowest, friction.share);
+    simulation.set_laws(generation_laws(scene, friction));
+    if (friction.share < 1e-3 && mean_stress(simulation) > 4 * target.stress) {
+      throw Refused("without friction these grains resist densification beyond a void ratio of " +
+                    std::to_string(simulation.void_ratio()) + " at " + std::to_string(target.stress / 1e3) + " kPa; " +
+                    std::to_string(target.void_ratio) + " is denser");
+    }
+    if (simulation.steps() % 1000 == 0) {
+      report(progress, {"generate", 0.7,
+                        "void ratio " + percent_text(simulation.void_ratio(), 4) + " -> " + percent_text(target.void_ratio, 4),
+                        simulation.steps() * simulation.discs()});
+    }
+  }
+  close_homogeneously(simulation, 0, rate);
+  return lowest;
+}
+
+}  // namespace
+
+double strain_rate_of(double inertial_number, double stress, double density, double d50) {
+  return inertial_number * std::sqrt(stress / density) / d50;
+}
+
+double mean_stress(Simulation const& simulation) {
+  if (simulation.periodic()) {
+    Measures const m = simulation.measures();
+    return 0.5 * (m.stress_area_xx + m.stress_area_yy) / simulation.area();
+  }
+  WallStress const stress = simulation.stress();
+  return 0.5 * (stress.x + stress.y);
+}
+
+double wave_speed(Simulation const& simulation) {
+  double const bulk_density = simulation.density() / (1 + simulation.void_ratio());
+  return std::sqrt(packing_modulus(simulation.laws().contact.grain) / bulk_density);
+}
+
+SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction) {
+  SimulationLaws laws;
+  laws.contact.grain = friction.apply(grain_law(scene));
+  laws.contact.grain.damping_ratio = 0;
+  laws.wall = wall_law(scene, 0);
+  laws.motion.damping = 0.7;
+  return laws;
+}
+
+void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, double dt_safety) {
+  simulation.time_step = simulation.stable_time_step(dt_safety);
+  if (simulation.periodic()) return;
+  Walls const& walls = simulation.walls();
+  double const rate = strain_rate_of(inertial_number, stress, simulation.density(), d50);
+  simulation.loading.servo.contact_stiffness = simulation.laws().wall.normal_stiffness;
+  simulation.loading.servo.integral_time = 0.25 * std::max(walls.width(), walls.height()) / wave_speed(simulation);
+  simulation.loading.x = AxisDrive::at_stress(stress, 0.5 * rate * walls.width());
+  simulation.loading.y = AxisDrive::at_stress(stress, 0.5 * rate * walls.height());
+}
+
+bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
+                 char const* stage) {
+  std::int64_t const first = simulation.steps();
+  double const largest_rate = 0.02 / (1000 * simulation.time_step);
+  int calm = 0;
+  while (simulation.steps() - first < most_steps && calm < 3) {
+    if (simulation.periodic()) steer_cell(simulation, stress, largest_rate);
+    std::int64_t const steps = std::min<std::int64_t>(chunk, first + most_steps - simulation.steps());
+    for (std::int64_t n = 0; n < steps; ++n) simulation.step();
+    Measures const m = simulation.measures();
+    calm = holds_stress(simulation, m, stress) && m.unbalanced_ratio(simulation.discs()) < rest ? calm + 1 : 0;
+    report(progress,
+           {stage, static_cast<double>(simulation.steps() - first) / static_cast<double>(most_steps),
+            "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),
+            simulation.steps() * simulation.discs()});
+  }
+  simulation.stretch_cell(0);
+  return calm >= 3;
+}
+
+double settle(Simulation& simulation, Scene const& scene, GenerationFriction friction, SettlingTarget const& target,
+              ProgressCallback const& progress) {
+  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, scene.run.dt_safety);
+  AxisDrive const servo_x = simulation.loading.x, servo_y = simulation.loading.y;
+  double const lowest = close_to_void_ratio(simulation, scene, friction, target, progress);
+  // With the full friction back the assembly creeps no further.
+  friction.share = 1;
+  simulation.set_laws(generation_laws(scene, friction));
+  simulation.loading.x = servo_x;
+  simulation.loading.y = servo_y;
+  hold_stress(simulation, target.stress, 1e-3, 200000, progress, "generate");
+  if (simulation.void_ratio() < target.void_ratio - target.void_tolerance) {
+    throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains pack to a void ratio of " +
+                  std::to_string(simulation.void_ratio()) + " with a friction of " + std::to_string(friction.friction) +
+                  " and a shape factor of " + std::to_string(friction.shape_factor) + "; " + std::to_string(target.void_ratio) +
+                  " is looser than they can hold");
+  }
+  return lowest;
+}
+
+}  // namespace clathra

@@ -1,0 +1,61 @@
+#pragma once
+/// Bringing an assembly to rest under an isotropic stress, at a wanted void ratio.
+#include "domain/scene/progress.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/simulation/simulation.hpp"
+
+namespace clathra {
+
+/// What a settled assembly should look like.
+struct SettlingTarget {
+  double stress = 50e3;   ///< isotropic [Pa]
+  double void_ratio = 0;  ///< nominal
+  double void_tolerance = 0.004;
+  double inertial_number = 1e-4;  ///< rate of the closing, and cap on the walls' rate
+  double d50 = 0;                 ///< [m]
+};
+
+/// Friction and shape factor used in generation: a single knob between the loosest (share 1) and the densest (share 0) packing.
+/// Rolling resistance joins in only where friction alone packs too densely.
+struct GenerationFriction {
+  double friction = 0.5;
+  double shape_factor = 0;
+  double share = 1;
+  GrainLaw apply(GrainLaw law) const {
+    law.friction = friction * share;
+    law.shape_factor = shape_factor > 0 ? shape_factor * std::max(share, 1e-6) : 0;
+    return law;
+  }
+};
+
+/// The laws of generation for a scene: frictionless walls, no bonds, strong local damping (0.7).
+SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction);
+
+/// Closes the box homogeneously, walls and discs together, from a looser state to the target void ratio; the friction is lowered
+/// where the stress exceeds the target and raised where it falls short, so that the assembly yields everywhere alike. Then it
+/// comes to rest at the stress (unbalanced ratio < 1e-3, contacts and walls within 0.5 %) with the full friction back, so that it
+/// creeps no further. No search for a friction is needed.
+/// @return the lowest share;  @throws Refused where the target is denser than frictionless grains pack, or looser than full
+/// friction holds
+double settle(Simulation& simulation, Scene const& scene, GenerationFriction friction, SettlingTarget const& target,
+              ProgressCallback const& progress);
+
+/// Steps with walls (or the periodic cell) steered to an isotropic stress until it holds within 0.5 % and the unbalanced ratio is
+/// below `rest`.
+/// @return false if that took more than `most_steps`
+bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
+                 char const* stage);
+
+/// Sets time step, servo constants and speed caps of a simulation for an isotropic stress.
+void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, double dt_safety);
+
+/// Speed of compression waves in the assembly [m/s], from a modulus of 0.8 k_n and the bulk density.
+double wave_speed(Simulation const& simulation);
+
+/// Mean stress [Pa] now: from the walls, or from the contacts of a periodic cell.
+double mean_stress(Simulation const& simulation);
+
+/// Strain rate [1/s] of an inertial number, I = rate * d50 * sqrt(density / stress).
+double strain_rate_of(double inertial_number, double stress, double density, double d50);
+
+}  // namespace clathra

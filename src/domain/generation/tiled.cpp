@@ -1,0 +1,185 @@
+#include "domain/generation/tiled.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "domain/generation/equilibration.hpp"
+#include "domain/generation/random_sequential_addition.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr double loose_solid_fraction = 0.5;
+constexpr std::int64_t relaxation_steps = 3000;  // about what a wave needs to cross some tens of grains and come to rest
+
+/// A box covered by copies of a periodic cell. Discs are numbered tile by tile as they come; what a tile holds follows from its
+/// place alone, so that no list of all discs is needed.
+class Tiling {
+ public:
+  Tiling(Specimen const& cell, double width, double height)
+      : cell_(cell),
+        width_(width),
+        height_(height),
+        columns_(static_cast<int>(std::ceil(width / cell.width())) + 1),
+        rows_(static_cast<int>(std::ceil(height / cell.height())) + 1),
+        place_(cell.size()),
+        first_id_(static_cast<std::size_t>(tiles()) + 1, 0) {
+    for (std::size_t i = 0; i < cell_.size(); ++i) place_[static_cast<std::size_t>(cell_.id[i])] = i;
+    for (int tile = 0; tile < tiles(); ++tile) {
+      int kept = 0;
+      for (std::size_t i = 0; i < cell_.size(); ++i) kept += keeps(tile, i) ? 1 : 0;
+      first_id_[static_cast<std::size_t>(tile) + 1] = first_id_[static_cast<std::size_t>(tile)] + kept;
+    }
+  }
+  int tiles() const { return columns_ * rows_; }
+
+  /// Adds the discs of a tile that lie wholly in the box.
+  void copy_discs(int tile, Specimen& whole) const {
+    int id = first_id_[static_cast<std::size_t>(tile)];
+    for (std::size_t i = 0; i < cell_.size(); ++i) {
+      if (!keeps(tile, i)) continue;
+      whole.id.push_back(id++);
+      whole.x.push_back(x(tile, i));
+      whole.y.push_back(y(tile, i));
+      whole.radius.push_back(cell_.radius[i]);
+      for (auto* field : {&whole.angle, &whole.vx, &whole.vy, &whole.omega}) field->push_back(0);
+    }
+  }
+
+  /// Adds the contacts, with their history, whose first disc is in a tile and whose second one is in the box.
+  void copy_contacts(int tile, Specimen& whole) const {
+    std::map<int, std::vector<int>> ids;  // of the discs of this tile and those around it
+    int const column = tile % columns_, row = tile / columns_;
+    for (SpecimenContact const& c : cell_.contacts) {
+      std::size_t const a = place_[static_cast<std::size_t>(c.id_a)], b = place_[static_cast<std::size_t>(c.id_b)];
+      // The image of b that touches a lies in the same tile or in the one next to it.
+      auto const right = static_cast<int>(-std::llround((cell_.x[b] - cell_.x[a]) / cell_.width())),
+                 up = static_cast<int>(-std::llround((cell_.y[b] - cell_.y[a]) / cell_.height()));
+      if (column + right < 0 || column + right >= columns_ || row + up < 0 || row + up >= rows_) continue;
+      int const other = (row + up) * columns_ + column + right;
+      for (int const t : {tile, other}) {
+        if (ids[t].empty()) ids[t] = ids_of(t);
+      }
+      add_contact(whole, c, ids[tile][a], ids[other][b]);
+    }
+  }
+
+ private:
+  double x(int tile, std::size_t i) const { return cell_.x[i] - cell_.left + (tile % columns_) * cell_.width(); }
+  double y(int tile, std::size_t i) const { return cell_.y[i] - cell_.bottom + (tile / columns_) * cell_.height(); }
+  bool keeps(int tile, std::size_t i) const {
+    double const at_x = x(tile, i), at_y = y(tile, i), r = cell_.radius[i];
+    return !(at_x < r || at_x > width_ - r || at_y < r || at_y > height_ - r);
+  }
+
+  /// By place in the cell; -1 where the box cuts a disc away.
+  std::vector<int> ids_of(int tile) const {
+    std::vector<int> ids(cell_.size(), -1);
+    int id = first_id_[static_cast<std::size_t>(tile)];
+    for (std::size_t i = 0; i < cell_.size(); ++i) {
+      if (keeps(tile, i)) ids[i] = id++;
+    }
+    return ids;
+  }
+
+  static void add_contact(Specimen& whole, SpecimenContact copy, int id_a, int id_b) {
+    if (id_a < 0 || id_b < 0) return;
+    copy.id_a = std::min(id_a, id_b);
+    copy.id_b = std::max(id_a, id_b);
+    if (id_a > id_b) {
+      copy.moment = -copy.moment;
+      copy.bond_moment = -copy.bond_moment;
+    }
+    whole.contacts.push_back(copy);
+  }
+
+  Specimen const& cell_;
+  double width_, height_;
+  int columns_, rows_;
+  std::vector<std::size_t> place_;  // of a disc of the cell, by id
+  std::vector<int> first_id_;       // of each tile
+};
+
+}  // namespace
+
+PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design, std::int64_t particles,
+                                  ProgressCallback const& progress) {
+  double const d50 = design.grading.d50();
+  GenerationFriction knob;
+  if (design.void_ratio > 0.25) knob.shape_factor = 2;
+  Specimen specimen;
+  specimen.periodic = true;
+  specimen.density = scene.grains.density;
+  specimen.d50 = d50;
+  specimen.radius = random_radii(design.grading, particles, scene.run.seed, 100);
+  double solid = 0;
+  for (double r : specimen.radius) solid += pi * r * r;
+  double const side = std::sqrt(solid / loose_solid_fraction);
+  specimen.right = specimen.top = side;
+  Placement const placed = place_loosely(specimen.radius, {0, 0, side, side, true}, scene.run.seed, 1);
+  specimen.x = placed.x;
+  specimen.y = placed.y;
+  for (std::int64_t i = 0; i < particles; ++i) specimen.id.push_back(static_cast<int>(i));
+  Simulation simulation(specimen, generation_laws(scene, knob), 0.2 * d50);
+  SettlingTarget target;
+  target.stress = scene.bond.stress;
+  target.void_ratio = design.void_ratio;
+  target.d50 = d50;
+  PackedSpecimen packed;
+  double const share = settle(simulation, scene, knob, target, progress);
+  packed.specimen = simulation.specimen();
+  packed.specimen.stress = scene.bond.stress;
+  packed.friction = knob.friction * share;
+  packed.shape_factor = knob.shape_factor * share;
+  packed.disc_steps = simulation.steps() * simulation.discs();
+  return packed;
+}
+
+Specimen replicate(Specimen const& cell, double width, double height, Ranks const& ranks) {
+  Specimen whole;
+  whole.right = width;
+  whole.top = height;
+  whole.density = cell.density;
+  whole.d50 = cell.d50;
+  whole.stress = cell.stress;
+  Tiling const tiling(cell, width, height);
+  int const first = tiling.tiles() * ranks.rank() / ranks.count(), last = tiling.tiles() * (ranks.rank() + 1) / ranks.count();
+  for (int tile = first; tile < last; ++tile) {
+    tiling.copy_discs(tile, whole);
+    tiling.copy_contacts(tile, whole);
+  }
+  return whole;
+}
+
+PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+                              Ranks const& ranks) {
+  double const d50 = design.grading.d50();
+  std::int64_t const tile = std::min(scene.sample.tile_particles, design.particles);
+  PackedSpecimen packed = pack_periodic_cell(scene, design, tile, progress);
+  Specimen const whole = replicate(packed.specimen, design.width, design.height, ranks);
+  GenerationFriction knob;
+  if (design.void_ratio > 0.25) knob.shape_factor = 2;
+  Simulation simulation(whole, generation_laws(scene, knob), 0.05 * d50, ranks);
+  // The cell's equilibrium is kept inside; the walls close the cut discs' gaps at a speed whose wave stays below the stress.
+  prepare_servo(simulation, scene.bond.stress, 1e-3, d50, 0.8);
+  double const quiet = 0.5 * scene.bond.stress / (simulation.density() / (1 + design.void_ratio) * wave_speed(simulation));
+  simulation.loading.x.largest_speed = simulation.loading.y.largest_speed = quiet;
+  for (std::int64_t n = 0; n < relaxation_steps; ++n) {
+    simulation.step();
+    if (n % 100 == 99) {
+      report(progress, {"generate", 0.7 + 0.3 * static_cast<double>(n) / relaxation_steps, "relaxing near the walls",
+                        packed.disc_steps + simulation.steps() * simulation.discs()});
+    }
+  }
+  packed.disc_steps += simulation.steps() * simulation.discs();
+  packed.specimen = simulation.specimen();
+  packed.specimen.stress = scene.bond.stress;
+  packed.unbalanced = simulation.measures().unbalanced_ratio(simulation.discs());
+  packed.stress_x = simulation.stress().x;
+  packed.stress_y = simulation.stress().y;
+  return packed;
+}
+
+}  // namespace clathra

@@ -1,0 +1,248 @@
+#include "domain/parallel/disc_record.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <type_traits>
+
+namespace clathra {
+
+namespace {
+
+using Offsets = Field<std::int64_t>;
+
+struct RowLengths {
+  Field<int> which, length, row_length;
+  KOKKOS_FUNCTION void operator()(int k) const { length(k) = row_length(which(k)); }
+};
+
+/// A vector as a field on the host, without a copy.
+template <class Vector>
+auto on_host_view(Vector& numbers) {
+  using Number = std::remove_pointer_t<decltype(numbers.data())>;
+  return Kokkos::View<Number*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(numbers.data(), numbers.size());
+}
+
+/// Writes records but for the companions, for which it leaves room.
+template <class Numbers>
+struct Pack {
+  Field<int> which;
+  ParticleSoA p;
+  ContactRows rows;
+  int companions;
+  Offsets begin;
+  Numbers numbers;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    int const i = which(k), length = rows.length(i);
+    auto at = begin(k);
+    for_each_field(p, [&](DiscField const&, auto const& field) { numbers(at++) = field(i); });
+    at += companions;
+    numbers(at++) = length;
+    for (int n = 0; n < length; ++n) {
+      std::size_t const e = rows.entry(i, n);
+      numbers(at++) = rows.neighbour(e);
+      for_each_history(rows, [&](HistoryField const&, auto const& field) { numbers(at++) = field(e); });
+    }
+  }
+};
+
+template <class Numbers>
+struct Unpack {
+  Numbers numbers;
+  Offsets begin;
+  int first;  // where the new discs go
+  ParticleSoA p;
+  ContactRows rows;
+  int companions;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    auto at = begin(k);
+    for_each_field(p, [&, i = first + k](DiscField const&, auto const& field) { field(i) = as_in(field, numbers(at++)); });
+    at += companions;
+    auto const length = static_cast<int>(numbers(at++));
+    rows.length(k) = length;
+    for (int n = 0; n < length; ++n) {
+      std::size_t const e = rows.entry(k, n);
+      rows.neighbour(e) = static_cast<int>(numbers(at++));
+      for_each_history(rows, [&](HistoryField const&, auto const& field) { field(e) = as_in(field, numbers(at++)); });
+    }
+  }
+  template <class T>
+  KOKKOS_INLINE_FUNCTION static T as_in(Field<T> const&, double number) {
+    return static_cast<T>(number);
+  }
+};
+
+/// One companion of all discs, to or from its place `offset` behind the beginning of their records.
+template <class T, class Numbers>
+struct PackCompanion {
+  Field<int> which;
+  Field<T> field;
+  Offsets begin;
+  int offset;
+  Numbers numbers;
+  KOKKOS_FUNCTION void operator()(int k) const { numbers(begin(k) + offset) = field(which(k)); }
+};
+template <class T, class Numbers>
+struct UnpackCompanion {
+  Numbers numbers;
+  Offsets begin;
+  int offset, first;
+  Field<T> field;
+  KOKKOS_FUNCTION void operator()(int k) const { field(first + k) = static_cast<T>(numbers(begin(k) + offset)); }
+};
+
+/// How many numbers a record has for the state of its disc, the id among them.
+int state_columns() {
+  ParticleSoA const none;
+  int count = 0;
+  for_each_field(none, [&](DiscField const&, auto const&) { ++count; });
+  return count;
+}
+
+int history_columns(ContactFeatures const& features) {
+  ContactRows none;
+  none.features = features;
+  int count = 0;
+  for_each_history(none, [&](HistoryField const&, auto const&) { ++count; });
+  return count;
+}
+
+template <class T>
+Field<T> on_device(char const* label, std::vector<T> const& values) {
+  Field<T> const field = uninitialised<T>(label, values.size());
+  auto host = Kokkos::create_mirror_view(field);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(field, host);
+  return field;
+}
+
+template <class T>
+std::vector<T> on_host(Field<T> const& field) {
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
+  return {host.data(), host.data() + host.extent(0)};
+}
+
+std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) { return {begin.begin(), begin.end()}; }
+
+}  // namespace
+
+RecordColumns record_columns(Companions const& companions, ContactFeatures const& features) {
+  RecordColumns columns;
+  ParticleSoA const none;
+  for_each_field(none, [&](DiscField const& about, auto const&) { columns.discs.emplace_back(about.name); });
+  columns.discs.erase(columns.discs.begin());  // the id stands for itself
+  for (Companion const& companion : companions) columns.discs.emplace_back(companion.name);
+  ContactRows rows;
+  rows.features = features;
+  for_each_history(rows, [&](HistoryField const& about, auto const&) { columns.history.emplace_back(about.name); });
+  return columns;
+}
+
+DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companions, ContactRows const& rows,
+                       std::vector<int> const& which) {
+  auto const others = static_cast<int>(companions.size());
+  int const state = state_columns(), entry = 1 + history_columns(rows.features);
+  auto const n = static_cast<int>(which.size());
+  Field<int> const indices = on_device("packed", which), length = uninitialised<int>("packed_lengths", which.size());
+  Kokkos::RangePolicy<ExecutionSpace> const each(0, n);
+  Kokkos::parallel_for("row_lengths", each, RowLengths{indices, length, rows.length});
+  DiscRecords records;
+  records.begin.reserve(which.size() + 1);
+  for (int const entries : on_host(length)) {
+    records.begin.push_back(records.begin.back() + static_cast<std::size_t>(state + others + 1 + entries * entry));
+  }
+  records.numbers.resize(records.begin.back());
+  auto const home = on_host_view(records.numbers);
+  auto const numbers = Kokkos::create_mirror_view(ExecutionSpace::memory_space(), home);  // itself where kernels reach the host
+  using Numbers = std::remove_const_t<decltype(numbers)>;
+  Offsets const begin = on_device("record_offsets", signed_offsets(records.begin));
+  Kokkos::parallel_for("pack_discs", each, Pack<Numbers>{indices, particles, rows, others, begin, numbers});
+  int offset = state;
+  for_each_companion(companions, [&]<class T>(Field<T> const& field) {
+    Kokkos::parallel_for("pack_companion", each, PackCompanion<T, Numbers>{indices, field, begin, offset++, numbers});
+  });
+  Kokkos::fence();
+  Kokkos::deep_copy(home, numbers);
+  return records;
+}
+
+namespace {
+
+/// Where each wanted column stands among the present ones.
+std::vector<std::size_t> places_of(std::vector<std::string> const& wanted, std::vector<std::string> const& present) {
+  std::vector<std::size_t> places;
+  for (std::string const& name : wanted) {
+    auto const at = std::find(present.begin(), present.end(), name);
+    if (at == present.end()) throw std::runtime_error("a checkpoint lacks the numbers '" + name + "' of its discs");
+    places.push_back(static_cast<std::size_t>(at - present.begin()));
+  }
+  return places;
+}
+
+}  // namespace
+
+DiscRecords with_columns(DiscRecords records, RecordColumns const& present, RecordColumns const& wanted) {
+  if (present == wanted) return records;
+  auto const discs = places_of(wanted.discs, present.discs), history = places_of(wanted.history, present.history);
+  DiscRecords fewer;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    double const* at = &records.numbers[records.begin[k]];
+    auto const length = static_cast<std::size_t>(at[1 + present.discs.size()]);
+    fewer.numbers.push_back(at[0]);
+    for (std::size_t const place : discs) fewer.numbers.push_back(at[1 + place]);
+    fewer.numbers.push_back(static_cast<double>(length));
+    at += 2 + present.discs.size();
+    for (std::size_t n = 0; n < length; ++n, at += 1 + present.history.size()) {
+      fewer.numbers.push_back(at[0]);
+      for (std::size_t const place : history) fewer.numbers.push_back(at[1 + place]);
+    }
+    fewer.begin.push_back(fewer.numbers.size());
+  }
+  return fewer;
+}
+
+ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures const& features, ParticleSoA& particles,
+                         Companions const& companions) {
+  ContactRows rows;
+  rows.features = features;
+  auto const others = static_cast<int>(companions.size());
+  int const state = state_columns(), columns = state + others, histories = history_columns(features);
+  std::vector<std::int64_t> begin;
+  std::vector<int> slice_start{0};
+  int widest = 0;
+  for (std::size_t at = 0; at < numbers.size();) {
+    begin.push_back(static_cast<std::int64_t>(at));
+    auto const length = static_cast<int>(numbers[at + static_cast<std::size_t>(columns)]);
+    at += static_cast<std::size_t>(columns + 1 + length * (1 + histories));
+    widest = std::max(widest, length);
+    if (begin.size() % slice_width != 0 && at < numbers.size()) continue;
+    require_countable((std::int64_t{slice_start.back()} + widest) * slice_width, 0);
+    slice_start.push_back(slice_start.back() + widest);
+    widest = 0;
+  }
+  int const first = particles.owned;
+  auto const came = static_cast<int>(begin.size());
+  reserve(particles, first + came);
+  particles.owned = first + came;
+  particles.ghosts = 0;
+  for_each_companion(companions, [&](auto& field) { Kokkos::resize(field, particles.x.extent(0)); });
+  fill_padding(particles);
+  rows.slice_start = on_device("rows.slice_start", slice_start);
+  rows.length = uninitialised<int>("rows.length", begin.size());
+  rows.neighbour = uninitialised<int>("rows.neighbour", static_cast<std::size_t>(slice_start.back()) * slice_width);
+  allocate_history(rows, rows.neighbour.extent(0));
+  auto const reached = Kokkos::create_mirror_view_and_copy(ExecutionSpace::memory_space(), on_host_view(numbers));
+  using Numbers = std::remove_const_t<decltype(reached)>;
+  Offsets const offsets = on_device("record_offsets", begin);
+  Kokkos::RangePolicy<ExecutionSpace> const each(0, came);
+  Kokkos::parallel_for("unpack_discs", each, Unpack<Numbers>{reached, offsets, first, particles, rows, others});
+  int offset = state;
+  for_each_companion(companions, [&]<class T>(Field<T> const& field) {
+    Kokkos::parallel_for("unpack_companion", each, UnpackCompanion<T, Numbers>{reached, offsets, offset++, first, field});
+  });
+  Kokkos::fence();  // the numbers are the caller's
+  return rows;
+}
+
+}  // namespace clathra

@@ -1,0 +1,14 @@
+#pragma once
+/// Discs that crossed a cut change their owner.
+#include "domain/parallel/decomposition.hpp"
+#include "domain/parallel/disc_record.hpp"
+
+namespace clathra {
+
+/// Gives the discs that lie in other ranks' rectangles to these, with their rows and companions, and takes those that came. The
+/// discs that stay keep their order; those that came stand behind them.
+/// @param slot  [owned] the slot of each disc in `old`; brought up to date
+void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, Companions const& companions,
+             OldRows& old, Field<int>& slot);
+
+}  // namespace clathra

@@ -1,0 +1,163 @@
+#include "domain/scene/grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "domain/scene/csv_rows.hpp"
+#include "domain/scene/units.hpp"
+
+namespace clathra {
+
+Grading::Grading(std::vector<double> diameters, std::vector<double> finer)
+    : diameters_(std::move(diameters)), finer_(std::move(finer)) {
+  if (diameters_.size() != finer_.size() || diameters_.empty())
+    throw std::invalid_argument("a grading needs pairs of diameter and percent finer");
+  for (std::size_t k = 0; k < diameters_.size(); ++k) {
+    bool const rising = k == 0 || (diameters_[k] > diameters_[k - 1] && finer_[k] >= finer_[k - 1]);
+    if (!(diameters_[k] > 0) || !(finer_[k] >= 0 && finer_[k] <= 1) || !rising) {
+      throw std::invalid_argument("grading row " + std::to_string(k + 1) + " (diameter " + std::to_string(diameters_[k] * 1e3) +
+                                  " mm, finer " + std::to_string(finer_[k] * 100) +
+                                  " %) must have a larger diameter and not less finer than the row before");
+    }
+  }
+  if (finer_.back() != 1 || (diameters_.size() > 1 && finer_.front() != 0)) {
+    throw std::invalid_argument("a grading must begin at 0 % finer and end at 100 % finer");
+  }
+  // Between two points dF is uniform in s = ln d, and the number of discs is dF / d^2: its integral is known.
+  number_.assign(diameters_.size(), 0);
+  for (std::size_t k = 1; k < diameters_.size(); ++k) {
+    double const slope = (finer_[k] - finer_[k - 1]) / std::log(diameters_[k] / diameters_[k - 1]);
+    number_[k] = number_[k - 1] + 0.5 * slope * (std::pow(diameters_[k - 1], -2) - std::pow(diameters_[k], -2));
+  }
+}
+
+Grading Grading::toyoura() {
+  return Grading({0.100e-3, 0.106e-3, 0.125e-3, 0.15e-3, 0.1694e-3, 0.19e-3, 0.212e-3, 0.25e-3, 0.30e-3},
+                 {0, 0.03, 0.12, 0.32, 0.50, 0.67, 0.82, 0.95, 1});
+}
+
+Grading Grading::uniform(double diameter) { return Grading({diameter}, {1}); }
+
+Grading Grading::from_csv(std::string const& path) {
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument("grading file '" + path + "' cannot be read");
+  std::string const text{std::istreambuf_iterator<char>(file), {}};
+  CsvRows rows(text);
+  std::string_view const header = rows.next_or_rest() ? rows.text() : "";
+  double const unit = header.starts_with("d_mm") ? 1e-3 : header.starts_with("d_um") ? 1e-6 : header.starts_with("d_m,") ? 1 : 0;
+  auto const quoted = [&] { return "'" + std::string(rows.text().substr(0, 60)) + "'"; };
+  if (unit == 0)
+    throw std::invalid_argument(path + ":1: the header must be 'd_mm,percent_finer' (or d_um, d_m), got " + quoted());
+  std::vector<double> diameters, finer;
+  while (rows.next_or_rest()) {
+    if (rows.text().empty() || rows.text()[0] == '#') continue;
+    try {
+      diameters.push_back(parse_number(rows.cells().at(0)) * unit);
+      finer.push_back(parse_number(rows.cells().at(1)) / 100);
+    } catch (std::logic_error const&) {
+      throw std::invalid_argument(path + ":" + std::to_string(rows.line()) + ": expected 'diameter,percent finer', got " +
+                                  quoted());
+    }
+  }
+  try {
+    return Grading(diameters, finer);
+  } catch (std::invalid_argument const& problem) {
+    throw std::invalid_argument(path + ": " + problem.what());
+  }
+}
+
+Grading Grading::of(GradingScene const& scene) {
+  Grading const base = !scene.file.empty()        ? from_csv(scene.file)
+                       : scene.table == "uniform" ? uniform(scene.d50 > 0 ? scene.d50 : 0.1694e-3)
+                                                  : toyoura();
+  return scene.d50 > 0 ? base.scaled(scene.d50 / base.d50()) : base;
+}
+
+double Grading::diameter_finer(double fraction) const {
+  if (diameters_.size() == 1) return diameters_[0];
+  std::size_t k = 1;
+  while (k + 1 < finer_.size() && finer_[k] < fraction) ++k;
+  double const share = finer_[k] > finer_[k - 1] ? (fraction - finer_[k - 1]) / (finer_[k] - finer_[k - 1]) : 0;
+  return diameters_[k - 1] * std::pow(diameters_[k] / diameters_[k - 1], share);
+}
+
+double Grading::finer_than(double diameter) const {
+  if (diameters_.size() == 1 || diameter <= smallest()) return diameter > smallest() ? 1 : 0;
+  if (diameter >= largest()) return 1;
+  std::size_t k = 1;
+  while (diameters_[k] < diameter) ++k;
+  return finer_[k - 1] +
+         (finer_[k] - finer_[k - 1]) * std::log(diameter / diameters_[k - 1]) / std::log(diameters_[k] / diameters_[k - 1]);
+}
+
+double Grading::mean_disc_area() const {
+  if (diameters_.size() == 1) return 0.25 * pi * diameters_[0] * diameters_[0];
+  return 0.25 * pi / number_.back();
+}
+
+Grading Grading::scaled(double factor) const {
+  std::vector<double> diameters = diameters_;
+  for (double& d : diameters) d *= factor;
+  return Grading(diameters, finer_);
+}
+
+std::vector<double> Grading::diameters(std::size_t count) const {
+  if (diameters_.size() == 1) return std::vector<double>(count, diameters_[0]);
+  std::vector<double> sizes(count);
+  std::size_t k = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    double const wanted = number_.back() * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    while (k + 1 < number_.size() && number_[k] < wanted) ++k;
+    double const slope = (finer_[k] - finer_[k - 1]) / std::log(diameters_[k] / diameters_[k - 1]);
+    sizes[i] = 1 / std::sqrt(std::pow(diameters_[k - 1], -2) - 2 * (wanted - number_[k - 1]) / slope);
+  }
+  return sizes;
+}
+
+namespace {
+
+/// Sum of r^2 of all ranks, in the order of the sizes.
+double total_area(std::vector<double> const& sorted, Ranks const& ranks) {
+  return ranks.relay(0, [&](double total) {
+    for (double r : sorted) total += r * r;
+    return total;
+  });
+}
+
+}  // namespace
+
+double grading_distance(Grading const& grading, std::vector<double> const& radii, Ranks const& ranks) {
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  double const total = total_area(sorted, ranks);
+  double farthest = 0;
+  ranks.relay(0, [&](double below) {
+    for (double r : sorted) {
+      double const curve = grading.finer_than(2 * r);
+      farthest = std::max(farthest, std::abs(curve - (below + 0.5 * r * r) / total));
+      below += r * r;
+    }
+    return below;
+  });
+  return ranks.max(farthest);
+}
+
+double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks) {
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  double const total = total_area(sorted, ranks);
+  double found = 1e300;
+  ranks.relay(0, [&](double below) {
+    for (double r : sorted) {
+      below += r * r;
+      if (below >= fraction * total) found = std::min(found, r);
+    }
+    return below;
+  });
+  found = ranks.min(found);
+  if (found < 1e300) return 2 * found;
+  return 2 * ranks.max(sorted.empty() ? 0 : sorted.back());
+}
+
+}  // namespace clathra

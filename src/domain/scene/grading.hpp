@@ -1,0 +1,51 @@
+#pragma once
+/// Grading curves: percent finer by mass against diameter, and the disc sizes that represent them.
+#include <string>
+#include <vector>
+
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
+
+namespace clathra {
+
+/// A grading curve, linear in log(diameter) between its points. In 2D mass fraction is area fraction.
+class Grading {
+ public:
+  /// @param diameters increasing [m];  @param finer fraction finer, from 0 to 1, not decreasing
+  /// @throws std::invalid_argument with the offending row
+  Grading(std::vector<double> diameters, std::vector<double> finer);
+
+  /// Toyoura sand, d50 = 0.1694 mm, Cu about 1.5 (0.1 to 0.3 mm).
+  static Grading toyoura();
+  /// All discs of one diameter [m].
+  static Grading uniform(double diameter);
+  /// CSV of two columns, diameter (header names the unit: d_mm, d_um or d_m) and percent finer.
+  static Grading from_csv(std::string const& path);
+  /// The grading of a scene, scaled to its d50 where one is given.
+  static Grading of(GradingScene const& scene);
+
+  double diameter_finer(double fraction) const;  ///< d_x [m] for a mass fraction x
+  double d50() const { return diameter_finer(0.5); }
+  double smallest() const { return diameters_.front(); }
+  double largest() const { return diameters_.back(); }
+  double finer_than(double diameter) const;  ///< mass fraction finer than a diameter [m]
+  /// Mean disc area pi/4 <d^2> over the number distribution [m^2]; N discs have N times it.
+  double mean_disc_area() const;
+  Grading scaled(double factor) const;
+
+  /// `count` diameters [m] at the mid-quantiles of the number distribution, increasing: the sample of that size nearest to the
+  /// curve.
+  std::vector<double> diameters(std::size_t count) const;
+
+ private:
+  std::vector<double> diameters_, finer_;
+  std::vector<double> number_;  // number of discs finer, up to a factor, at each point
+};
+
+/// The largest distance between the grading of discs (by area) and a curve, as a fraction of mass.
+double grading_distance(Grading const& grading, std::vector<double> const& radii, Ranks const& ranks = {});
+
+/// d_x [m] of given discs by area fraction.
+double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks = {});
+
+}  // namespace clathra

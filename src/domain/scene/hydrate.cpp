@@ -1,0 +1,155 @@
+#include "domain/scene/hydrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "domain/scene/units.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double zero_celsius = 273.15;                 // [K]
+constexpr double printed_tensile_stress = 1.421e7;      // 3 q_max,t of Eq. 14a [Pa]
+constexpr double printed_compressive_stress = 2.571e7;  // 3 q_max,c of Eq. 14b [Pa]
+
+std::string state_text(HydrateScene const& hydrate) {
+  return format_number(hydrate.temperature) + " degC, " + format_quantity(hydrate.pore_pressure, Dimension::pressure) + ", " +
+         format_quantity(hydrate.density, Dimension::density);
+}
+
+/// L_r of Eq. 9b, which the paper leaves open (physics page, section 1.4).
+void set_moment_length(BondStrengthLaw& strength, BondScene const& bond) {
+  strength.moment_length = 0;
+  strength.moment_width_ratio = 0;
+  switch (bond.moment_scale) {
+    case MomentScale::paper_si:
+      strength.moment_length = 1;
+      break;
+    case MomentScale::rod_mm:
+      strength.moment_length = 1e-3;
+      break;
+    case MomentScale::similitude:
+      strength.moment_width_ratio = bond.moment_ratio;
+      break;
+  }
+}
+
+}  // namespace
+
+HydrateStrength hydrate_strength(double temperature, double pore_pressure, double density) {
+  double const p = pore_pressure / atmospheric_pressure;
+  double const t = temperature;  // T / T_0 with T_0 = 1 deg C
+  double const r = density / water_density;
+  HydrateStrength strength;
+  strength.compression = atmospheric_pressure * (0.81 * p - 2.08 * t + 184.16 * r - 134.65);
+  strength.tension = atmospheric_pressure * (0.45 * p - 1.15 * t + 101.75 * r - 74.39);
+  strength.modulus = atmospheric_pressure * (3.0 * p - 1.98 * t + 4950.50 * r - 1821.78);
+  return strength;
+}
+
+double critical_thickness_ratio(double saturation) {
+  if (!(saturation >= 0 && saturation <= 1)) {
+    std::string const hint = saturation > 1 && saturation <= 100 ? " (looks like percent: 26 % is 0.26)" : "";
+    throw std::invalid_argument("hydrate saturation must lie between 0 and 1, got " + format_number(saturation) + hint);
+  }
+  if (saturation <= 0.2) return 0;
+  if (saturation <= 0.7) return (-0.3268 * saturation + 0.4879) * saturation - 0.0815;
+  return 0.1;
+}
+
+std::string saturation_warning(double saturation) {
+  std::string const stated = "a saturation of " + format_number(std::round(saturation * 1e8) / 1e6) + " %";
+  if (saturation > 0 && saturation <= 0.2) return stated + " makes no bonds: Eq. 3 has none up to 20 %";
+  if (saturation > 0.7 && saturation <= 1)
+    return stated + " is above the range of Eq. 3, which ends at 70 %: the critical thickness stays at 0.1 d50";
+  return {};
+}
+
+double stability_temperature(double pore_pressure) {
+  if (!(pore_pressure > 0)) return -zero_celsius;
+  double const inverse = 3.79e-3 - 2.83e-4 * std::log10(pore_pressure * 1e-6);
+  return inverse > 0 ? 1 / inverse - zero_celsius : HUGE_VAL;
+}
+
+std::string hydrate_problem(HydrateScene const& hydrate) {
+  double const limit = stability_temperature(hydrate.pore_pressure);
+  if (!hydrate.allow_unstable && !(hydrate.temperature <= limit)) {
+    double const shown = std::floor(limit * 100) / 100;
+    return "hydrate is not stable at " + format_number(hydrate.temperature) + " degC and a pore pressure of " +
+           format_quantity(hydrate.pore_pressure, Dimension::pressure) + ": it dissociates above " + format_number(shown) +
+           " degC (hydrate.allow_unstable = true goes on)";
+  }
+  HydrateStrength const strength = hydrate_strength(hydrate.temperature, hydrate.pore_pressure, hydrate.density);
+  if (!(strength.tension > 0) || !(strength.compression > 0))
+    return "hydrate has no strength left at " + state_text(hydrate) + " (Eq. 13)";
+  if (!(strength.modulus > 0)) return "hydrate has no stiffness left at " + state_text(hydrate) + " (Eq. 18)";
+  return {};
+}
+
+bool has_bonds(Scene const& scene) { return scene.hydrate.saturation > 0 && scene.bond.law != BondLawKind::none; }
+
+BondLaw make_bond_law(Scene const& scene, double critical_thickness) {
+  HydrateScene const& hydrate = scene.hydrate;
+  HydrateStrength const solid = hydrate_strength(hydrate.temperature, hydrate.pore_pressure, hydrate.density);
+  bool const printed = scene.bond.coefficients == CoefficientSource::printed;
+  BondLaw law;
+  law.strength.tensile_stress = printed ? printed_tensile_stress : 3 * solid.tension;
+  law.strength.compressive_stress = printed ? printed_compressive_stress : 3 * solid.compression;
+  set_moment_length(law.strength, scene.bond);
+  law.modulus = solid.modulus;
+  law.particle_stiffness = scene.grains.kn_particle > 0 ? scene.grains.kn_particle : scene.grains.kn;
+  law.critical_thickness = critical_thickness;
+  law.thickness_partner = critical_thickness;
+  if (scene.bond.law == BondLawKind::constant_thickness) {
+    double const plate = scene.bond.plate_thickness > 0 ? scene.bond.plate_thickness : critical_thickness / 2;
+    law.gap_weight = 0;
+    law.plate_thickness = plate;
+    law.thickness_partner = plate;
+  }
+  if (scene.bond.composite == Composite::memory) law.preload_stiffness = scene.grains.kn;
+  // f_s and f_r fall from gap 0 to 1.15 mm and rise from there; the last digits are left to the rounding of exponential().
+  double const flattest = std::min(critical_thickness, 1.15e-3);
+  law.least_shape_of_shear = shape_of_shear(flattest) * (1 - 1e-12);
+  law.least_shape_of_rolling = shape_of_rolling(flattest) * (1 - 1e-12);
+  return law;
+}
+
+BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, double gap, double normal_force) {
+  bool const given = scene.bond.mode == BondingMode::given_thickness;
+  double const h_max = given ? scene.bond.critical_thickness : critical_thickness_ratio(scene.hydrate.saturation) * d50;
+  BondLaw const law = make_bond_law(scene, h_max);
+  HydrateStrength const solid = hydrate_strength(scene.hydrate.temperature, scene.hydrate.pore_pressure, scene.hydrate.density);
+
+  BondCard card;
+  card.h_max = h_max;
+  card.common_radius = common_radius(r1, r2);
+  card.gap = law.gap(-gap);
+  card.B = law.width(card.common_radius, card.gap);
+  card.h0 = effective_thickness(card.gap, law.thickness_partner);
+  card.area = bond_area(card.common_radius, card.B, card.gap, h_max);
+  card.q_c = solid.compression;
+  card.q_t = solid.tension;
+  card.E_m = solid.modulus;
+  card.R_t = tensile_strength(law.strength, card.B, card.gap);
+  card.R_c = compressive_strength(law.strength, card.B, card.gap);
+  card.k_mh = card.h0 > 0 ? card.B * law.modulus / card.h0 : 0;
+  ContactStiffness<double> const stiffness = law.stiffness(card.B, card.gap);
+  card.k_bn = stiffness.normal;
+  card.k_bs = stiffness.shear;
+  card.k_bm = stiffness.rolling;
+  card.f_s = shape_of_shear(card.gap);
+  card.K_s = shear_slope(card.gap);
+  card.f_r = shape_of_rolling(card.gap);
+  card.K_r = rolling_slope(card.gap);
+  card.moment_length = moment_length(law.strength, card.B);
+  card.bonded = scene.bond.law != BondLawKind::none && h_max > 0 && gap < h_max && card.R_t > 0 && card.R_c > 0;
+
+  BondStrength strength = bond_strength(law.strength, card.B, card.gap);
+  card.R_s = strength.shear(normal_force);
+  strength.moment_slope = card.f_r * card.K_r;  // without L_r, which may be 0 for a bond of no width
+  card.R_r_per_length = strength.rolling(normal_force);
+  return card;
+}
+
+}  // namespace clathra

@@ -1,0 +1,60 @@
+#include "domain/scene/sample_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace clathra {
+
+SampleDesign design_sample(Scene const& scene) {
+  SampleScene const& s = scene.sample;
+  SampleDesign design;
+  design.grading = Grading::of(scene.grading);
+  bool const box = s.width > 0 && s.height > 0;
+  if (s.particles <= 0 && !box) throw std::invalid_argument("[sample] needs 'particles' or a box ('width' and 'height')");
+  if (s.particles > 0 && box && s.void_ratio > 0 && scene.grading.d50 > 0) {
+    throw std::invalid_argument(
+        "[sample] particles, box and void_ratio together fix the grading's d50: leave one of the four out");
+  }
+  double const disc = design.grading.mean_disc_area();
+  design.particles = s.particles;
+  design.void_ratio = s.void_ratio > 0 ? s.void_ratio : 0.24;
+  design.width = s.width;
+  design.height = s.height;
+  if (!box) {
+    double const area = static_cast<double>(s.particles) * disc * (1 + design.void_ratio);
+    if (s.width > 0)
+      design.height = area / s.width;
+    else if (s.height > 0)
+      design.width = area / s.height;
+    else {
+      design.width = std::sqrt(area / s.aspect_ratio);
+      design.height = area / design.width;
+    }
+  } else if (s.particles <= 0) {
+    design.particles = std::llround(s.width * s.height / ((1 + design.void_ratio) * disc));
+  } else if (s.void_ratio <= 0) {
+    design.void_ratio = s.width * s.height / (static_cast<double>(s.particles) * disc) - 1;
+    if (design.void_ratio <= 0.15)
+      throw std::invalid_argument("[sample] " + std::to_string(s.particles) +
+                                  " discs of this grading do not fit the box: void ratio " + std::to_string(design.void_ratio));
+  } else {
+    design.grading =
+        design.grading.scaled(std::sqrt(s.width * s.height / ((1 + s.void_ratio) * static_cast<double>(s.particles) * disc)));
+  }
+  return design;
+}
+
+std::string narrowness(double width, double height, double largest, double fewest) {
+  constexpr double rounding = 1e-9;
+  double const side = std::min(width, height), across = side / largest;
+  if (across >= fewest * (1 - rounding)) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the specimen is %.4g mm %s, %.3g times its largest grain (%.4g mm): at least %g times are needed", side * 1e3,
+                width < height ? "wide" : "high", across, largest * 1e3, fewest);
+  return text;
+}
+
+}  // namespace clathra

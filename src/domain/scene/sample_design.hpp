@@ -1,0 +1,29 @@
+#pragma once
+/// Which specimen a scene describes: any three of {particles, box, void ratio, grading} fix the fourth.
+#include <string>
+
+#include "domain/scene/grading.hpp"
+
+namespace clathra {
+
+/// The consistent set of numbers.
+struct SampleDesign {
+  std::int64_t particles = 0;
+  double width = 0, height = 0;  ///< [m], at the bonding stress
+  double void_ratio = 0;         ///< nominal
+  Grading grading = Grading::toyoura();
+};
+
+/// Completes a scene: particles + void ratio + grading give the box (with the aspect ratio, or one given side), box + void ratio
+/// + grading give the particles, particles + box + grading give the void ratio, particles + box + void ratio scale the grading's
+/// d50. A void ratio that is neither given nor follows is 0.24.
+/// @throws std::invalid_argument where all four are given, or fewer than needed
+SampleDesign design_sample(Scene const& scene);
+
+inline constexpr double fewest_grains_across = 3;
+
+/// Why a specimen is too narrow to be one of sand, its smaller side being less than `fewest` of its largest grains; empty where
+/// it is not. @param width, height, largest  [m]
+std::string narrowness(double width, double height, double largest, double fewest = fewest_grains_across);
+
+}  // namespace clathra

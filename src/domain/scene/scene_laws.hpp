@@ -1,0 +1,15 @@
+#pragma once
+/// The contact laws that a scene asks for: the one way from its keys to their constants.
+#include "domain/scene/scene.hpp"
+#include "kernels/walls.hpp"
+
+namespace clathra {
+
+inline GrainLaw grain_law(Scene const& scene) {
+  return {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor, scene.grains.contact_damping};
+}
+
+/// Walls are as stiff as grains, without dashpots.
+inline WallLaw wall_law(Scene const& scene, double friction) { return {scene.grains.kn, scene.grains.ks, friction, 0}; }
+
+}  // namespace clathra

@@ -1,0 +1,257 @@
+#include "domain/scene/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <system_error>
+
+namespace clathra {
+namespace {
+
+/// Powers of metre, kilogram, second and kelvin.
+struct Powers {
+  int length = 0, mass = 0, time = 0, temperature = 0;
+  bool operator==(Powers const&) const = default;
+};
+
+/// value in SI = value in the unit * 10^decimals * factor / divisor + offset.
+struct Unit {
+  std::string_view name;
+  int decimals;
+  double factor;
+  Powers powers;
+  double offset = 0, divisor = 1;
+};
+
+constexpr Powers plain{}, metre{1, 0, 0, 0}, kilogram{0, 1, 0, 0}, second{0, 0, 1, 0}, newton{1, 1, -2, 0}, pascal{-1, 1, -2, 0},
+    kelvin{0, 0, 0, 1};
+
+constexpr std::array units = {
+    Unit{"m", 0, 1, metre},     Unit{"km", 3, 1, metre},          Unit{"cm", -2, 1, metre},
+    Unit{"mm", -3, 1, metre},   Unit{"um", -6, 1, metre},         Unit{"nm", -9, 1, metre},
+    Unit{"kg", 0, 1, kilogram}, Unit{"g", -3, 1, kilogram},       Unit{"mg", -6, 1, kilogram},
+    Unit{"t", 3, 1, kilogram},  Unit{"s", 0, 1, second},          Unit{"ms", -3, 1, second},
+    Unit{"us", -6, 1, second},  Unit{"ns", -9, 1, second},        Unit{"min", 0, 60, second},
+    Unit{"h", 2, 36, second},   Unit{"d", 2, 864, second},        Unit{"N", 0, 1, newton},
+    Unit{"mN", -3, 1, newton},  Unit{"kN", 3, 1, newton},         Unit{"MN", 6, 1, newton},
+    Unit{"GN", 9, 1, newton},   Unit{"Pa", 0, 1, pascal},         Unit{"hPa", 2, 1, pascal},
+    Unit{"kPa", 3, 1, pascal},  Unit{"MPa", 6, 1, pascal},        Unit{"GPa", 9, 1, pascal},
+    Unit{"bar", 5, 1, pascal},  Unit{"atm", 0, 101325, pascal},   Unit{"psi", 0, 6894.757293168361, pascal},
+    Unit{"%", -2, 1, plain},    Unit{"1", 0, 1, plain},           Unit{"degC", 0, 1, kelvin},
+    Unit{"C", 0, 1, kelvin},    Unit{"K", 0, 1, kelvin, -273.15}, Unit{"Hz", 0, 1, {0, 0, -1, 0}},
+    Unit{"TPa", 12, 1, pascal}, Unit{"in", -4, 254, metre},
+};
+
+struct DimensionEntry {
+  std::string_view name, bare_unit, example;
+  Powers powers;
+  std::array<std::string_view, 5> shown;  ///< units that format_quantity() tries in turn
+};
+
+constexpr std::array<DimensionEntry, 8> dimensions = {{
+    {"a plain number or a percentage", "", "0.26", plain, {}},
+    {"a length", "m", "\"0.1694 mm\"", metre, {"m", "mm", "um", "nm"}},
+    {"a pressure", "Pa", "\"1 MPa\"", pascal, {"GPa", "MPa", "kPa", "Pa"}},
+    {"a density", "kg/m^3", "\"0.9 g/cm^3\"", {-3, 1, 0, 0}, {"kg/m^3"}},
+    {"a temperature", "degC", "\"5 degC\"", kelvin, {"degC"}},
+    {"a rate", "1/s", "\"5 %/min\"", {0, 0, -1, 0}, {"1/s"}},
+    {"a stiffness", "N/m", "\"300 MPa\"", pascal, {"GPa", "MPa", "kPa", "Pa", "TPa"}},
+    {"a force per metre", "N/m", "\"200 N/m\"", {0, 1, -2, 0}, {"MN/m", "kN/m", "N/m"}},
+}};
+
+DimensionEntry const& entry(Dimension dimension) { return dimensions[static_cast<std::size_t>(dimension)]; }
+
+std::string quoted(std::string_view text) {
+  std::string shown(text.substr(0, 40));
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return "'" + shown + (text.size() > 40 ? "...'" : "'");
+}
+
+std::string_view trimmed(std::string_view text) {
+  auto const first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Length of the decimal number at the start of the text, 0 if there is none: sign, digits, fraction, exponent.
+std::size_t number_length(std::string_view text) {
+  auto const digits = [&](std::size_t at) {
+    while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+    return at;
+  };
+  std::size_t const start = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+  std::size_t end = digits(start);
+  std::size_t count = end - start;
+  if (end < text.size() && text[end] == '.') {
+    std::size_t const fraction = digits(end + 1);
+    count += fraction - end - 1;
+    end = fraction;
+  }
+  if (count == 0) return 0;
+  if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
+    std::size_t const sign = end + 1 < text.size() && (text[end + 1] == '-' || text[end + 1] == '+') ? 2 : 1;
+    if (std::size_t const exponent = digits(end + sign); exponent > end + sign) end = exponent;
+  }
+  return end;
+}
+
+/// The number whose text has the form that number_length() accepts, its decimal point moved `decimals` places to the right.
+double shifted_number(std::string_view text, int decimals) {
+  auto const split = text.find_first_of("eE");
+  std::string digits(text.substr(0, split));
+  if (digits[0] == '+') digits.erase(0, 1);
+  long exponent = 0;
+  if (split != std::string_view::npos) {
+    std::string_view part = text.substr(split + 1);
+    if (part[0] == '+') part.remove_prefix(1);
+    if (std::from_chars(part.data(), part.data() + part.size(), exponent).ec != std::errc{})
+      throw std::invalid_argument("is out of range: " + quoted(text));
+  }
+  digits += 'e';
+  digits += std::to_string(exponent + decimals);
+  double value = 0;
+  auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw std::invalid_argument("is out of range: " + quoted(text));
+  return value;
+}
+
+Unit const* find_unit(std::string_view name) {
+  for (Unit const& unit : units)
+    if (unit.name == name) return &unit;
+  return nullptr;
+}
+
+bool same_but_for_case(std::string_view a, std::string_view b) {
+  auto const small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return small(x) == small(y); });
+}
+
+/// "; did you mean 'MPa'?" for "Mpa", or nothing; of units that differ in their case alone (mN, MN) it names all.
+std::string unit_suggestion(std::string_view name) {
+  std::string hint;
+  for (Unit const& unit : units) {
+    if (!same_but_for_case(unit.name, name)) continue;
+    hint += hint.empty() ? "; did you mean '" : " or '";
+    hint += unit.name;
+    hint += '\'';
+  }
+  if (!hint.empty()) hint += '?';
+  return hint;
+}
+
+/// Multiplies one factor of a unit expression ("cm^3", "min") into the product, or divides by it.
+void multiply(Unit& product, std::string_view factor, int sign, std::string_view whole) {
+  int power = 1;
+  if (auto const hat = factor.find('^'); hat != std::string_view::npos) {
+    std::string_view const text = factor.substr(hat + 1);
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), power);
+    if (error != std::errc{} || end != text.data() + text.size() || power < -4 || power > 4 || power == 0)
+      throw std::invalid_argument("has a unit with a strange power: " + quoted(whole));
+    factor = factor.substr(0, hat);
+  }
+  Unit const* const unit = find_unit(factor);
+  if (!unit)
+    throw std::invalid_argument("has an unknown unit " + quoted(factor) + " in " + quoted(whole) + unit_suggestion(factor));
+  power *= sign;
+  product.decimals += unit->decimals * power;
+  for (int i = 0; i < power; ++i) product.factor *= unit->factor;
+  for (int i = 0; i > power; --i) product.divisor *= unit->factor;
+  product.powers.length += unit->powers.length * power;
+  product.powers.mass += unit->powers.mass * power;
+  product.powers.time += unit->powers.time * power;
+  product.powers.temperature += unit->powers.temperature * power;
+  product.offset = unit->offset;  // cleared below where the unit is not alone
+}
+
+/// "N/m", "g/cm^3", "%/min", "kg*m/s^2": factors joined by * or /, read from left to right.
+Unit parse_unit(std::string_view text, std::string_view whole) {
+  Unit product{text, 0, 1, {}};
+  int sign = 1, factors = 0;
+  for (std::size_t at = 0;; ++factors) {
+    if (factors == 8) throw std::invalid_argument("has a unit with too many parts: " + quoted(whole));
+    auto const end = text.find_first_of("*/", at);
+    multiply(product, trimmed(text.substr(at, end == std::string_view::npos ? end : end - at)), sign, whole);
+    if (end == std::string_view::npos) break;
+    sign = text[end] == '/' ? -1 : 1;
+    at = end + 1;
+  }
+  if (factors > 0 || sign < 0 || text.find('^') != std::string_view::npos) product.offset = 0;
+  return product;
+}
+
+/// The name of a dimension that a mistaken unit has, or nothing.
+std::string_view name_of(Powers powers) {
+  for (DimensionEntry const& candidate : dimensions)
+    if (candidate.powers == powers) return candidate.name;
+  if (powers == second) return "a time";
+  if (powers == kilogram) return "a mass";
+  if (powers == newton) return "a force";
+  return "something else";
+}
+
+bool fits(Powers powers, Dimension dimension) {
+  if (dimension == Dimension::stiffness && powers == entry(Dimension::line_force).powers) return true;
+  return powers == entry(dimension).powers;
+}
+
+}  // namespace
+
+double parse_quantity(std::string_view text, Dimension dimension) {
+  std::string_view const whole = trimmed(text);
+  DimensionEntry const& wanted = entry(dimension);
+  auto const refuse = [&](std::string const& got) {
+    throw std::invalid_argument("needs " + std::string(wanted.name) + ", got " + got +
+                                "; example: " + std::string(wanted.example));
+  };
+  std::size_t const length = number_length(whole);
+  if (length == 0) refuse(quoted(whole));
+  std::string_view const number = whole.substr(0, length), unit_text = trimmed(whole.substr(length));
+  if (unit_text.empty()) {
+    if (dimension == Dimension::temperature) refuse("a bare number (" + quoted(whole) + "), which could be degC or K");
+    return shifted_number(number, 0);
+  }
+  Unit const unit = parse_unit(unit_text, whole);
+  if (!fits(unit.powers, dimension)) refuse(std::string(name_of(unit.powers)) + " (" + quoted(whole) + ")");
+  double value = shifted_number(number, unit.decimals) * unit.factor / unit.divisor;
+  if (unit.offset != 0) value += unit.offset;
+  if (!std::isfinite(value)) throw std::invalid_argument("is out of range: " + quoted(whole));
+  return value;
+}
+
+double parse_number(std::string_view text) {
+  std::string_view const whole = trimmed(text);
+  if (whole.empty() || number_length(whole) != whole.size()) throw std::invalid_argument("needs a number, got " + quoted(whole));
+  return shifted_number(whole, 0);
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> buffer;
+  auto const [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return error == std::errc{} ? std::string(buffer.data(), end) : std::string("nan");
+}
+
+std::string format_quantity(double value, Dimension dimension) {
+  std::string const bare = format_number(value);
+  for (std::string_view const unit : entry(dimension).shown) {
+    if (unit.empty() || value == 0) break;
+    Unit const parsed = parse_unit(unit, unit);
+    double const size = std::fabs(value) * std::pow(10.0, -parsed.decimals);
+    if (!(size > 0.0999 && size < 1e4)) continue;
+    // The shortest digits of the value itself, their point moved: exact in decimal, so nothing is lost by the unit.
+    std::string const text = format_number(shifted_number(bare, -parsed.decimals)) + " " + std::string(unit);
+    if (parse_quantity(text, dimension) == value) return text;
+  }
+  if (dimension == Dimension::temperature) return bare + " degC";
+  return bare;
+}
+
+std::string_view dimension_name(Dimension dimension) { return entry(dimension).name; }
+std::string_view bare_unit(Dimension dimension) { return entry(dimension).bare_unit; }
+std::string_view quantity_example(Dimension dimension) { return entry(dimension).example; }
+
+}  // namespace clathra

@@ -1,0 +1,297 @@
+#include "domain/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/parallel/migration.hpp"
+#include "kernels/spatial_order.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr int check_every = 64;         // steps between looks at the fault flags
+constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
+
+Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
+
+}  // namespace
+
+/// A sum over the specimen. A term that is out of its range is a fault, of the disc that another fault names if there is one.
+template <class Work>
+auto Simulation::in_range(Work const& sum) const {
+  try {
+    return sum();
+  } catch (SumOutOfRange const& problem) {
+    throw_if_unstable();
+    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: " + problem.what());
+  }
+}
+
+WallReactions Simulation::push_walls(Real dt) {
+  return in_range([&] { return add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, dt, losses_, faults_, sums_); });
+}
+
+void Simulation::step() {
+  loading.move(walls_, time_step);
+  Kokkos::Timer const moving;
+  Real const longest_way = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
+  busy_seconds_ += moving.seconds();
+  if (periodic()) stretch_homogeneously();
+  if (rebuild_pending_ || outdated(ranks_.max(longest_way))) {
+    rebuild();
+  } else {
+    refresh_ghosts();
+  }
+  WallReactions const before = reactions_;
+  Kokkos::Timer const pushing;
+  compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, breaks_, losses_, faults_);
+  busy_seconds_ += pushing.seconds();
+  if (!periodic()) {
+    reactions_ = push_walls(time_step);
+    account_boundary_work(before);
+    loading.steer(walls_, reactions_, time_step);
+  }
+  time_ += time_step;
+  ++step_;
+  if (step_ % check_every == 0) throw_if_unstable();
+}
+
+/// @param also  what goes with the discs beside companions()
+void Simulation::rebuild(bool leeway_by_speed, Companions const& also) {
+  throw_if_unstable();  // discs that are nowhere have no cell
+  Kokkos::Timer const clock;
+  collect_breaks();
+  if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
+  Real const bonded_gap = ranks_.max(widest_bonded_gap(particles_, rows_));
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  Companions const with_discs = with(companions(wall_shear), also);
+  OldRows old = take_as_old(particles_, rows_);
+  Field<int> slot = slots_of_discs(particles_, old);
+  if (!ranks_.alone()) {
+    decomposition_.follow(frame());
+    rebalance_if_it_pays();
+    migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
+  }
+  Field<int> const order = sort_in_space(particles_, old, slot, skin_, sorting_is_due());
+  for_each_companion(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0)); });
+  Real const widest_leeway =
+      ranks_.max(in_range([&] { return give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sums_); }));
+  reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);
+  if (periodic()) images_.rebuild(particles_, cell_, reach_);
+  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
+  refresh_ghosts(particles_.leeway);
+  search_bytes_ = std::max(search_bytes_, find_neighbours(particles_, widest_leeway, old, slot, rows_, faults_, bonded_gap));
+  prepare_rows(particles_, rows_, laws_.contact.bond);
+  make_room_for_breaks();
+  if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
+  mark_reference(particles_);
+  reference_walls_ = walls_;
+  reference_cell_ = cell_;
+  strayed_ = 0;
+  rebuild_pending_ = false;
+  ++rebuilds_;
+  Kokkos::fence();
+  rebuild_seconds_ += clock.seconds();
+}
+
+/// Where no rank sends or gets discs their order in space holds for a while.
+bool Simulation::sorting_is_due() {
+  bool const due = !ranks_.alone() || searches_until_sorting_ == 0;
+  searches_until_sorting_ = due ? searches_a_sorting - 1 : searches_until_sorting_ - 1;
+  return due;
+}
+
+/// Cuts anew when the time that ranks have waited for the slowest, since the last look, is well above what cutting costs.
+void Simulation::rebalance_if_it_pays() {
+  constexpr double worth = 4, least_imbalance = 1.05;
+  double slowest[2] = {busy_seconds_, rebuild_seconds_ / static_cast<double>(std::max<std::int64_t>(rebuilds_, 1))};
+  ranks_.max(slowest, 2);
+  double const mean = 1e-9 * static_cast<double>(ranks_.sum(std::llround(1e9 * busy_seconds_))) / ranks_.count();
+  if (slowest[0] < least_imbalance * mean || slowest[0] - mean < worth * slowest[1]) return;
+  double const seconds_a_disc = busy_seconds_ / std::max(particles_.owned, 1);
+  double const weight = 1e6 * seconds_a_disc / std::max(ranks_.max(seconds_a_disc), 1e-300);
+  decomposition_ = Decomposition::bisect(ranks_, particles_, std::max<std::int64_t>(1, std::llround(weight)));
+  busy_seconds_ = 0;
+}
+
+Companions Simulation::companions(WallShear& wall_shear) {
+  Companions with_discs;
+  for_each_account(losses_, {}, [&](char const* name, Field<Accum>& account, bool) {
+    if (account.extent(0) > 0) with_discs.push_back({name, &account});
+  });
+  if (start_x_.extent(0) > 0) with_discs.insert(with_discs.end(), {{"start_x", &start_x_}, {"start_y", &start_y_}});
+  static constexpr char const* shear_names[] = {"shear_left", "shear_right", "shear_bottom", "shear_top"};
+  if (wall_contacts_.rough) {
+    for (std::size_t wall = 0; wall < wall_count; ++wall) with_discs.push_back({shear_names[wall], &wall_shear.of[wall]});
+  }
+  return with_discs;
+}
+
+void Simulation::set_sums() {
+  sums_ = {SumUnits::of(d50_ > 0 ? d50_ : 2 * largest_radius_, laws_.contact.grain.normal_stiffness, density_),
+           ranks_.summation()};
+}
+
+/// The homogeneous motion since the last neighbour search: that of the walls, or of the periodic cell.
+AffineFrame Simulation::frame() const {
+  AffineFrame f;
+  if (periodic()) {
+    f.centre_x = f.reference_centre_x = cell_.left;
+    f.centre_y = f.reference_centre_y = cell_.bottom;
+    f.stretch_x = cell_.width / reference_cell_.width;
+    f.stretch_y = cell_.height / reference_cell_.height;
+    return f;
+  }
+  f.centre_x = middle(walls_.position[left], walls_.position[right]);
+  f.centre_y = middle(walls_.position[bottom], walls_.position[top]);
+  f.reference_centre_x = middle(reference_walls_.position[left], reference_walls_.position[right]);
+  f.reference_centre_y = middle(reference_walls_.position[bottom], reference_walls_.position[top]);
+  f.stretch_x = walls_.width() / reference_walls_.width();
+  f.stretch_y = walls_.height() / reference_walls_.height();
+  f.gradient_x = (walls_.velocity[right] - walls_.velocity[left]) / walls_.width();
+  f.gradient_y = (walls_.velocity[top] - walls_.velocity[bottom]) / walls_.height();
+  f.drift_x = middle(walls_.velocity[left], walls_.velocity[right]);
+  f.drift_y = middle(walls_.velocity[bottom], walls_.velocity[top]);
+  return f;
+}
+
+/// A periodic cell must stay twice as wide as neighbours reach.
+LeewayRange Simulation::leeway_range(bool by_speed) const {
+  constexpr Real times = 5;
+  Real const least = skin_ / 2;
+  if (!by_speed) return {least, least};
+  Real most = times * least;
+  if (periodic()) most = std::min(most, 0.49 * (0.5 * std::min(cell_.width, cell_.height) - 2 * largest_radius_));
+  return {least, std::max(most, least)};
+}
+
+/// Whether two discs that are not in each other's rows could touch: the greatest share of its leeway that a disc has strayed off
+/// the homogeneous motion, plus what the homogeneous motion itself brings two discs nearer, as a share of the least leeway. Ways
+/// are added up until they could amount to that, and only then is it looked where the discs are.
+/// @param longest_way  of a disc of any rank in this step [m]
+bool Simulation::outdated(Real longest_way) {
+  AffineFrame const f = frame();
+  Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
+  Real const spent = closing * (2 * largest_radius_ / skin_ + 1);
+  Real const way_of_frame = periodic() ? 0 : (walls_.largest_speed(left, right) + walls_.largest_speed(bottom, top)) * time_step;
+  strayed_ += (longest_way + way_of_frame) / leeway_range(false).least;
+  if (strayed_ * (1 + closing) + spent < 1) return false;
+  strayed_ = std::sqrt(ranks_.max(largest_stray2(particles_, f)));
+  return strayed_ + spent >= 1;
+}
+
+void Simulation::account_boundary_work(WallReactions const& before) {
+  // The mean force over the step times the way: what leapfrog's kinetic energy sees to the digit.
+  for (int wall = 0; wall < wall_count; ++wall) {
+    Real const outward = wall == right || wall == top ? 1 : -1;
+    boundary_work_ -= 0.5 * (before.normal[wall] + reactions_.normal[wall]) * outward * walls_.velocity[wall] * time_step;
+  }
+}
+
+void Simulation::evaluate_forces() {
+  if (rebuild_pending_) rebuild();
+  compute_forces(particles_, rows_, laws_.contact, 0, step_, breaks_, losses_, faults_);
+  if (!periodic()) reactions_ = push_walls(0);
+}
+
+void Simulation::set_laws(SimulationLaws const& laws) {
+  bool const ledger = laws_.contact.ledger, same_history = laws_.features() == laws.features();
+  laws_ = laws;
+  laws_.contact.ledger = ledger;
+  if (!same_history) {
+    change_features(rows_, laws_.features());
+  }
+  if (!same_history || rows_.features.bonds) prepare_rows(particles_, rows_, laws_.contact.bond);
+  if (ledger) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
+}
+
+void Simulation::set_ledger(bool on) {
+  laws_.contact.ledger = on;
+  losses_ = EnergyLosses();
+  if (on) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
+  boundary_work_ = 0;
+}
+
+void Simulation::mark_start() {
+  start_x_ = Field<Coord>("start_x", particles_.x.extent(0));
+  start_y_ = Field<Coord>("start_y", particles_.x.extent(0));
+  Kokkos::deep_copy(start_x_, particles_.x);
+  Kokkos::deep_copy(start_y_, particles_.y);
+}
+
+void Simulation::cut_anew(Decomposition const& cuts) {
+  decomposition_ = cuts;
+  rebuild_pending_ = true;
+}
+
+void Simulation::refresh_ghosts() const {
+  if (periodic()) images_.refresh(particles_, cell_);
+  if (!ranks_.alone()) halo_.refresh(ranks_, particles_);
+}
+
+void Simulation::refresh_ghosts(AnyField const& field) const {
+  if (periodic()) images_.refresh(particles_, field);
+  if (!ranks_.alone()) halo_.refresh(ranks_, particles_, field);
+}
+
+void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
+  AffineFrame const f = frame();
+  add_affine_velocity(particles_, rate_x, rate_y, f.centre_x, f.centre_y);
+}
+
+/// Isotropic stretching of the periodic cell with all its discs.
+void Simulation::stretch_homogeneously() {
+  if (cell_rate_ == 0) return;
+  Real const stretch = 1 - cell_rate_ * time_step;
+  scale_positions(particles_, stretch, cell_.left, cell_.bottom);
+  cell_.width *= stretch;
+  cell_.height *= stretch;
+}
+
+Measures Simulation::measures() const {
+  return in_range([&] { return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall, sums_); });
+}
+
+LossTotals Simulation::losses() const {
+  if (!laws_.contact.ledger) return {};
+  return in_range([&] { return total_losses(losses_, particles_.owned, sums_); });
+}
+
+std::uint64_t Simulation::hash() const {
+  return static_cast<std::uint64_t>(ranks_.sum(static_cast<std::int64_t>(state_hash(particles_, rows_))));
+}
+
+SpringNetwork Simulation::springs() const { return {particles_, rows_, laws_.contact, walls_, laws_.wall}; }
+
+AcrossRanks Simulation::across() const {
+  return {sums_, [this](double value) { return ranks_.max(value); }, [this](Field<Real> const& field) { refresh_ghosts(field); }};
+}
+
+Real Simulation::stable_time_step(Real safety) const {
+  constexpr Real below_limit = 0.95;  // the network stiffens before the step is chosen again
+  return std::min(safety * ranks_.min(local_time_step(springs())), below_limit * stable_limit());
+}
+
+Real Simulation::largest_frequency(int iterations) const {
+  return in_range([&] { return clathra::largest_frequency(springs(), across(), iterations); });
+}
+
+Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, across()); }
+
+void Simulation::throw_if_unstable() const {
+  auto const here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
+  double disc[fault_count];
+  for (int fault = 0; fault < fault_count; ++fault) disc[fault] = here(fault);
+  ranks_.max(disc, fault_count);
+  static constexpr char const* cause[fault_count] = {
+      "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than the smaller radius",
+      "has more neighbours than a row holds (the grading's size ratio is too large)"};
+  for (int fault = 0; fault < fault_count; ++fault) {
+    if (disc[fault] < 0) continue;
+    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: disc " +
+                   std::to_string(static_cast<int>(disc[fault])) + " " + cause[fault]);
+  }
+}
+
+}  // namespace clathra

@@ -1,0 +1,200 @@
+#pragma once
+/// A specimen in motion: owns the discs, rows, walls and laws, and the one time step.
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "domain/parallel/disc_record.hpp"
+#include "domain/parallel/halo.hpp"
+#include "domain/scene/specimen.hpp"
+#include "domain/simulation/loading.hpp"
+#include "domain/simulation/periodic_images.hpp"
+#include "domain/simulation/simulation_state.hpp"
+#include "kernels/forces.hpp"
+#include "kernels/leeway.hpp"
+#include "kernels/measures.hpp"
+#include "kernels/neighbours.hpp"
+#include "kernels/stability.hpp"
+#include "kernels/walls.hpp"
+
+namespace clathra {
+
+/// Verlet skin of a test that asks for none, in d50; discs get 1.2 times that on the average (leeway.hpp). Where bonds break all
+/// the time it was the fastest of 0.08, 0.10, 0.12 and 0.16; elsewhere it costs 2 % at most against 0.08 (docs/performance.md).
+inline constexpr double chosen_skin = 0.12;
+
+/// The state diverged or left the range of the model; the text names disc, step and cause.
+struct Diverged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What the discs obey. Features follow from it: rolling moments, bonds, a separate bond history, a ledger exist only if asked
+/// for here.
+struct SimulationLaws {
+  ContactLaws contact;
+  WallLaw wall;
+  MotionLaw motion;
+  ContactFeatures features() const {
+    return {contact.grain.friction > 0 || contact.bond_kind == BondKind::replace, contact.grain.shape_factor > 0,
+            contact.bond_kind != BondKind::none, contact.bond_kind == BondKind::parallel};
+  }
+  LossKinds losses() const {
+    ContactFeatures const f = features();
+    return {f.shear || wall.friction > 0, f.rolling, contact.grain.damping_ratio > 0 || wall.damping_ratio > 0, f.bonds,
+            motion.damping > 0};
+  }
+};
+
+/// Several ranks may share a simulation: each owns the discs of a rectangle and keeps their rows. All calls but those that say
+/// "of this rank" are then collective, and what they return is that of the whole specimen and the same on every rank.
+class Simulation {
+ public:
+  /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
+  /// @param specimen  this rank's share of it: each disc and each contact on one rank, whichever
+  /// @param skin  Verlet skin [m], surface to surface, of discs at rest; those that fly have more (leeway.hpp)
+  Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin, Ranks ranks = {});
+
+  /// Goes on from a state, on any number of ranks, with the bits of the simulation that gave it.
+  /// @param laws  those of that simulation
+  Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks);
+  /// All that is needed to go on; not of a periodic cell.
+  SimulationState state();
+
+  /// One time step of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step
+  /// behind.
+  void step();
+
+  /// The present state of this rank's discs on the host, ordered by id; of a pair of discs of two ranks, the one with the smaller
+  /// id brings the contact.
+  Specimen specimen() const;
+
+  // Settings that may change between steps.
+  Real time_step = 0;  ///< dt [s]
+  Loading loading;
+  void set_laws(SimulationLaws const& laws);  ///< history that both laws need is kept
+  void set_skin(Real skin) {
+    skin_ = skin;
+    rebuild_pending_ = true;
+  }
+  void set_ledger(bool on);                            ///< opens the ledger with all losses at zero, or closes it
+  void keep_break_events(bool on);                     ///< from now on; without, only their numbers by mode are known
+  void stretch_cell(Real rate) { cell_rate_ = rate; }  ///< periodic cell: isotropic closing strain rate [1/s]
+  void stop_discs() { stop_motion(particles_); }
+  void add_uniform_strain_rate(Real rate_x,
+                               Real rate_y);  ///< sets the discs, not only the walls, in motion; closing positive [1/s]
+  void request_rebuild() { rebuild_pending_ = true; }
+  void mark_start();                         ///< displacements count from here
+  void cut_anew(Decomposition const& cuts);  ///< from the next search on
+  void evaluate_forces();                    ///< forces of the present state without advancing it
+
+  // Reading.
+  std::int64_t steps() const { return step_; }
+  std::int64_t rebuilds() const { return rebuilds_; }
+  double rebuild_seconds() const { return rebuild_seconds_; }  ///< wall time of all neighbour searches
+  Real time() const { return time_; }
+  int discs() const { return discs_; }
+  Ranks const& ranks() const { return ranks_; }
+  Decomposition const& decomposition() const { return decomposition_; }
+  Walls const& walls() const { return walls_; }
+  PeriodicCell const& cell() const { return cell_; }
+  bool periodic() const { return cell_.exists(); }
+  Real density() const { return density_; }                        ///< of the grains [kg/m^3]
+  Real critical_thickness() const { return critical_thickness_; }  ///< h_max of the bonds [m], 0 = none
+  Real area() const { return periodic() ? cell_.width * cell_.height : walls_.width() * walls_.height(); }
+  Real solid_area() const { return solid_area_; }
+  Real void_ratio() const { return area() / solid_area_ - 1; }  ///< nominal
+  WallReactions const& reactions() const { return reactions_; }
+  WallStress stress() const { return wall_stress(walls_, reactions_); }
+  Real boundary_work() const { return boundary_work_; }
+  Measures measures() const;
+  LossTotals losses() const;
+  Real deepest_overlap() const { return ranks_.max(clathra::deepest_overlap(particles_, rows_)); }
+  std::uint64_t hash() const;
+  /// A safety factor times local_time_step(), but never above 0.95 of stable_limit() [s].
+  Real stable_time_step(Real safety = 1) const;
+  Real largest_frequency(int iterations = 20) const;  ///< of the present contact network [1/s]
+  Real stable_limit() const;                          ///< clathra::stable_limit() with the present damping [s]
+  SimulationLaws const& laws() const { return laws_; }
+  int broken_bonds() const;
+  BreakCounts break_counts() const;  ///< so far
+  /// Breaks that this rank has seen while events were kept, from the first-th on, sorted by (step, id_a, id_b). Each break is
+  /// seen by one rank.
+  std::vector<BreakEvent> break_events(int first) const;
+  /// Bytes of this rank's fields, with the ledger, the log of breaks and the most that a neighbour search has needed beside them.
+  std::size_t bytes() const {
+    return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) +
+           clathra::bytes(breaks_) + search_bytes_;
+  }
+  // Of this rank:
+  std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
+  ParticleSoA const& particles() const { return particles_; }
+  ContactRows const& rows() const { return rows_; }
+  WallContacts const& wall_contacts() const { return wall_contacts_; }
+  EnergyLosses const& energy_losses() const { return losses_; }
+  Field<Coord> const& start_x() const { return start_x_; }  ///< [owned] where mark_start() found the discs [m]
+  Field<Coord> const& start_y() const { return start_y_; }
+  /// Gives every ghost the value of its disc.
+  void refresh_ghosts(AnyField const& field) const;
+  void throw_if_unstable() const;
+
+ private:
+  void refresh_ghosts() const;  // all of their state
+  void rebuild(bool leeway_by_speed = true, Companions const& also = {});
+  void adopt_discs(Specimen const& specimen);
+  void inject(Specimen const& specimen);
+  AffineFrame frame() const;
+  LeewayRange leeway_range(bool by_speed) const;
+  bool outdated(Real longest_way);
+  void stretch_homogeneously();
+  bool sorting_is_due();
+  void rebalance_if_it_pays();
+  Companions companions(WallShear& wall_shear);
+  void set_sums();
+  Companions forces();
+  Companions derived();
+  SpringNetwork springs() const;
+  AcrossRanks across() const;
+  template <class Work>
+  auto in_range(Work const& sum) const;
+  WallReactions push_walls(Real dt);
+  std::vector<double> brought_home(DiscRecords discs);
+  void find_listed_neighbours();
+  template <class Visit>
+  void for_each_number(Visit&& visit);
+  std::vector<SpecimenContact> contacts_by_id() const;
+  void account_boundary_work(WallReactions const& before);
+  void collect_breaks() const;
+  void make_room_for_breaks();
+
+  Ranks ranks_;
+  Summation sums_;
+  Decomposition decomposition_;
+  ParticleSoA particles_;
+  ContactRows rows_;
+  SimulationLaws laws_;
+  Walls walls_, reference_walls_;
+  WallContacts wall_contacts_;
+  WallReactions reactions_;
+  PeriodicCell cell_, reference_cell_;
+  PeriodicImages images_;
+  Halo halo_;
+  BreakLog breaks_;                         // since the last collect_breaks()
+  mutable std::vector<BreakEvent> broken_;  // before
+  mutable BreakCounts broken_by_mode_;      // on this rank, before
+  EnergyLosses losses_;
+  Faults faults_;
+  Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
+  Real density_ = 0, d50_ = 0, critical_thickness_ = 0;
+  std::int64_t step_ = 0, rebuilds_ = 0;
+  double rebuild_seconds_ = 0;
+  int discs_ = 0;
+  Field<Coord> start_x_, start_y_;
+  int searches_until_sorting_ = 0;  // in space; the first sorts
+  Real strayed_ = 1e300;            // at most, since the last search, as a share of a leeway
+  double busy_seconds_ = 0;         // of this rank since the cuts were made
+  bool rebuild_pending_ = true;
+  bool keeps_break_events_ = true;
+  std::size_t search_bytes_ = 0;  // at most
+};
+
+}  // namespace clathra

@@ -1,0 +1,197 @@
+/// Taking a simulation apart for a checkpoint, and putting it together again.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "domain/parallel/id_index.hpp"
+#include "domain/simulation/simulation.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr char const* wall_names[] = {"left", "right", "bottom", "top"};
+
+template <class Visit>
+void visit_walls(std::string const& name, Walls& walls, Visit&& visit) {
+  for (int wall = 0; wall < wall_count; ++wall) {
+    visit(name + "_" + wall_names[wall], walls.position[wall]);
+    visit(name + "_" + wall_names[wall] + "_velocity", walls.velocity[wall]);
+  }
+}
+
+template <class Visit>
+void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
+  visit(name + "_kind", drive.kind);
+  visit(name + "_strain_rate", drive.strain_rate);
+  visit(name + "_target_stress", drive.target_stress);
+  visit(name + "_one_sided", drive.one_sided);
+  visit(name + "_integral", drive.integral);
+  visit(name + "_largest_speed", drive.largest_speed);
+}
+
+std::string name_of_broken(int mode) { return "broken_" + std::to_string(mode); }
+
+}  // namespace
+
+/// Visits every number of the whole: (name, double, integer, bool or enumeration).
+template <class Visit>
+void Simulation::for_each_number(Visit&& visit) {
+  visit("step", step_);
+  visit("time", time_);
+  visit("time_step", time_step);
+  visit("rebuilds", rebuilds_);
+  visit("rebuild_pending", rebuild_pending_);
+  visit("skin", skin_);
+  visit("reach", reach_);
+  visit("discs", discs_);
+  visit("solid_area", solid_area_);
+  visit("largest_radius", largest_radius_);
+  visit("density", density_);
+  visit("d50", d50_);
+  visit("critical_thickness", critical_thickness_);
+  visit("boundary_work", boundary_work_);
+  visit("ledger", laws_.contact.ledger);
+  visit("keeps_break_events", keeps_break_events_);
+  visit_walls("wall", walls_, visit);
+  visit_walls("reference_wall", reference_walls_, visit);
+  for (int wall = 0; wall < wall_count; ++wall) {
+    std::string const name = std::string("reaction_") + wall_names[wall];
+    visit(name, reactions_.normal[wall]);
+    visit(name + "_shear", reactions_.shear[wall]);
+    visit(name + "_contacts", reactions_.contacts[wall]);
+  }
+  visit_drive("drive_x", loading.x, visit);
+  visit_drive("drive_y", loading.y, visit);
+  visit("servo_gain", loading.servo.gain);
+  visit("servo_integral_time", loading.servo.integral_time);
+  visit("servo_contact_stiffness", loading.servo.contact_stiffness);
+}
+
+Companions Simulation::forces() {
+  Companions all;
+  for_each_force(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
+  return all;
+}
+
+/// What is derived from the state but must not be derived anew: forces, and where the last search found the discs.
+Companions Simulation::derived() {
+  Companions all;
+  for_each_derived_field(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
+  return all;
+}
+
+SimulationState Simulation::state() {
+  if (periodic()) throw std::logic_error("a periodic cell has no checkpoint");
+  if (rebuild_pending_) rebuild(true, forces());  // rows as the next step would find them
+  SimulationState s;
+  for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
+  s.numbers["marked_start"] = start_x_.extent(0) > 0 ? 1 : 0;
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  Companions const with_discs = with(companions(wall_shear), derived());
+  ContactRows named = rows_;
+  named.neighbour = uninitialised<int>("named", rows_.neighbour.extent(0));
+  Kokkos::deep_copy(named.neighbour, rows_.neighbour);
+  (void)take_as_old(particles_, named);
+  std::vector<int> all(static_cast<std::size_t>(particles_.owned));
+  std::iota(all.begin(), all.end(), 0);
+  s.discs = pack_discs(particles_, with_discs, named, all);
+  RecordColumns const columns = record_columns(with_discs, rows_.features);
+  s.disc_columns = columns.discs;
+  s.history_columns = columns.history;
+  collect_breaks();
+  s.broken = broken_;
+  for (int mode = 0; mode < break_mode_count; ++mode)
+    s.numbers[name_of_broken(mode)] = static_cast<double>(ranks_.sum(broken_by_mode_.number[mode]));
+  return s;
+}
+
+Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks)
+    : ranks_(std::move(ranks)), laws_(laws), faults_(make_faults()) {
+  state.numbers.emplace("keeps_break_events", 1);  // as those did that do not say so
+  for_each_number(
+      [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
+  set_sums();
+  rows_.features = laws_.features();
+  particles_ = allocate_particles(0);
+  if (laws_.contact.ledger) open_accounts(losses_, laws_.losses(), 1);
+  if (state.numbers.at("marked_start") != 0) mark_start();
+  wall_contacts_.rough = laws_.wall.friction > 0;
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  Companions with_discs = with(companions(wall_shear), derived());
+  auto const& columns = state.disc_columns;
+  bool const one_leeway = std::find(columns.begin(), columns.end(), "leeway") == columns.end();
+  if (one_leeway) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
+  state.discs = with_columns(std::move(state.discs), {state.disc_columns, state.history_columns},
+                             record_columns(with_discs, laws_.features()));
+  rows_ = unpack_discs(brought_home(std::move(state.discs)), laws_.features(), particles_, with_discs);
+  if (one_leeway) Kokkos::deep_copy(particles_.leeway, skin_ / 2);
+  // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their leeways.
+  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * (reach_ - 2 * largest_radius_));
+  find_listed_neighbours();
+  prepare_rows(particles_, rows_, laws_.contact.bond);
+  make_room_for_breaks();
+  wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
+  broken_ = std::move(state.broken);
+  for (int mode = 0; mode < break_mode_count; ++mode) {
+    auto const counted = state.numbers.find(name_of_broken(mode));
+    if (counted != state.numbers.end())
+      broken_by_mode_.number[mode] = ranks_.root() ? std::llround(counted->second) : 0;
+    else  // where all are events
+      broken_by_mode_.number[mode] =
+          std::count_if(broken_.begin(), broken_.end(), [&](BreakEvent const& e) { return e.mode == mode; });
+  }
+}
+
+/// The records of the discs that belong to this rank, from wherever they were read.
+std::vector<double> Simulation::brought_home(DiscRecords discs) {
+  if (ranks_.alone()) return std::move(discs.numbers);
+  // Behind the id come x and y.
+  std::vector<double> x, y;
+  for (std::size_t k = 0; k < discs.size(); ++k) {
+    x.push_back(discs.numbers[discs.begin[k] + 1]);
+    y.push_back(discs.numbers[discs.begin[k] + 2]);
+  }
+  decomposition_ = Decomposition::bisect(ranks_, x, y, 1);
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks_.count()));
+  for (std::size_t k = 0; k < discs.size(); ++k) {
+    auto& part = to[static_cast<std::size_t>(decomposition_.owner(x[k], y[k]))];
+    part.insert(part.end(), discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k]),
+                discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k + 1]));
+  }
+  discs = {};
+  std::vector<double> home;
+  for (auto& part : ranks_.exchange(std::move(to))) {
+    home.insert(home.end(), part.begin(), part.end());
+    part = {};
+  }
+  return home;
+}
+
+/// Replaces the neighbours' ids in the rows by the indices of discs and ghosts.
+void Simulation::find_listed_neighbours() {
+  auto const id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles_.id);
+  auto const length = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.length);
+  auto const slice_start = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.slice_start);
+  auto const listed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.neighbour);
+  std::vector<int> index(listed.extent(0), particles_.padding());
+  Places const places(id, particles_.all());
+  bool lost = false;
+  for (int i = 0; i < particles_.owned; ++i) {
+    for (int k = 0; k < length(i); ++k) {
+      std::size_t const e = entry_in(slice_start, i, k);
+      index[e] = places.find(listed(e));
+      lost = lost || index[e] < 0;
+    }
+  }
+  if (ranks_.any(lost)) throw std::runtime_error("a checkpoint's row names a neighbour that is not near");
+  rows_.neighbour = uninitialised<int>("rows.neighbour", index.size());
+  auto host = Kokkos::create_mirror_view(rows_.neighbour);
+  std::copy(index.begin(), index.end(), host.data());
+  Kokkos::deep_copy(rows_.neighbour, host);
+}
+
+}  // namespace clathra

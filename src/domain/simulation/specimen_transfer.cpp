@@ -1,0 +1,320 @@
+/// Moving a specimen between the host's form (Specimen) and the running one (Simulation).
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "domain/parallel/directory.hpp"
+#include "domain/parallel/id_index.hpp"
+#include "domain/simulation/simulation.hpp"
+
+namespace clathra {
+
+namespace {
+
+/// Copies host values into the first `values.size()` places of a field.
+template <class T, class Number>
+void upload(Field<T> const& field, std::vector<Number> const& values) {
+  auto host = Kokkos::create_mirror_view(field);
+  Kokkos::deep_copy(host, field);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(field, host);
+}
+
+template <class T>
+auto download(Field<T> const& field) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
+}
+
+/// Visits the fields of the discs that a specimen keeps, each with its column.
+template <class Visit>
+void for_each_column_of_specimen(ParticleSoA const& particles, Visit&& visit) {
+  for_each_field(particles, [&](DiscField const& about, auto const& field) {
+    for (ParticleColumn const& column : particle_columns)
+      if (std::string_view(column.name) == about.name) visit(field, column);
+  });
+}
+
+/// The history of all entries on the host, as double whatever it is in the rows.
+class HistoryOnHost {
+ public:
+  explicit HistoryOnHost(ContactRows const& rows) {
+    for_each_history(rows, [&](HistoryField const& about, auto const& field) {
+      auto const host = download(field);
+      columns_.push_back({about, number_of(about.name), {host.data(), host.data() + host.extent(0)}});
+    });
+  }
+
+  void upload_to(ContactRows const& rows) const {
+    auto column = columns_.begin();
+    for_each_history(rows, [&](HistoryField const&, auto const& field) { upload(field, (column++)->values); });
+  }
+
+  bool empty(std::size_t entry) const {
+    return std::all_of(columns_.begin(), columns_.end(), [&](Column const& c) { return c.values[entry] == c.about.empty; });
+  }
+
+  SpecimenContact contact(std::size_t entry, int id_a, int id_b) const {
+    SpecimenContact contact;
+    contact.id_a = id_a;
+    contact.id_b = id_b;
+    for (Column const& c : columns_) contact.*c.number = c.values[entry];
+    return contact;
+  }
+
+  /// @param is_first  whether the entry is in the row of the contact's first disc
+  void set(std::size_t entry, SpecimenContact const& contact, bool is_first) {
+    for (Column& c : columns_) c.values[entry] = c.about.odd && !is_first ? -(contact.*c.number) : contact.*c.number;
+  }
+
+ private:
+  struct Column {
+    HistoryField about;
+    double SpecimenContact::*number;
+    std::vector<double> values;
+  };
+
+  static double SpecimenContact::*number_of(std::string_view name) {
+    for (ContactNumber const& number : contact_numbers)
+      if (name == number.name) return number.of;
+    throw std::logic_error("a specimen does not keep the history '" + std::string(name) + "'");
+  }
+
+  std::vector<Column> columns_;
+};
+
+std::vector<double> or_zero(std::vector<double> const& values, std::size_t size) {
+  return values.empty() ? std::vector<double>(size, 0.0) : values;
+}
+
+/// The widest gap among the bonded contacts of a specimen [m].
+Real widest_gap(Ranks const& ranks, Specimen const& s, std::int64_t discs) {
+  std::vector<int> first, second;
+  for (SpecimenContact const& c : s.contacts) {
+    if (!is_bonded(c.equilibrium)) continue;
+    first.push_back(c.id_a);
+    second.push_back(c.id_b);
+  }
+  if (!ranks.any(!first.empty())) return 0;
+  Directory const places(ranks, discs, s.id, {s.x, s.y, s.radius});
+  std::vector<double> const a = places.find(first), b = places.find(second);
+  Real widest = 0;
+  for (std::size_t k = 0; k < a.size(); k += 3) {
+    double dx = b[k] - a[k], dy = b[k + 1] - a[k + 1];
+    if (s.periodic) {  // the nearest images
+      dx -= s.width() * std::round(dx / s.width());
+      dy -= s.height() * std::round(dy / s.height());
+    }
+    widest = std::max(widest, std::hypot(dx, dy) - a[k + 2] - b[k + 2]);
+  }
+  return ranks.max(widest);
+}
+
+/// @throws Diverged where a number of a disc is not finite: a neighbour search would have no place for it
+void require_finite(Ranks const& ranks, Specimen const& s) {
+  double worst = -1;
+  for (ParticleColumn const& column : particle_columns) {
+    std::vector<double> const& numbers = s.*column.of;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!std::isfinite(numbers[i])) worst = std::max(worst, static_cast<double>(s.id[i]));
+    }
+  }
+  worst = ranks.max(worst);
+  if (worst < 0) return;
+  throw Diverged("step 0: disc " + std::to_string(static_cast<int>(worst)) +
+                 " has a position, velocity or radius that is not finite");
+}
+
+/// The contacts with a disc of this rank that stand in another rank's share of the specimen.
+std::vector<SpecimenContact> contacts_from_others(Ranks const& ranks, Specimen const& s, std::int64_t discs, Places const& here,
+                                                  std::vector<int> const& ids) {
+  if (ranks.alone()) return {};
+  std::vector<int> elsewhere;
+  std::vector<std::size_t> of_contact;
+  for (std::size_t k = 0; k < s.contacts.size(); ++k) {
+    for (int const id : {s.contacts[k].id_a, s.contacts[k].id_b}) {
+      if (here.find(id) >= 0) continue;
+      elsewhere.push_back(id);
+      of_contact.push_back(k);
+    }
+  }
+  std::vector<double> const owner = Directory(ranks, discs, ids, {std::vector<double>(ids.size(), ranks.rank())}).find(elsewhere);
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
+  for (std::size_t n = 0; n < elsewhere.size(); ++n) {
+    bool const sent = n > 0 && of_contact[n - 1] == of_contact[n] && owner[n - 1] == owner[n];
+    if (!sent) append_numbers(to[static_cast<std::size_t>(owner[n])], s.contacts[of_contact[n]]);
+  }
+  std::vector<SpecimenContact> contacts;
+  for (auto const& part : ranks.exchange(std::move(to))) append_contacts(contacts, part);
+  return contacts;
+}
+
+}  // namespace
+
+Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin, Ranks ranks)
+    : ranks_(std::move(ranks)), laws_(laws), faults_(make_faults()), skin_(skin) {
+  std::int64_t const total = ranks_.sum(static_cast<std::int64_t>(s.size()));
+  if (total == 0) throw std::invalid_argument("a specimen needs at least one disc");
+  if (s.periodic && !ranks_.alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
+  require_finite(ranks_, s);
+  discs_ = static_cast<int>(total);
+  adopt_discs(s);
+  set_sums();
+  rows_.features = laws_.features();
+  decomposition_ = Decomposition::bisect(ranks_, particles_, 1);
+  // The first search must reach the widest bond; the skin is its own again afterwards.
+  Real const own_skin = skin_;
+  skin_ = std::max(skin_, widest_gap(ranks_, s, total) * (1 + 1e-9));
+  rebuild(/*leeway_by_speed=*/false);
+  skin_ = own_skin;
+  rebuild_pending_ = true;
+  inject(s);
+  evaluate_forces();
+}
+
+void Simulation::adopt_discs(Specimen const& s) {
+  std::size_t const n = s.size();
+  particles_ = allocate_particles(static_cast<int>(n));
+  std::vector<double> inverse_mass(n), inverse_inertia(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    inverse_mass[i] = 1 / (pi * s.radius[i] * s.radius[i] * s.density);
+    inverse_inertia[i] = 2 * inverse_mass[i] / (s.radius[i] * s.radius[i]);
+    largest_radius_ = std::max(largest_radius_, s.radius[i]);
+  }
+  largest_radius_ = ranks_.max(largest_radius_);
+  // Summed by id, so that the order of the input does not show.
+  solid_area_ = Directory(ranks_, discs_, s.id, {s.radius}).sum_by_id([](double const* r) { return pi * *r * *r; });
+  upload(particles_.id, s.id);
+  upload(particles_.inverse_mass, inverse_mass);
+  upload(particles_.inverse_inertia, inverse_inertia);
+  for_each_column_of_specimen(particles_,
+                              [&](auto const& field, ParticleColumn const& column) { upload(field, or_zero(s.*column.of, n)); });
+  density_ = s.density;
+  d50_ = s.d50;
+  critical_thickness_ = s.critical_thickness;
+  if (s.periodic) {
+    cell_ = reference_cell_ = {s.left, s.bottom, s.width(), s.height()};
+  } else {
+    walls_ = reference_walls_ = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
+  }
+}
+
+/// Writes the history of the specimen's contacts into the rows, on both sides.
+void Simulation::inject(Specimen const& s) {
+  auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
+             neighbour = download(rows_.neighbour);
+  Places const at(id, particles_.owned);
+  HistoryOnHost history(rows_);
+  auto const write = [&](SpecimenContact const& c) {
+    for (auto const& [mine, other, is_first] : {std::tuple{c.id_a, c.id_b, true}, std::tuple{c.id_b, c.id_a, false}}) {
+      int const i = at.find(mine);
+      if (i < 0) continue;
+      for (int k = 0; k < length(i); ++k) {
+        std::size_t const e = entry_in(slice_start, i, k);
+        if (id(neighbour(e)) == other) history.set(e, c, is_first);
+      }
+    }
+  };
+  std::for_each(s.contacts.begin(), s.contacts.end(), write);
+  auto const others =
+      contacts_from_others(ranks_, s, discs_, at, {id.data(), id.data() + static_cast<std::size_t>(particles_.owned)});
+  std::for_each(others.begin(), others.end(), write);
+  history.upload_to(rows_);
+  prepare_rows(particles_, rows_, laws_.contact.bond);
+  breaks_ = BreakLog();  // that of the search before it has room for no bond
+  make_room_for_breaks();
+}
+
+Specimen Simulation::specimen() const {
+  Specimen s;
+  s.periodic = periodic();
+  s.left = periodic() ? cell_.left : walls_.position[left];
+  s.right = periodic() ? cell_.left + cell_.width : walls_.position[right];
+  s.bottom = periodic() ? cell_.bottom : walls_.position[bottom];
+  s.top = periodic() ? cell_.bottom + cell_.height : walls_.position[top];
+  s.density = density_;
+  s.d50 = d50_;
+  s.void_ratio = void_ratio();
+  s.separate_bonds = laws_.contact.bond_kind == BondKind::parallel;
+  s.critical_thickness = laws_.contact.bond_kind == BondKind::none ? 0 : critical_thickness_;
+  auto const n = static_cast<std::size_t>(particles_.owned);
+  Places const places(download(particles_.id), particles_.owned);
+  for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
+  for_each_column_of_specimen(particles_, [&](auto const& field, ParticleColumn const& column) {
+    auto const host = download(field);
+    std::vector<double>& values = s.*column.of;
+    values.reserve(n);
+    for (auto const& [id, index] : places.sorted()) values.push_back(host(index));
+  });
+  s.contacts = contacts_by_id();
+  return s;
+}
+
+/// The pairs with history, sorted by (id_a, id_b).
+std::vector<SpecimenContact> Simulation::contacts_by_id() const {
+  auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
+             neighbour = download(rows_.neighbour);
+  HistoryOnHost const history(rows_);
+  std::vector<SpecimenContact> contacts;
+  for (int i = 0; i < particles_.owned; ++i) {
+    for (int k = 0; k < length(i); ++k) {
+      std::size_t const e = entry_in(slice_start, i, k);
+      int const other = id(neighbour(e));
+      if (other > id(i) && !history.empty(e)) contacts.push_back(history.contact(e, id(i), other));
+    }
+  }
+  std::sort(contacts.begin(), contacts.end(), by_ids);
+  return contacts;
+}
+
+/// Moves the breaks that the kernels logged to the host.
+void Simulation::collect_breaks() const {
+  if (breaks_.count.extent(0) == 0) return;
+  auto const by_mode = download(breaks_.by_mode);
+  for (std::size_t mode = 0; mode < break_mode_count; ++mode) broken_by_mode_.number[mode] += by_mode(mode);
+  Kokkos::deep_copy(breaks_.by_mode, 0);
+  int const count = download(breaks_.count)(0);
+  if (count == 0) return;
+  auto const step = download(breaks_.step);
+  auto const id_a = download(breaks_.id_a), id_b = download(breaks_.id_b);
+  auto const mode = download(breaks_.mode);
+  auto const x = download(breaks_.x), y = download(breaks_.y);
+  for (int k = 0; k < count; ++k) broken_.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
+  Kokkos::deep_copy(breaks_.count, 0);
+}
+
+/// Bonds break once: a log as long as the number of intact bonds cannot overflow before the next search. Where no rank sends or
+/// gets discs, they only become fewer after inject().
+void Simulation::make_room_for_breaks() {
+  if (laws_.contact.bond_kind == BondKind::none || (ranks_.alone() && breaks_.count.extent(0) > 0)) return;
+  auto const bonds = keeps_break_events_ ? static_cast<std::size_t>(count_own_bonds(particles_, rows_)) : 0;
+  if (breaks_.count.extent(0) == 0 || breaks_.step.extent(0) < bonds) breaks_ = make_break_log(bonds);
+}
+
+void Simulation::keep_break_events(bool on) {
+  collect_breaks();
+  keeps_break_events_ = on;
+  breaks_ = BreakLog();
+  make_room_for_breaks();
+}
+
+int Simulation::broken_bonds() const { return static_cast<int>(break_counts().total()); }
+
+BreakCounts Simulation::break_counts() const {
+  collect_breaks();
+  BreakCounts counts = broken_by_mode_;
+  ranks_.sum(counts.number, break_mode_count);
+  return counts;
+}
+
+std::vector<BreakEvent> Simulation::break_events(int first) const {
+  collect_breaks();
+  std::vector<BreakEvent> events;
+  if (static_cast<std::size_t>(first) < broken_.size()) events.assign(broken_.begin() + first, broken_.end());
+  std::sort(events.begin(), events.end(), comes_before);
+  return events;
+}
+
+}  // namespace clathra

@@ -1,0 +1,32 @@
+#include "io/errors/failure.hpp"
+
+#include <new>
+
+#include "domain/scene/progress.hpp"
+#include "domain/simulation/simulation.hpp"
+
+namespace clathra {
+
+Failure failure_in_flight() {
+  try {
+    throw;
+  } catch (SceneProblems const& problems) {
+    return {problems.code(), problems.what(), true};
+  } catch (FileProblem const& problem) {
+    return {problem.code, problem.what(), true};
+  } catch (Diverged const& problem) {
+    return {ExitCode::diverged, std::string("diverged: ") + problem.what(), true};
+  } catch (Refused const& problem) {
+    return {ExitCode::refused, std::string("refused: ") + problem.what(), true};
+  } catch (Stopped const& problem) {
+    return {ExitCode::interrupted, problem.what(), true};
+  } catch (TooManyToNumber const& problem) {
+    return {ExitCode::refused, std::string("refused: ") + problem.what(), false};
+  } catch (std::bad_alloc const&) {
+    return {ExitCode::refused, "refused: not enough memory", false};
+  } catch (std::exception const& problem) {
+    return {ExitCode::internal, std::string("internal fault, please report it: ") + problem.what(), false};
+  }
+}
+
+}  // namespace clathra

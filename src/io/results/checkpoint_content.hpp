@@ -1,0 +1,20 @@
+#pragma once
+/// What stands in the HDF5 file of a checkpoint.
+#include <filesystem>
+
+#include "domain/biaxial/experiment.hpp"
+#include "io/errors/problems.hpp"
+
+namespace clathra {
+
+/// 1 had one leeway for all discs, 2 all accounts of losses in every ledger and no counts of breaks, 3 a hash that left inverse
+/// inertias out; all are read, too.
+inline constexpr std::int64_t checkpoint_version = 4;
+
+/// @throws FileProblem cannot_create or io_error
+void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks);
+
+/// This rank's rows, checked: sizes, ids, finite numbers. Not collective. @throws FileProblem
+TestState read_checkpoint_content(std::filesystem::path const& path, Scene const& scene, Ranks const& ranks);
+
+}  // namespace clathra

@@ -1,0 +1,43 @@
+#include "io/results/event_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "kernels/bond_strength.hpp"
+
+namespace clathra {
+
+void write_event_columns(Hdf5File& file, std::vector<BreakEvent> const& events) {
+  std::vector<double> step;
+  std::vector<std::int32_t> id_a, id_b;
+  std::vector<std::uint8_t> mode;
+  for (BreakEvent const& e : events) {
+    step.push_back(static_cast<double>(e.step));
+    id_a.push_back(e.id_a);
+    id_b.push_back(e.id_b);
+    mode.push_back(static_cast<std::uint8_t>(e.mode));
+  }
+  file.write("events/step", step, "");
+  file.write("events/id_a", id_a, "");
+  file.write("events/id_b", id_b, "");
+  std::string key;
+  for (BreakModeNames const& m : break_modes)
+    key += fmt::format("{}{} {}", key.empty() ? "" : ", ", static_cast<int>(m.mode), m.name);
+  file.write("events/mode", mode, key.c_str());
+}
+
+std::vector<BreakEvent> read_event_columns(Hdf5File const& file, RowRange const& rows) {
+  auto const step = file.read<double>("events/step", rows);
+  auto const id_a = file.read<std::int32_t>("events/id_a", rows), id_b = file.read<std::int32_t>("events/id_b", rows);
+  auto const mode = file.read<std::uint8_t>("events/mode", rows);
+  std::vector<BreakEvent> events;
+  for (std::size_t k = 0; k < step.size(); ++k) {
+    if (mode[k] < 1 || mode[k] >= break_mode_count)
+      file.fail(ExitCode::bad_input, fmt::format("events/mode holds {}, which is no mode of breakage", mode[k]));
+    events.push_back({std::llround(step[k]), id_a[k], id_b[k], mode[k], 0, 0});
+  }
+  return events;
+}
+
+}  // namespace clathra

@@ -1,0 +1,31 @@
+#pragma once
+/// events.csv: each broken bond once.
+#include <vector>
+
+#include "domain/biaxial/experiment.hpp"
+#include "io/formats/text_file.hpp"
+
+namespace clathra {
+
+class EventsFile {
+ public:
+  /// Writes the header. @throws FileProblem cannot_create or io_error
+  explicit EventsFile(std::filesystem::path path);
+
+  /// Goes on with the file behind its first `bytes`.
+  EventsFile(std::filesystem::path path, std::uintmax_t bytes) : file_(std::move(path), bytes) {}
+
+  /// One row an event: step, ids of the discs, how the bond broke, where [m]. @throws FileProblem io_error
+  void write(std::vector<BreakEvent> const& events);
+  void close() { file_.close(); }
+  RowsWritten flushed() const { return file_.flushed(); }
+
+ private:
+  RowFile file_;
+};
+
+/// The events of an events.csv, in its order. A last line without its end is being written, and is left out.
+/// @throws FileProblem file_missing, or bad_input with the line that is no event
+std::vector<BreakEvent> read_events(std::filesystem::path const& path);
+
+}  // namespace clathra

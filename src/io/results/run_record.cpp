@@ -1,0 +1,137 @@
+#include "io/results/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "io/formats/digest.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/scene/schema.hpp"
+#include "kernels/real.hpp"
+
+namespace clathra {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct JsonValue {
+  Key const& key;
+  Scene& scene;
+  template <class T>
+  nlohmann::json operator()(T& (*at)(Scene&)) const {
+    return at(scene);
+  }
+  nlohmann::json operator()(ChoiceField const& field) const {
+    return std::string(key.choices[static_cast<std::size_t>(field.get(scene))]);
+  }
+};
+
+struct SetFromJson {
+  Key const& key;
+  Scene& scene;
+  nlohmann::json const& value;
+  template <class T>
+  void operator()(T& (*at)(Scene&)) const {
+    value.get_to(at(scene));
+  }
+  void operator()(ChoiceField const& field) const {
+    auto const text = value.get<std::string>();
+    auto const name = std::find(key.choices.begin(), key.choices.end(), text);
+    if (name == key.choices.end()) throw std::invalid_argument(fmt::format("{} is '{}'", key.name, text.substr(0, 40)));
+    field.set(scene, static_cast<int>(name - key.choices.begin()));
+  }
+};
+
+Json program_json(RunRecord const& record) {
+  return {{"version", record.version},
+          {"git_hash", record.git_hash},
+          {"compiler", compiler_name()},
+          {"kokkos", kokkos_version()},
+          {"backend", backend_name()},
+          {"precision", "double"},
+          {"message_passing", message_passing_name()},
+          {"ranks", record.ranks},
+          {"threads", record.threads}};
+}
+
+/// What the keys do not say of themselves.
+Json meaning_json() {
+  return {{"stages.shear.residual_q_Pa", "mean of q over the records from residual_from_eps1 on"},
+          {"wall_seconds.generate", "making the specimen"},
+          {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; of a resumed run reading its checkpoint"},
+          {"wall_seconds.shear",
+           "steps, records and snapshots, since the last resume; neighbour_searches and checkpoints are parts of it"}};
+}
+
+Json input_json(RunRecord const& record) {
+  Json input = {{"digest_xxh3_128", text_digest(record.input.source)}, {"overrides", record.input.overrides}};
+  if (!record.specimen_digest.empty()) input["specimen_digest_xxh3_128"] = record.specimen_digest;
+  if (!record.checkpoint_digest.empty()) input["checkpoint_digest_xxh3_128"] = record.checkpoint_digest;
+  return input;
+}
+
+}  // namespace
+
+std::string hash_text(std::uint64_t hash) { return fmt::format("0x{:016x}", hash); }
+
+std::string compiler_name() {
+#if defined(__clang__)
+  return "clang " __VERSION__;
+#elif defined(__GNUC__)
+  return "gcc " __VERSION__;
+#else
+  return "unknown";
+#endif
+}
+
+std::string kokkos_version() {
+  return fmt::format("{}.{}.{}", KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100, KOKKOS_VERSION % 100);
+}
+
+std::string backend_name() { return ExecutionSpace::name(); }
+
+nlohmann::json scene_json(Scene const& scene) {
+  Scene copy = scene;  // the schema reaches fields through a Scene&
+  nlohmann::json json;
+  for (Key const& key : schema())
+    json[std::string(key.section())][std::string(key.leaf())] = std::visit(JsonValue{key, copy}, key.field);
+  return json;
+}
+
+Scene scene_of(nlohmann::json const& json) {
+  Scene scene;
+  for (Key const& key : schema()) {
+    auto const section = json.find(std::string(key.section()));
+    if (section == json.end() || !section->contains(std::string(key.leaf()))) continue;
+    std::visit(SetFromJson{key, scene, section->at(std::string(key.leaf()))}, key.field);
+  }
+  return scene;
+}
+
+void write_run_record(std::filesystem::path const& path, RunRecord const& record) {
+  Scene scene = record.input.scene;
+  for (std::string* const file : {&scene.sample.file, &scene.grading.file})
+    if (!file->empty()) *file = std::filesystem::proximate(*file, path.parent_path()).string();
+  Json json;
+  json["format"] = "clathra run";
+  json["program"] = program_json(record);
+  json["input"] = input_json(record);
+  json["seed"] = scene.run.seed;
+  json["scene"] = scene_json(scene);
+  json["stages"] = record.stages;
+  if (!record.layer_void_ratios.empty()) json["layer_void_ratios"] = record.layer_void_ratios;
+  json["wall_seconds"] = record.wall_seconds;
+  json["meaning"] = meaning_json();
+  json["disc_steps"] = record.disc_steps;
+  json["disc_steps_per_second"] = record.disc_steps_per_second;
+  json["warnings"] = record.warnings;
+  if (record.state_hash) json["state_hash"] = hash_text(*record.state_hash);
+  if (!record.result_digests.empty()) json["result_digests_xxh3_128"] = record.result_digests;
+  json["exit"] = {{"code", record.exit_code}, {"reason", record.exit_reason}};
+  // Bytes of a file name that are no UTF-8 are replaced instead of making the record impossible.
+  replace_text_file(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace clathra

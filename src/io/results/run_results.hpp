@@ -1,0 +1,58 @@
+#pragma once
+/// What a run left in its folder, as the report needs it.
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/errors/problems.hpp"
+
+namespace clathra {
+
+/// The columns of a history.csv that the program knows; others are passed over. Numbers may be inf or nan where the run diverged.
+class HistoryTable {
+ public:
+  /// A last line without its end is a row that is being written, and is left out.
+  /// @throws FileProblem file_missing, or bad_input with the line: a row with too few or too many cells, a cell that is no
+  /// number; step, eps1, or q_Pa together with what it could be made of (sigma1_Pa, sigma3_Pa) missing
+  explicit HistoryTable(std::filesystem::path const& path);
+
+  std::size_t rows() const { return rows_; }
+  bool has(std::string const& column) const { return columns_.count(column) > 0; }
+  bool has_all(std::vector<std::string> const& columns) const;
+  /// A column; nan in each row where there is none of this name.
+  std::vector<double> const& operator[](std::string const& column) const;
+  /// The columns that this one has not and of which something would be drawn; those of the energy ledger only if it has some.
+  std::vector<std::string> missing() const;
+
+ private:
+  std::map<std::string, std::vector<double>> columns_;
+  std::vector<double> unknown_;
+  std::size_t rows_ = 0;
+};
+
+/// A folder that `clathra run` wrote.
+struct RunResults {
+  std::string name;  ///< of the folder
+  std::filesystem::path folder;
+  HistoryTable history;
+  nlohmann::json record;                         ///< run.json
+  std::vector<std::filesystem::path> snapshots;  ///< in the order of their steps
+
+  /// @param at  a JSON pointer into run.json: "/scene/hydrate/saturation". Nothing where there is no such number or text.
+  std::optional<double> number(std::string const& at) const;
+  std::optional<std::string> text(std::string const& at) const;
+  bool has_bonds() const;            ///< were any intact at the start?
+  std::string bond_variant() const;  ///< law, composite, moment scale and coefficients as the scene names them
+};
+
+/// @throws FileProblem file_missing without the folder, its run.json or history.csv; bad_input where one of these is damaged or
+/// the history has fewer than two rows
+RunResults read_run(std::filesystem::path const& folder);
+
+/// Reads several; those in folders of the same name are named by their whole path.
+std::vector<RunResults> read_runs(std::vector<std::filesystem::path> const& folders);
+
+}  // namespace clathra

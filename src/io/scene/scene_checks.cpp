@@ -1,0 +1,199 @@
+#include "io/scene/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+#include "domain/scene/hydrate.hpp"
+#include "domain/scene/sample_design.hpp"
+#include "domain/scene/units.hpp"
+
+namespace clathra {
+namespace {
+
+/// The scene, what it states, and what was found so far.
+struct Check {
+  Scene const& scene;
+  std::function<bool(std::string_view)> const& given;
+  SceneFindings found;
+
+  void error(std::vector<std::string_view> keys, std::string text) {
+    found.problems.push_back({std::move(keys), std::move(text)});
+  }
+  void refusal(std::vector<std::string_view> keys, std::string text) {
+    if (scene.run.force)
+      found.warnings.push_back("forced: " + text);
+    else
+      found.problems.push_back({std::move(keys), text + " (run.force = true or --force goes on)", Severity::refusal});
+  }
+  void warn(std::string text) { found.warnings.push_back(std::move(text)); }
+};
+
+std::string length_text(double metres) { return fmt::format("{:.4g} mm", metres * 1e3); }
+
+void check_input_file(Check& check, std::string_view key, std::string const& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    check.found.problems.push_back(
+        {{key}, fmt::format("'{}' names a file that is not there: {}", key, path), Severity::missing_file});
+  else if (!std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path))
+    check.found.problems.push_back(
+        {{key}, fmt::format("'{}' names a file that cannot be read: {}", key, path), Severity::missing_file});
+}
+
+/// Any three of particles, box, void ratio and grading fix the fourth.
+void check_size(Check& check) {
+  SampleScene const& sample = check.scene.sample;
+  if (sample.generator == Generator::file) {
+    if (sample.file.empty())
+      check.error({"sample.generator", "sample.file"}, "generator 'file' needs 'sample.file', the specimen to read");
+    else
+      check_input_file(check, "sample.file", sample.file);
+    for (std::string_view const key : {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"})
+      if (check.given(key)) check.warn(fmt::format("{} has no effect: the specimen comes from {}", key, sample.file));
+    return;
+  }
+  if (!sample.file.empty()) check.warn("sample.file has no effect: sample.generator is not \"file\"");
+  bool const box = sample.width > 0 || sample.height > 0;
+  if (sample.particles == 0 && !box)
+    check.error({"sample.particles"},
+                "the size of the specimen is open: give 'sample.particles', or 'sample.width' and 'sample.height'");
+  if (sample.particles > 0 && box && sample.void_ratio > 0 && check.scene.grading.d50 > 0)
+    check.error({"sample.void_ratio", "sample.particles", "grading.d50"},
+                "sample.particles, box, sample.void_ratio and grading.d50 are all given, but three of them fix the fourth: leave "
+                "one out");
+  if (sample.width > 0 && sample.height > 0 && check.given("sample.aspect_ratio") &&
+      std::fabs(sample.height / sample.width / sample.aspect_ratio - 1) > 1e-6)
+    check.error({"sample.aspect_ratio", "sample.width"},
+                "sample.width, sample.height and sample.aspect_ratio contradict each other");
+}
+
+/// Reads the grading and completes the specimen; nothing where that is not possible, which is then reported.
+std::optional<SampleDesign> check_design(Check& check) {
+  Scene const& scene = check.scene;
+  if (scene.sample.generator == Generator::file) return {};
+  if (!scene.grading.file.empty()) {
+    check_input_file(check, "grading.file", scene.grading.file);
+    if (check.given("grading.table")) check.warn("grading.table has no effect: the sizes come from grading.file");
+  }
+  if (!check.found.problems.empty()) return {};
+  try {
+    SampleDesign design = design_sample(scene);
+    double const largest = design.grading.largest();
+    if (std::min(design.width, design.height) < largest)
+      check.error({"sample.width", "sample.height", "sample.particles", "grading.d50"},
+                  fmt::format("no grain of {} fits into a specimen of {} x {}", length_text(largest), length_text(design.width),
+                              length_text(design.height)));
+    else if (std::string const problem = narrowness(design.width, design.height, largest); !problem.empty())
+      check.refusal({"sample.width", "sample.height", "sample.particles", "grading.d50"}, problem);
+    if (design.particles < 16 || design.particles > 1'000'000'000)
+      check.error({"sample.width", "sample.height", "grading.d50"},
+                  fmt::format("the box of {} x {} holds {} discs of this grading; between 16 and 1e9 are possible",
+                              length_text(design.width), length_text(design.height), design.particles));
+    return design;
+  } catch (std::invalid_argument const& problem) {
+    check.error({"grading.file", "sample.particles", "sample.width"}, problem.what());
+    return {};
+  }
+}
+
+/// Exactly one of inertial_number and strain_rate; stating the rate replaces the default inertial number (see scene_file.cpp).
+void check_loading(Check& check) {
+  TestScene const& test = check.scene.test;
+  if (test.inertial_number > 0 && test.strain_rate > 0)
+    check.error({"test.strain_rate", "test.inertial_number"},
+                "give either 'test.inertial_number' or 'test.strain_rate', not both");
+  if (test.inertial_number == 0 && test.strain_rate == 0)
+    check.error({"test.inertial_number", "test.strain_rate"},
+                "one of 'test.inertial_number' and 'test.strain_rate' must be given");
+  if (check.scene.bond.stress > test.confining_stress)
+    check.error({"bond.stress", "test.confining_stress"},
+                fmt::format("'bond.stress' ({}) is above 'test.confining_stress' ({})",
+                            format_quantity(check.scene.bond.stress, Dimension::pressure),
+                            format_quantity(test.confining_stress, Dimension::pressure)));
+}
+
+/// A d50 so small that no gap between the two largest discs gives a bond with tensile strength (trap 5 of the physics page).
+void check_strength(Check& check, SampleDesign const& design) {
+  if (check.scene.bond.mode == BondingMode::areal_target) return;
+  double const d50 = design.grading.d50(), radius = design.grading.largest() / 2;
+  double const h_max = evaluate_bond(check.scene, d50, radius, radius, 0, 0).h_max;
+  constexpr int steps = 64;
+  double best = -HUGE_VAL;
+  for (int i = 0; i < steps; ++i)
+    best = std::max(best, evaluate_bond(check.scene, d50, radius, radius, h_max * i / steps, 0).R_t);
+  if (best > 0) return;
+  check.error(
+      {"grading.d50", "hydrate.saturation", "bond.critical_thickness"},
+      fmt::format("with d50 = {} no bond has tensile strength: between the largest discs R_t is {:.4g} N/m at best (Eq. 15a)",
+                  length_text(d50), best));
+}
+
+void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
+  Scene const& scene = check.scene;
+  if (!has_bonds(scene)) return;
+  std::vector<std::string_view> const state = {"hydrate.temperature", "hydrate.pore_pressure", "hydrate.density",
+                                               "hydrate.saturation"};
+  if (std::string const problem = hydrate_problem(scene.hydrate); !problem.empty()) return check.error(state, problem);
+  HydrateScene gated = scene.hydrate;
+  gated.allow_unstable = false;
+  if (std::string const problem = hydrate_problem(gated); !problem.empty()) check.warn(problem);
+  if (scene.bond.mode == BondingMode::given_thickness && scene.bond.critical_thickness == 0)
+    return check.error({"bond.mode"}, "mode 'given_thickness' needs 'bond.critical_thickness'");
+  if (scene.bond.mode != BondingMode::given_thickness && scene.bond.critical_thickness > 0)
+    check.warn("bond.critical_thickness has no effect: bond.mode is not \"given_thickness\"");
+  if (scene.bond.mode == BondingMode::eq3) {
+    if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) check.warn(warning);
+    if (critical_thickness_ratio(scene.hydrate.saturation) == 0) return;
+  }
+  if (design) check_strength(check, *design);
+}
+
+void check_bonding(Check& check) {
+  BondScene const& bond = check.scene.bond;
+  if (!has_bonds(check.scene)) {
+    for (std::string_view const key : {"bond.composite", "bond.mode", "bond.moment_scale", "bond.coefficients"})
+      if (check.given(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
+    return;
+  }
+  if (bond.plate_thickness > 0 && bond.law != BondLawKind::constant_thickness)
+    check.warn("bond.plate_thickness has no effect: bond.law is not \"constant_thickness\"");
+  if (bond.plate_thickness > 0 && bond.mode == BondingMode::given_thickness && bond.plate_thickness >= bond.critical_thickness)
+    check.error({"bond.plate_thickness", "bond.critical_thickness"},
+                "'bond.plate_thickness' must be below 'bond.critical_thickness'");
+  if (bond.after_consolidation && bond.composite == Composite::replace)
+    check.refusal(
+        {"bond.after_consolidation", "bond.composite"},
+        "composite 'replace' with 'after_consolidation' deletes the contact forces that carry the confining stress (Eq. 7a); "
+        "use 'parallel' or 'memory'");
+}
+
+/// The folder itself must be named: neither a root, nor the way up, nor a link to elsewhere.
+void check_output(Check& check) {
+  std::filesystem::path folder = std::filesystem::path(check.scene.output.folder).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // "out/"
+  std::filesystem::path const name = folder.filename();
+  if (name.empty() || name == ".." || name == ".")
+    check.error({"output.folder"},
+                fmt::format("'output.folder' must name a folder of its own, got '{}'", check.scene.output.folder));
+}
+
+}  // namespace
+
+SceneFindings check_scene(Scene const& scene, std::function<bool(std::string_view)> const& given) {
+  Check check{scene, given, {}};
+  check_size(check);
+  std::optional<SampleDesign> const design = check_design(check);
+  check_loading(check);
+  check_hydrate(check, design);
+  check_bonding(check);
+  check_output(check);
+  return std::move(check.found);
+}
+
+}  // namespace clathra

@@ -1,0 +1,55 @@
+#include "io/scene/scene_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Keys that do not change what is computed.
+bool may_differ(Key const& key) {
+  return key.name == "output.folder" || key.name == "run.threads" || key.name == "run.force" || key.name == "sample.file";
+}
+
+bool same_file(std::string const& then, std::string const& now, fs::path const& folder) {
+  if (then.empty() || now.empty()) return then == now;
+  std::error_code ignored;
+  fs::path const here = fs::weakly_canonical(fs::absolute(now, ignored), ignored);
+  return fs::weakly_canonical(fs::absolute(folder / then, ignored), ignored) == here ||
+         fs::weakly_canonical(fs::absolute(then, ignored), ignored) == here;
+}
+
+/// Whether a text that was kept states the value of a scene.
+bool states(Key const& key, std::string const& text, Scene const& scene, fs::path const& folder) {
+  if (text == value_text(key, scene)) return true;
+  return key.kind == Kind::path && same_file(unquoted(text), unquoted(value_text(key, scene)), folder);
+}
+
+}  // namespace
+
+SceneTexts scene_texts(Scene const& scene, fs::path const& folder) {
+  SceneTexts texts;
+  Scene relative = scene;
+  if (std::string& file = relative.grading.file; !file.empty()) file = fs::proximate(file, folder).string();
+  for (Key const& key : schema())
+    if (!may_differ(key)) texts[std::string(key.name)] = value_text(key, relative);
+  return texts;
+}
+
+std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path const& folder) {
+  Scene const defaults;
+  std::string text;
+  for (Key const& key : schema()) {
+    if (may_differ(key)) continue;
+    auto const kept = then.find(std::string(key.name));
+    std::string const before = kept != then.end() ? kept->second : value_text(key, defaults);
+    if (!states(key, before, now, folder)) text += fmt::format("; {} was {}, is {}", key.name, before, value_text(key, now));
+  }
+  return text;
+}
+
+}  // namespace clathra

@@ -1,0 +1,23 @@
+#pragma once
+/// Do two scenes give the same results?
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "domain/scene/scene.hpp"
+
+namespace clathra {
+
+/// Keys of a scene with their values as a scene file states them: what is kept beside something that was computed.
+using SceneTexts = std::map<std::string, std::string>;
+
+/// The keys that results depend on, paths relative to `folder`. Left out are those that say where and with what a run computes
+/// (output.folder, run.threads), whether it overrode a guard (run.force), and sample.file: what counts of a specimen is its
+/// content.
+SceneTexts scene_texts(Scene const& scene, std::filesystem::path const& folder);
+
+/// "; run.damping was 0.3, is 0.2" for each such key with another value, nothing where there is none. A key that is not kept had
+/// its default. A path may be written in any way that leads to the same file, from `folder` or from the current one.
+std::string scene_differences(SceneTexts const& then, Scene const& now, std::filesystem::path const& folder);
+
+}  // namespace clathra

@@ -1,0 +1,260 @@
+#include "io/scene/scene_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <stdexcept>
+
+#include "io/formats/text_file.hpp"
+#include "io/scene/scene_checks.hpp"
+#include "io/scene/scene_guard.hpp"
+#include "io/scene/scene_value.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr std::size_t most_problems = 50;  // of hostile files; nobody reads more
+
+/// Where a key was stated.
+struct Place {
+  std::string file;
+  int line = 0, column = 0;
+};
+
+int as_int(toml::source_index index) { return static_cast<int>(index); }
+
+/// A line of a text, counted from 1, up to a comment sign and without blanks at its end.
+std::string_view line_of(std::string_view text, int number) {
+  for (; number > 1; --number) text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
+  text = text.substr(0, text.find_first_of("\n#"));
+  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
+}
+
+/// What the parser says of a line, in the words of somebody who writes scenes: most often quotes are missing.
+std::string syntax_text(std::string_view description, std::string_view line) {
+  if (std::count(line.begin(), line.end(), '"') % 2 != 0) return "a quotation mark (\") is missing in this line";
+  std::string_view const value = line.substr(std::min(line.size(), line.find('=') + 1));
+  std::string_view const from_number = value.substr(std::min(value.size(), value.find_first_not_of(" \t")));
+  std::size_t const after = from_number.find_first_not_of("0123456789+-._eE \t");
+  bool const number = !from_number.empty() && from_number.find_first_of("0123456789+-.") == 0;
+  if (number && after != from_number.npos &&
+      (std::isalpha(static_cast<unsigned char>(from_number[after])) || from_number[after] == '%'))
+    return fmt::format("a number with its unit goes in quotes: \"{}\"", from_number.substr(0, 40));
+  return "cannot be understood: " + std::string(description);
+}
+
+/// One side alone fixes the other by the aspect ratio, unless the number of discs does.
+void complete_box(SampleScene& sample) {
+  if (sample.particles > 0) return;
+  if (sample.height == 0) sample.height = sample.width * sample.aspect_ratio;
+  if (sample.width == 0) sample.width = sample.height / sample.aspect_ratio;
+}
+
+/// Collects a Scene from the file and the overrides, with all problems.
+class SceneReader {
+ public:
+  SceneReader(std::string file, std::filesystem::path folder) : file_(std::move(file)), folder_(std::move(folder)) {}
+
+  void read_file(std::string const& source) {
+    GuardedText const guarded = guard_scene_text(source, file_);
+    problems_.insert(problems_.end(), guarded.problems.begin(), guarded.problems.end());
+    readable_ = guarded.problems.empty();
+    if (!readable_) return;
+    try {
+      toml::table const root = toml::parse(guarded.text);
+      read_table(root, "");
+    } catch (toml::parse_error const& error) {
+      auto const at = error.source().begin;
+      int const line = as_int(at.line);
+      problems_.push_back({file_, line, as_int(at.column), syntax_text(error.description(), line_of(source, line))});
+      readable_ = false;
+    }
+  }
+
+  void read_override(std::string const& text) {
+    Place const place{"--set " + text.substr(0, 100)};
+    auto const equals = text.find('=');
+    if (equals == std::string::npos) return report(place, "needs the form key=value, as in --set run.threads=2");
+    std::string const name = text.substr(0, equals);
+    std::string value = text.substr(equals + 1);
+    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
+    if (name == "test.strain_rate") replace("test.inertial_number", "test.strain_rate");
+    if (name == "test.inertial_number") replace("test.strain_rate", "test.inertial_number");
+    if (name == "sample.generator" && value == "file") leave_out_sizes();
+    Key const* const key = find_key(name);
+    if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
+    set(*key, place, true, [&] { set_from_text(*key, scene_, value); });
+    overridden_.push_back(key->name);
+  }
+
+  /// Cross-checks, then the scene; throws if anything is wrong.
+  LoadedScene finish() {
+    // Stating a strain rate replaces the default inertial number.
+    if (scene_.test.strain_rate > 0 && !given("test.inertial_number")) scene_.test.inertial_number = 0;
+    complete_box(scene_.sample);
+    SceneFindings found = check_scene(scene_, [this](std::string_view name) { return given(name); });
+    for (Finding& finding : found.problems) {
+      // What is said of a key that could not even be read would only confuse.
+      if (!readable_ || std::any_of(finding.keys.begin(), finding.keys.end(), [this](auto key) { return is_spoilt(key); }))
+        continue;
+      Place const place = place_of(finding.keys);
+      problems_.push_back({place.file, place.line, place.column, std::move(finding.text), finding.severity});
+    }
+    if (!problems_.empty()) {
+      std::stable_sort(problems_.begin(), problems_.end(), [](Problem const& a, Problem const& b) {
+        return std::pair(a.line == 0, std::pair(a.line, a.column)) < std::pair(b.line == 0, std::pair(b.line, b.column));
+      });
+      if (problems_.size() > most_problems) problems_.resize(most_problems);
+      throw SceneProblems(std::move(problems_));
+    }
+    std::vector<std::string_view> stated;
+    for (auto const& place : places_) stated.push_back(place.first);
+    return {scene_, {}, {}, std::move(found.warnings), std::move(stated)};
+  }
+
+ private:
+  void report(Place const& place, std::string text) {
+    problems_.push_back({place.file, place.line, place.column, std::move(text)});
+  }
+
+  bool given(std::string_view name) const { return places_.count(name) != 0 && !is_zero(*find_key(name), scene_); }
+  /// Its value is wrong, or its section has a misspelt key, which may be this one.
+  bool is_spoilt(std::string_view name) const {
+    return std::any_of(spoilt_.begin(), spoilt_.end(),
+                       [name](auto const& spoilt) { return spoilt == name || spoilt == name.substr(0, name.find('.')); });
+  }
+
+  Place place_of(std::vector<std::string_view> const& keys) const {
+    for (std::string_view const key : keys)
+      if (auto const found = places_.find(key); found != places_.end()) return found->second;
+    return {file_};
+  }
+
+  /// An override of one rate takes the place of the other one in the file; two overrides contradict each other.
+  void replace(std::string_view other, std::string_view name) {
+    if (std::find(overridden_.begin(), overridden_.end(), other) != overridden_.end()) return;
+    places_.erase(other);
+    (name == "test.strain_rate" ? scene_.test.inertial_number : scene_.test.strain_rate) = 0;
+  }
+
+  /// A specimen that is read takes the place of the one that the file describes.
+  void leave_out_sizes() {
+    for (std::string_view const name :
+         {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"}) {
+      if (std::find(overridden_.begin(), overridden_.end(), name) != overridden_.end()) continue;
+      places_.erase(name);
+      set_from_number(*find_key(name), scene_, 0);
+    }
+  }
+
+  template <class Set>
+  void set(Key const& key, Place const& place, bool from_override, Set const& assign) {
+    places_.insert_or_assign(key.name, place);
+    try {
+      assign();
+    } catch (std::invalid_argument const& problem) {
+      spoilt_.emplace_back(key.name);
+      return report(place, fmt::format("'{}' {}", from_override ? key.name : key.leaf(), problem.what()));
+    }
+    if (key.kind != Kind::path || from_override) return;
+    std::string& path = std::get<std::string& (*)(Scene&)>(key.field)(scene_);
+    if (!path.empty()) path = (folder_ / path).lexically_normal().string();
+  }
+
+  void read_table(toml::table const& table, std::string const& prefix) {
+    for (auto const& [name, node] : table) {
+      std::string const dotted = prefix.empty() ? std::string(name.str()) : prefix + "." + std::string(name.str());
+      auto const at = name.source().begin;
+      Place const key_place{file_, as_int(at.line), as_int(at.column)};
+      bool const is_section = prefix.empty() && std::any_of(schema().begin(), schema().end(),
+                                                            [&](Key const& key) { return key.section() == dotted; });
+      if (is_section && node.is_table())
+        read_table(*node.as_table(), dotted);
+      else if (Key const* const key = find_key(dotted))
+        read_value(*key, node);
+      else if (is_section)
+        report(key_place, fmt::format("'{}' is a section: write [{}] and its keys below", dotted, dotted));
+      else
+        report_unknown(key_place, prefix, dotted, node.is_table());
+    }
+  }
+
+  void report_unknown(Place const& place, std::string const& section, std::string const& dotted, bool is_table) {
+    std::string const leaf = section.empty() ? dotted : dotted.substr(section.size() + 1);
+    std::string const hint = is_table && section.empty() ? section_suggestion(dotted) : key_suggestion(dotted);
+    if (is_table && section.empty())
+      report(place, fmt::format("unknown section [{}]{}", leaf.substr(0, 60), hint));
+    else if (section.empty())
+      report(place, fmt::format("unknown key '{}' outside any section{}", leaf.substr(0, 60), hint));
+    else
+      report(place, fmt::format("unknown key '{}' in [{}]{}", leaf.substr(0, 60), section, hint)), spoilt_.push_back(section);
+  }
+
+  static std::string section_suggestion(std::string const& name) {
+    std::vector<std::string_view> sections;
+    for (Key const& key : schema())
+      if (sections.empty() || sections.back() != key.section()) sections.push_back(key.section());
+    return name_suggestion(name, sections);
+  }
+
+  void read_value(Key const& key, toml::node const& node) {
+    auto const at = node.source().begin;
+    Place const place{file_, as_int(at.line), as_int(at.column)};
+    set(key, place, false, [&] {
+      if (auto const* const text = node.as_string())
+        set_from_text(key, scene_, text->get());
+      else if (auto const* const whole = node.as_integer())
+        set_from_integer(key, scene_, whole->get());
+      else if (auto const* const number = node.as_floating_point())
+        set_from_number(key, scene_, number->get());
+      else if (auto const* const truth = node.as_boolean())
+        set_from_boolean(key, scene_, truth->get());
+      else
+        throw std::invalid_argument(node.is_table() ? "is one value, not a section" : "needs one value, not a list or a date");
+    });
+  }
+
+  std::string file_;
+  std::filesystem::path folder_;
+  Scene scene_;
+  std::vector<Problem> problems_;
+  std::map<std::string_view, Place> places_;
+  std::vector<std::string> spoilt_;  ///< keys and sections
+  std::vector<std::string_view> overridden_;
+  bool readable_ = true;
+};
+
+}  // namespace
+
+LoadedScene parse_scene(std::string const& source, std::string const& file, std::filesystem::path const& folder,
+                        std::vector<std::string> const& overrides) {
+  SceneReader reader(file, folder);
+  reader.read_file(source);
+  for (std::string const& text : overrides) reader.read_override(text);
+  LoadedScene loaded = reader.finish();
+  loaded.source = source;
+  loaded.overrides = overrides;
+  return loaded;
+}
+
+LoadedScene load_scene(std::filesystem::path const& path, std::vector<std::string> const& overrides) {
+  return parse_scene(read_text_file(path, largest_scene_file + 1), path.string(), path.parent_path(), overrides);
+}
+
+std::string resolved_scene(Scene const& scene, std::filesystem::path const& folder) {
+  std::string text = "# The scene as it is run, with every key. A value of 0 or \"\" means: not given.\n";
+  std::string_view section;
+  Scene relative = scene;
+  for (std::string* const path : {&relative.sample.file, &relative.grading.file})
+    if (!path->empty()) *path = std::filesystem::proximate(*path, folder).string();
+  for (Key const& key : schema()) {
+    if (key.section() != section) text += fmt::format("\n[{}]\n", section = key.section());
+    text += fmt::format("{} = {}\n", key.leaf(), value_text(key, relative));
+  }
+  return text;
+}
+
+}  // namespace clathra

@@ -1,0 +1,171 @@
+#include "io/scene/scene_reference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "domain/scene/units.hpp"
+#include "io/scene/scene_value.hpp"
+
+namespace clathra {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string limit_text(Key const& key, double value) {
+  if (key.kind != Kind::quantity) return fmt::format("{:.0f}", value);
+  std::string const text = format_quantity(value, key.dimension);
+  bool const bare = text.find(' ') == std::string::npos && !bare_unit(key.dimension).empty();
+  return bare ? fmt::format("{} {}", text, bare_unit(key.dimension)) : text;
+}
+
+/// Whether a scene leaves the key out, as opposed to stating the number 0.
+bool is_absent(Key const& key, Scene const& scene) {
+  return is_zero(key, scene) && (!key.zero.empty() || key.kind == Kind::path || key.kind == Kind::text);
+}
+
+/// The default as a scene file states it, or what leaving the key out means.
+std::string default_text(Key const& key) {
+  Scene const defaults;
+  if (is_absent(key, defaults)) return key.zero.empty() ? "none" : std::string(key.zero);
+  return fmt::format("`{}`", value_text(key, defaults));
+}
+
+std::string_view kind_text(Key const& key) {
+  switch (key.kind) {
+    case Kind::quantity:
+      return key.dimension == Dimension::ratio ? "number" : dimension_name(key.dimension);
+    case Kind::integer:
+      return "whole number";
+    case Kind::boolean:
+      return "truth value";
+    case Kind::choice:
+      return "name";
+    case Kind::text:
+      return "text";
+    case Kind::path:
+      return "file";
+  }
+  return "";
+}
+
+Json default_json(Key const& key) {
+  Scene const defaults;
+  std::string const text = value_text(key, defaults);
+  if (text.size() >= 2 && text.front() == '"') return text.substr(1, text.size() - 2);
+  return Json::parse(text);
+}
+
+Json key_json(Key const& key) {
+  Json json = {{"description", fmt::format("{}. Allowed: {}.", key.help, allowed_values(key))}};
+  if (!is_absent(key, Scene{})) json["default"] = default_json(key);
+  Json const text = {{"type", "string"}}, truth = {{"type", "boolean"}};
+  Json number = {{"type", key.kind == Kind::integer ? "integer" : "number"},
+                 {"minimum", key.zero.empty() ? key.least : std::min(0.0, key.least)},
+                 {"maximum", key.most}};
+  switch (key.kind) {
+    case Kind::quantity:
+      json["anyOf"] = Json::array({number, text});
+      break;
+    case Kind::integer:
+      json.update(number);
+      break;
+    case Kind::boolean:
+      json.update(truth);
+      break;
+    case Kind::choice:
+      json["enum"] = key.choices;
+      break;
+    case Kind::text:
+    case Kind::path:
+      json.update(text);
+      break;
+  }
+  return json;
+}
+
+/// The value of a key as a scene of one line a key states it, with its unit.
+std::string_view stated_text(Key const& key, std::string_view source) {
+  std::string_view section;
+  while (!source.empty()) {
+    std::size_t const end = std::min(source.size(), source.find('\n'));
+    std::string_view const line = source.substr(0, end);
+    source.remove_prefix(std::min(source.size(), end + 1));
+    if (line.starts_with('[')) section = line.substr(1, line.find(']') - 1);
+    std::size_t const equals = line.find(" = ");
+    if (equals == line.npos || section != key.section() || line.substr(0, equals) != key.leaf()) continue;
+    std::string_view const value = line.substr(equals + 3);
+    std::size_t const comment = value.find(" #");
+    return value.substr(0, comment == value.npos ? comment : value.find_last_not_of(' ', comment) + 1);
+  }
+  throw std::logic_error(std::string(key.name) + " is not stated on a line of its own");
+}
+
+}  // namespace
+
+std::string allowed_values(Key const& key) {
+  if (key.kind == Kind::boolean) return "true or false";
+  if (key.kind == Kind::path) return "a path, relative to the folder of the scene";
+  if (key.kind == Kind::text) return "text";
+  if (key.kind != Kind::choice) return fmt::format("{} to {}", limit_text(key, key.least), limit_text(key, key.most));
+  std::string names;
+  for (std::string_view const name : key.choices) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
+  return names;
+}
+
+std::string schema_markdown() {
+  std::string text =
+      "# Scene files\n\nA scene is a TOML file of ASCII text. Every quantity is a number with its unit in quotes (`\"1 MPa\"`) "
+      "or a bare "
+      "number in SI units (temperatures in degrees Celsius, always with a unit). A key that is not stated has its default; a key "
+      "that "
+      "is not in this list is an error. `clathra schema` prints this page, `clathra schema --json` a JSON Schema for editors, "
+      "and "
+      "`clathra init quick` a scene with every key and its meaning.\n";
+  std::string_view section;
+  for (Key const& key : schema()) {
+    if (key.section() != section) {
+      section = key.section();
+      text += fmt::format("\n## [{}]\n\n| key | what it is | kind | allowed | default |\n|---|---|---|---|---|\n", section);
+    }
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.leaf(), key.help, kind_text(key), allowed_values(key),
+                        default_text(key));
+  }
+  return text;
+}
+
+std::string schema_json() {
+  Json root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+               {"title", "Clathra scene"},
+               {"type", "object"},
+               {"additionalProperties", false},
+               {"properties", Json::object()}};
+  for (Key const& key : schema()) {
+    Json& section = root["properties"][std::string(key.section())];
+    if (section.is_null()) section = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+    section["properties"][std::string(key.leaf())] = key_json(key);
+  }
+  return root.dump(2) + "\n";
+}
+
+std::string commented_scene(Scene const& scene, std::vector<std::string_view> const& stated, std::string_view opening,
+                            std::string_view source) {
+  std::string text(opening);
+  std::string_view section;
+  for (Key const& key : schema()) {
+    if (key.section() != section) text += fmt::format("\n[{}]\n", section = key.section());
+    bool const given = std::find(stated.begin(), stated.end(), key.name) != stated.end();
+    bool const absent = !given && is_absent(key, scene);
+    text += fmt::format("# {}: {}", key.help, allowed_values(key));
+    if (absent && !key.zero.empty()) text += fmt::format("; without it: {}", key.zero);
+    // A value that stands for "not given" would be out of range if somebody took the comment sign away.
+    text += absent ? fmt::format("\n# {} =\n", key.leaf())
+                   : fmt::format("\n{}{} = {}\n", given ? "" : "# ", key.leaf(),
+                                 given && !source.empty() ? stated_text(key, source) : value_text(key, scene));
+  }
+  return text;
+}
+
+}  // namespace clathra

@@ -1,0 +1,205 @@
+#include "io/scene/scene_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace clathra {
+namespace {
+
+[[noreturn]] void refuse(std::string const& text) { throw std::invalid_argument(text); }
+
+std::string shown(std::string_view text) {
+  std::string safe(text.substr(0, 40));
+  std::replace_if(
+      safe.begin(), safe.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "'" + safe + (text.size() > 40 ? "...'" : "'");
+}
+
+std::string limit_text(Key const& key, double value) {
+  return key.kind == Kind::quantity ? format_quantity(value, key.dimension) : fmt::format("{:.0f}", value);
+}
+
+/// @param bare  the number came without unit, which may be why it is out of range
+void check_range(Key const& key, double value, bool bare) {
+  if (value == 0 && !key.zero.empty()) return;
+  if (value >= key.least && value <= key.most) return;
+  std::string text = fmt::format("must lie between {} and {}, got {}", limit_text(key, key.least), limit_text(key, key.most),
+                                 key.kind == Kind::quantity ? format_quantity(value, key.dimension) : format_number(value));
+  if (!key.zero.empty()) text += fmt::format(" (0: {})", key.zero);
+  if (key.kind == Kind::quantity && key.dimension == Dimension::ratio) {
+    if (key.most <= 1 && value > 1 && value <= 100)
+      text += fmt::format("; this looks like percent: write {} or \"{} %\"", format_number(value / 100), format_number(value));
+  } else if (key.kind == Kind::quantity && bare) {
+    text +=
+        fmt::format("; a number without unit is in {}; example: {}", bare_unit(key.dimension), quantity_example(key.dimension));
+  }
+  refuse(text);
+}
+
+void set_quantity(Key const& key, Scene& scene, double value, bool bare) {
+  if (!std::isfinite(value)) refuse("must be finite");
+  check_range(key, value, bare);
+  std::get<double& (*)(Scene&)>(key.field)(scene) = value + 0.0;  // "-0" is written back as "0"
+}
+
+void store_integer(Key const& key, Scene& scene, std::int64_t value) {
+  check_range(key, static_cast<double>(value), true);
+  if (auto* const at = std::get_if<int& (*)(Scene&)>(&key.field))
+    (*at)(scene) = static_cast<int>(value);
+  else if (auto* const wide = std::get_if<std::int64_t& (*)(Scene&)>(&key.field))
+    (*wide)(scene) = value;
+  else
+    std::get<std::uint64_t& (*)(Scene&)>(key.field)(scene) = static_cast<std::uint64_t>(value);
+}
+
+void set_integer_text(Key const& key, Scene& scene, std::string_view text) {
+  std::int64_t value = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && end == text.data() + text.size()) return store_integer(key, scene, value);
+  set_from_number(key, scene, parse_number(text));  // "2e4"
+}
+
+void set_choice(Key const& key, Scene& scene, std::string_view text) {
+  auto const found = std::find(key.choices.begin(), key.choices.end(), text);
+  if (found == key.choices.end()) {
+    std::string names;
+    for (std::string_view const name : key.choices) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", name);
+    refuse(fmt::format("must be one of {}, got {}{}", names, shown(text), name_suggestion(text, key.choices)));
+  }
+  if (auto* const choice = std::get_if<ChoiceField>(&key.field))
+    choice->set(scene, static_cast<int>(found - key.choices.begin()));
+  else
+    std::get<std::string& (*)(Scene&)>(key.field)(scene) = std::string(text);
+}
+
+void set_text(Key const& key, Scene& scene, std::string_view text) {
+  if (std::any_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }))
+    refuse("has control characters");
+  std::get<std::string& (*)(Scene&)>(key.field)(scene) = std::string(text);
+}
+
+std::string_view kind_name(Key const& key) {
+  switch (key.kind) {
+    case Kind::quantity:
+      return dimension_name(key.dimension);
+    case Kind::integer:
+      return "a whole number";
+    case Kind::boolean:
+      return "true or false";
+    case Kind::choice:
+      return "one of its names, in quotes";
+    case Kind::text:
+    case Kind::path:
+      return "text in quotes";
+  }
+  return "";
+}
+
+/// TOML's basic string.
+std::string toml_string(std::string_view text) {
+  std::string result = "\"";
+  for (char const c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+/// The fields of a scene are reached by functions of a Scene&; here they are only read.
+template <class T>
+T const& read(T& (*at)(Scene&), Scene const& scene) {
+  return at(const_cast<Scene&>(scene));
+}
+
+}  // namespace
+
+void set_from_text(Key const& key, Scene& scene, std::string_view text) {
+  switch (key.kind) {
+    case Kind::quantity: {
+      double const value = parse_quantity(text, key.dimension);
+      bool const bare = text.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos;
+      return set_quantity(key, scene, value, bare);
+    }
+    case Kind::integer:
+      return set_integer_text(key, scene, text);
+    case Kind::boolean:
+      if (text != "true" && text != "false") refuse("must be true or false, got " + shown(text));
+      return set_from_boolean(key, scene, text == "true");
+    case Kind::choice:
+      return set_choice(key, scene, text);
+    case Kind::text:
+    case Kind::path:
+      return set_text(key, scene, text);
+  }
+}
+
+void set_from_number(Key const& key, Scene& scene, double value) {
+  if (key.kind == Kind::integer) {
+    check_range(key, value, true);
+    if (value != std::floor(value)) refuse("needs a whole number, got " + format_number(value));
+    return store_integer(key, scene, static_cast<std::int64_t>(value));
+  }
+  if (key.kind != Kind::quantity) refuse(fmt::format("needs {}, got a number ({})", kind_name(key), format_number(value)));
+  if (key.dimension == Dimension::temperature) parse_quantity(format_number(value), key.dimension);  // refuses: deg C or K?
+  set_quantity(key, scene, value, true);
+}
+
+void set_from_integer(Key const& key, Scene& scene, std::int64_t value) {
+  if (key.kind == Kind::integer) return store_integer(key, scene, value);
+  set_from_number(key, scene, static_cast<double>(value));
+}
+
+void set_from_boolean(Key const& key, Scene& scene, bool value) {
+  if (key.kind != Kind::boolean) refuse(fmt::format("needs {}, got {}", kind_name(key), value ? "true" : "false"));
+  std::get<bool& (*)(Scene&)>(key.field)(scene) = value;
+}
+
+bool is_zero(Key const& key, Scene const& scene) {
+  struct Visitor {
+    Scene const& scene;
+    bool operator()(double& (*at)(Scene&)) const { return read(at, scene) == 0; }
+    bool operator()(int& (*at)(Scene&)) const { return read(at, scene) == 0; }
+    bool operator()(std::int64_t& (*at)(Scene&)) const { return read(at, scene) == 0; }
+    bool operator()(std::uint64_t& (*at)(Scene&)) const { return read(at, scene) == 0; }
+    bool operator()(bool& (*)(Scene&)) const { return false; }
+    bool operator()(std::string& (*at)(Scene&)) const { return read(at, scene).empty(); }
+    bool operator()(ChoiceField const&) const { return false; }
+  };
+  return std::visit(Visitor{scene}, key.field);
+}
+
+std::string value_text(Key const& key, Scene const& scene) {
+  struct Visitor {
+    Key const& key;
+    Scene const& scene;
+    std::string operator()(double& (*at)(Scene&)) const {
+      std::string const text = format_quantity(read(at, scene), key.dimension);
+      return text.find(' ') == std::string::npos ? text : toml_string(text);
+    }
+    std::string operator()(int& (*at)(Scene&)) const { return fmt::format("{}", read(at, scene)); }
+    std::string operator()(std::int64_t& (*at)(Scene&)) const { return fmt::format("{}", read(at, scene)); }
+    std::string operator()(std::uint64_t& (*at)(Scene&)) const { return fmt::format("{}", read(at, scene)); }
+    std::string operator()(bool& (*at)(Scene&)) const { return read(at, scene) ? "true" : "false"; }
+    std::string operator()(std::string& (*at)(Scene&)) const { return toml_string(read(at, scene)); }
+    std::string operator()(ChoiceField const& field) const {
+      return toml_string(key.choices[static_cast<std::size_t>(field.get(scene))]);
+    }
+  };
+  return std::visit(Visitor{key, scene}, key.field);
+}
+
+std::string unquoted(std::string_view text) {
+  if (text.size() < 2 || text.front() != '"' || text.back() != '"') return std::string(text);
+  std::string result;
+  for (std::size_t k = 1; k + 1 < text.size(); ++k) {
+    if (text[k] == '\\' && k + 2 < text.size()) ++k;
+    result += text[k];
+  }
+  return result;
+}
+
+}  // namespace clathra

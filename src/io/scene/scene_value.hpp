@@ -1,0 +1,28 @@
+#pragma once
+/// One value of a scene: from text, number or truth value into its field, range-checked, and back into text.
+#include <string>
+#include <string_view>
+
+#include "io/scene/schema.hpp"
+
+namespace clathra {
+
+/// Sets a key from text, as after `--set key=` or inside quotes in a scene file: "1 MPa", "20000", "true", "tiled".
+/// @throws std::invalid_argument with a text that follows the key's name: "needs a pressure, got a length ('1 mm'); ..."
+void set_from_text(Key const& key, Scene& scene, std::string_view text);
+
+/// Sets a key from a bare number, which is in SI units. @throws std::invalid_argument as above
+void set_from_number(Key const& key, Scene& scene, double value);
+void set_from_integer(Key const& key, Scene& scene, std::int64_t value);
+void set_from_boolean(Key const& key, Scene& scene, bool value);
+
+/// True where the field has the value that the schema calls "not given" (0 or no text).
+bool is_zero(Key const& key, Scene const& scene);
+
+/// The value as a scene file states it, with quotes and unit; reads back to the same bits.
+std::string value_text(Key const& key, Scene const& scene);
+
+/// The text between the quotes of a value_text(), or all of it where it has none.
+std::string unquoted(std::string_view text);
+
+}  // namespace clathra

@@ -1,0 +1,166 @@
+#include "io/scene/schema.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace clathra {
+namespace {
+
+/// Scene::*Group.*Member as a function, so that one table can hold members of every section.
+template <auto Group, auto Member>
+auto& at(Scene& scene) {
+  return (scene.*Group).*Member;
+}
+
+template <auto Group, auto Member>
+constexpr ChoiceField choice_at() {
+  return {[](Scene const& scene) { return static_cast<int>((scene.*Group).*Member); },
+          [](Scene& scene, int place) {
+            auto& value = (scene.*Group).*Member;
+            value = static_cast<std::remove_reference_t<decltype(value)>>(place);
+          }};
+}
+
+using Names = std::string_view;
+constexpr std::array generators = {Names("under_compaction"), Names("tiled"), Names("file")};
+constexpr std::array tables = {Names("toyoura"), Names("uniform")};
+constexpr std::array laws = {Names("none"), Names("thickness_dependent"), Names("constant_thickness")};
+constexpr std::array composites = {Names("replace"), Names("parallel"), Names("memory")};
+constexpr std::array moment_scales = {Names("paper_si"), Names("rod_mm"), Names("similitude")};
+constexpr std::array sources = {Names("printed"), Names("thm")};
+constexpr std::array modes = {Names("eq3"), Names("given_thickness"), Names("areal_target")};
+
+using enum Dimension;
+using enum Kind;
+constexpr double any_seed = 9223372036854775807.0;  // TOML integers have 63 bits
+
+#define CLATHRA_FIELD(section, member) at<&Scene::section, &decltype(Scene::section)::member>
+#define CLATHRA_CHOICE(section, member) choice_at<&Scene::section, &decltype(Scene::section)::member>()
+
+// clang-format off
+Key const table[] = {
+  {"sample.generator", choice, CLATHRA_CHOICE(sample, generator), "how the specimen is made: compacted in layers, tiled from a periodic cell (large samples), or read from a file", ratio, 0, 0, {}, generators},
+  {"sample.particles", integer, CLATHRA_FIELD(sample, particles), "number of discs; any three of particles, box, void ratio and grading fix the fourth", ratio, 16, 1e9, "it follows from the others"},
+  {"sample.void_ratio", quantity, CLATHRA_FIELD(sample, void_ratio), "area of voids over area of discs at the stress under which hydrate forms", ratio, 0.05, 1, "0.24, or what particles, box and grading give"},
+  {"sample.width", quantity, CLATHRA_FIELD(sample, width), "width of the specimen", length, 1e-6, 1e3, "it follows from the others"},
+  {"sample.height", quantity, CLATHRA_FIELD(sample, height), "height of the specimen", length, 1e-6, 1e3, "it follows from the others"},
+  {"sample.aspect_ratio", quantity, CLATHRA_FIELD(sample, aspect_ratio), "height over width where they are not both given", ratio, 0.1, 10},
+  {"sample.layers", integer, CLATHRA_FIELD(sample, layers), "layers of the under-compaction", ratio, 1, 100},
+  {"sample.tile_particles", integer, CLATHRA_FIELD(sample, tile_particles), "discs of the periodic cell that generator \"tiled\" repeats", ratio, 100, 1e7},
+  {"sample.file", path, CLATHRA_FIELD(sample, file), "specimen file of generator \"file\""},
+
+  {"grains.density", quantity, CLATHRA_FIELD(grains, density), "density of the grains", density, 100, 30000},
+  {"grains.kn", quantity, CLATHRA_FIELD(grains, kn), "normal stiffness of a contact, per metre thickness", stiffness, 1e4, 1e13},
+  {"grains.ks", quantity, CLATHRA_FIELD(grains, ks), "shear stiffness of a contact, per metre thickness", stiffness, 1e4, 1e13},
+  {"grains.kn_particle", quantity, CLATHRA_FIELD(grains, kn_particle), "stiffness of one grain, two of which are in series with a bond (Eq. 16)", stiffness, 1e4, 1e13, "grains.kn, as printed"},
+  {"grains.friction", quantity, CLATHRA_FIELD(grains, friction), "friction coefficient between grains", ratio, 0, 5},
+  {"grains.shape_factor", quantity, CLATHRA_FIELD(grains, shape_factor), "beta: width of a grain contact over the common radius; 0 leaves out rolling resistance", ratio, 0, 4},
+  {"grains.contact_damping", quantity, CLATHRA_FIELD(grains, contact_damping), "viscous damping of contacts, as a part of the critical one", ratio, 0, 1},
+
+  {"grading.table", choice, CLATHRA_FIELD(grading, table), "grain sizes: Toyoura sand, or all discs of size d50", ratio, 0, 0, {}, tables},
+  {"grading.file", path, CLATHRA_FIELD(grading, file), "CSV file of grain sizes: diameter, percent finer by mass"},
+  {"grading.d50", quantity, CLATHRA_FIELD(grading, d50), "median diameter to which the table is scaled", length, 1e-7, 0.1, "that of the table"},
+
+  {"hydrate.saturation", quantity, CLATHRA_FIELD(hydrate, saturation), "part of the pores that hydrate fills; 0 is clean sand", ratio, 0, 1},
+  {"hydrate.temperature", quantity, CLATHRA_FIELD(hydrate, temperature), "temperature", temperature, -100, 100},
+  {"hydrate.pore_pressure", quantity, CLATHRA_FIELD(hydrate, pore_pressure), "water pressure in the pores; it acts on the hydrate, stresses are effective", pressure, 1e3, 1e9},
+  {"hydrate.density", quantity, CLATHRA_FIELD(hydrate, density), "density of the hydrate", density, 100, 2000},
+  {"hydrate.allow_unstable", boolean, CLATHRA_FIELD(hydrate, allow_unstable), "go on where hydrate would dissociate"},
+
+  {"bond.law", choice, CLATHRA_CHOICE(bond, law), "bonds: none, of the thickness of their gap, or all of one thickness", ratio, 0, 0, {}, laws},
+  {"bond.composite", choice, CLATHRA_CHOICE(bond, composite), "a bond replaces the grain contact, acts in parallel to it, or replaces it and keeps its force", ratio, 0, 0, {}, composites},
+  {"bond.moment_scale", choice, CLATHRA_CHOICE(bond, moment_scale), "length L_r that Eq. 9b lacks: 1 m, 1 mm, or moment_ratio times the bond width", ratio, 0, 0, {}, moment_scales},
+  {"bond.moment_ratio", quantity, CLATHRA_FIELD(bond, moment_ratio), "L_r over the bond width with moment_scale \"similitude\"", ratio, 1e-4, 10},
+  {"bond.coefficients", choice, CLATHRA_CHOICE(bond, coefficients), "strength of hydrate: as printed in Eq. 15, or from temperature, pressure and density (Eq. 13)", ratio, 0, 0, {}, sources},
+  {"bond.mode", choice, CLATHRA_CHOICE(bond, mode), "critical thickness from saturation (Eq. 3), as given, or such that the bonds fill the saturation", ratio, 0, 0, {}, modes},
+  {"bond.critical_thickness", quantity, CLATHRA_FIELD(bond, critical_thickness), "largest gap that a bond spans, with mode \"given_thickness\"", length, 1e-9, 0.01, "bond.mode decides"},
+  {"bond.plate_thickness", quantity, CLATHRA_FIELD(bond, plate_thickness), "thickness of all bonds with law \"constant_thickness\"", length, 1e-9, 0.01, "half the critical thickness"},
+  {"bond.stress", quantity, CLATHRA_FIELD(bond, stress), "isotropic stress under which the specimen is made and hydrate forms", pressure, 1e3, 1e9},
+  {"bond.after_consolidation", boolean, CLATHRA_FIELD(bond, after_consolidation), "let hydrate form under the confining stress instead"},
+
+  {"test.confining_stress", quantity, CLATHRA_FIELD(test, confining_stress), "effective lateral stress sigma_3", pressure, 1e3, 1e9},
+  {"test.axial_strain", quantity, CLATHRA_FIELD(test, axial_strain), "natural axial strain to reach", ratio, 1e-6, 0.5},
+  {"test.inertial_number", quantity, CLATHRA_FIELD(test, inertial_number), "rate of the test as I = strain rate * d50 * sqrt(density / pressure)", ratio, 1e-12, 1, "strain_rate is given instead"},
+  {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, instead of inertial_number", rate, 1e-12, 1e6, "test.inertial_number decides"},
+  {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5},
+  {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of consolidation; a specimen that has not come to rest by then is refused, with another number than this sheared with a warning", ratio, 0, 1e9},
+
+  {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},
+  {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
+  {"run.dt_safety", quantity, CLATHRA_FIELD(run, dt_safety), "time step over its stable limit", ratio, 0.001, 1},
+  {"run.damping", quantity, CLATHRA_FIELD(run, damping), "local damping while the specimen is sheared", ratio, 0, 0.95},
+  {"run.skin", quantity, CLATHRA_FIELD(run, skin), "distance beyond touching at which neighbours are listed; up to five times that for discs that fly", length, 1e-9, 1, "chosen"},
+  {"run.force", boolean, CLATHRA_FIELD(run, force), "go on where a guard refuses; noted in run.json"},
+
+  {"output.folder", text, CLATHRA_FIELD(output, folder), "folder of the results"},
+  {"output.records", integer, CLATHRA_FIELD(output, records), "rows of history.csv over the whole strain", ratio, 1, 1e6},
+  {"output.snapshots", integer, CLATHRA_FIELD(output, snapshots), "snapshots for ParaView and the report over the whole strain, besides the one at its start", ratio, 1, 1e5, "none at all"},
+  {"output.energy", boolean, CLATHRA_FIELD(output, energy), "keep the energy ledger in history.csv"},
+  {"output.events", boolean, CLATHRA_FIELD(output, events), "write every broken bond to events.csv"},
+  {"output.full_precision", boolean, CLATHRA_FIELD(output, full_precision), "write snapshots without rounding: forces, moments and gaps with all their digits"},
+};
+// clang-format on
+#undef CLATHRA_FIELD
+#undef CLATHRA_CHOICE
+
+/// Damerau's distance: letters put in, left out, changed, or two neighbours swapped.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      std::size_t const change = a[i - 1] == b[j - 1] ? 0 : 1;
+      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+    }
+  return cost[a.size()][b.size()];
+}
+
+/// How far two names may be apart to be taken for a slip of the keyboard.
+bool is_near(std::size_t distance, std::string_view name) { return distance <= std::max<std::size_t>(1, name.size() / 3); }
+
+constexpr std::size_t longest_name = 60;  // a longer one resembles no key
+
+}  // namespace
+
+std::span<Key const> schema() { return table; }
+
+Key const* find_key(std::string_view name) {
+  auto const found = std::find_if(std::begin(table), std::end(table), [&](Key const& key) { return key.name == name; });
+  return found == std::end(table) ? nullptr : found;
+}
+
+std::string name_suggestion(std::string_view name, std::span<std::string_view const> names) {
+  std::string_view best;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (std::string_view const candidate : names)
+    if (name.size() <= longest_name)
+      if (std::size_t const distance = edit_distance(name, candidate); distance < least) {
+        least = distance;
+        best = candidate;
+      }
+  if (best.empty() || !is_near(least, name)) return {};
+  return "; did you mean '" + std::string(best) + "'?";
+}
+
+std::string key_suggestion(std::string_view name) {
+  auto const dot = name.find('.');
+  std::string_view const section = name.substr(0, dot);
+  std::string_view const leaf = dot == std::string_view::npos ? std::string_view{} : name.substr(dot + 1);
+  std::vector<std::string_view> leaves, elsewhere, whole;
+  for (Key const& key : schema()) {
+    if (key.section() == section) leaves.push_back(key.leaf());
+    if (key.leaf() == leaf || key.leaf() == name) elsewhere.push_back(key.name);
+    whole.push_back(key.name);
+  }
+  if (!leaf.empty())
+    if (std::string const hint = name_suggestion(leaf, leaves); !hint.empty()) return hint;
+  if (!elsewhere.empty()) return "; did you mean '" + std::string(elsewhere.front()) + "'?";
+  return name_suggestion(name, whole);
+}
+
+}  // namespace clathra

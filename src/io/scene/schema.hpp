@@ -1,0 +1,55 @@
+#pragma once
+/// The one table of a scene's keys: where a value goes, what it may be, what it means. Reading, range checks, suggestions,
+/// `--set`, the resolved echo and the help all come from it; the defaults are those of `Scene{}`.
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "domain/scene/scene.hpp"
+#include "domain/scene/units.hpp"
+
+namespace clathra {
+
+/// An enumeration of the scene, read and written by the place of its name in `Key::choices`.
+struct ChoiceField {
+  int (*get)(Scene const&);
+  void (*set)(Scene&, int);
+};
+
+/// The place of a value in a Scene.
+using SceneField = std::variant<double& (*)(Scene&), int& (*)(Scene&), std::int64_t& (*)(Scene&), std::uint64_t& (*)(Scene&),
+                                bool& (*)(Scene&), std::string& (*)(Scene&), ChoiceField>;
+
+enum class Kind { quantity, integer, boolean, choice, text, path };
+
+/// One key. A path is relative to the folder of the scene file.
+struct Key {
+  std::string_view name;  ///< dotted: "test.confining_stress"
+  Kind kind;
+  SceneField field;
+  std::string_view help;                   ///< a sentence without full stop
+  Dimension dimension = Dimension::ratio;  ///< of a quantity
+  double least = 0, most = 0;              ///< allowed, both included; of quantities (SI) and integers
+  std::string_view zero = {};              ///< what 0 means where it stands for "not given"; it is then allowed besides the range
+  std::span<std::string_view const> choices{};  ///< names of a choice, in the order of the enumerators
+
+  std::string_view section() const { return name.substr(0, name.find('.')); }
+  std::string_view leaf() const { return name.substr(name.find('.') + 1); }
+};
+
+/// All keys, in the order of the fields of Scene.
+std::span<Key const> schema();
+
+/// The key of a dotted name, or nullptr.
+Key const* find_key(std::string_view name);
+
+/// The nearest right name of a mistaken dotted key: "; did you mean 'dt_safety'?" (with its section where that differs), or
+/// nothing.
+std::string key_suggestion(std::string_view name);
+
+/// The nearest of some names, "; did you mean 'parallel'?", or nothing where none is near.
+std::string name_suggestion(std::string_view name, std::span<std::string_view const> names);
+
+}  // namespace clathra
