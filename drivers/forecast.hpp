@@ -3,8 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/biaxial/scene_cost.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
 #include "io/scene/scene_file.hpp"
 
 namespace clathra {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "clathra_version.hpp"
-#include "domain/scene/progress.hpp"
+#include "domain/scene/stage.hpp"
 #include "io/errors/failure.hpp"
 #include "io/errors/rank_errors.hpp"
 #include "io/formats/digest.hpp"

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "domain/generation/generation.hpp"
 #include "io/formats/digest.hpp"
 #include "io/results/specimen_label.hpp"
 #include "stage_progress.hpp"

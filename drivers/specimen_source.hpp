@@ -1,6 +1,9 @@
 #pragma once
 /// Where a run's specimen comes from: generated now, or read from a file.
-#include "domain/biaxial/experiment.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
 #include "io/results/run_record.hpp"
 #include "io/scene/scene_comparison.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// From the reports of a stage to the progress line, and from Ctrl-C back to the stage.
 #include "domain/parallel/ranks.hpp"
-#include "domain/scene/progress.hpp"
+#include "domain/scene/stage.hpp"
 #include "progress_line.hpp"
 
 namespace clathra {

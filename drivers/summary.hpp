@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/measurement/history_row.hpp"
 #include "domain/measurement/test_phases.hpp"
+#include "domain/scene/stage.hpp"
 
 namespace clathra {
 

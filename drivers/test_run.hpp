@@ -3,7 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/scene/specimen.hpp"
 #include "io/scene/scene_file.hpp"
 
 namespace clathra {

@@ -1,5 +1,6 @@
 #include "threads.hpp"
 
+#include <Kokkos_Core.hpp>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -123,5 +124,15 @@ void settle_threads(int wanted) {
     changed = settle("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
   if (changed) start_anew();
 }
+
+struct KokkosSession::Guard {
+  char name[8] = "clathra";  // Kokkos looks through arguments of its own; ours are not for it
+  int argument_count = 1;
+  char* arguments[2] = {name, nullptr};
+  Kokkos::ScopeGuard scope{argument_count, arguments};
+};
+
+KokkosSession::KokkosSession() : guard_(std::make_unique<Guard>()) {}
+KokkosSession::~KokkosSession() = default;
 
 }  // namespace clathra

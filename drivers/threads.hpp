@@ -1,6 +1,6 @@
 #pragma once
 /// How many threads Kokkos gets, and on which cores they stay.
-#include <Kokkos_Core.hpp>
+#include <memory>
 #include <string>
 
 namespace clathra {
@@ -21,13 +21,12 @@ void settle_threads(int wanted);
 /// Kokkos from here to the end of the scope, for the verbs that compute.
 class KokkosSession {
  public:
-  KokkosSession() : guard_(argument_count_, arguments_) {}
+  KokkosSession();
+  ~KokkosSession();
 
  private:
-  char name_[8] = "clathra";  // Kokkos looks through arguments of its own; ours are not for it
-  int argument_count_ = 1;
-  char* arguments_[2] = {name_, nullptr};
-  Kokkos::ScopeGuard guard_;
+  struct Guard;
+  std::unique_ptr<Guard> guard_;
 };
 
 }  // namespace clathra

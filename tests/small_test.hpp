@@ -1,6 +1,8 @@
 #pragma once
 /// A biaxial test of a few seconds.
-#include "domain/biaxial/experiment.hpp"
+#include "domain/generation/generation.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/scene/specimen.hpp"
 
 namespace clathra {
 

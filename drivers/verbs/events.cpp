@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "io/results/run_results.hpp"
-#include "kernels/bond_strength.hpp"
+#include "kernels/break_mode.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 

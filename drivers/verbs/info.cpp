@@ -6,17 +6,19 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/measurement/disc_grading.hpp"
+#include "domain/measurement/snapshot.hpp"
 #include "domain/scene/grading.hpp"
+#include "domain/scene/specimen.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/checkpoint.hpp"
 #include "io/results/export.hpp"
 #include "io/results/run_record.hpp"
 #include "io/results/snapshot_file.hpp"
 #include "io/results/specimen_file.hpp"
-#include "kernels/bond_law.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
@@ -33,7 +35,7 @@ constexpr std::size_t largest_record = std::size_t{64} << 20;
 /// Area of the discs [m^2], overlaps counted twice.
 double solid_area(Specimen const& specimen) {
   return std::accumulate(specimen.radius.begin(), specimen.radius.end(), 0.0,
-                         [](double sum, double r) { return sum + pi * r * r; });
+                         [](double sum, double r) { return sum + std::numbers::pi * r * r; });
 }
 
 /// One line of a text: what it is, and its value.
@@ -79,8 +81,8 @@ std::string provenance_text(std::string const& provenance) {
 }
 
 std::string specimen_text(Specimen const& specimen) {
-  auto const bonds = std::count_if(specimen.contacts.begin(), specimen.contacts.end(),
-                                   [](SpecimenContact const& c) { return is_bonded(c.equilibrium); });
+  auto const bonds =
+      std::count_if(specimen.contacts.begin(), specimen.contacts.end(), [](SpecimenContact const& c) { return c.bonded(); });
   double const area = specimen.width() * specimen.height();
   auto const diameter = [&](double part) { return diameter_finer(specimen.radius, part) * 1e3; };
   std::string text;

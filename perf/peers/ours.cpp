@@ -13,10 +13,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "domain/biaxial/experiment.hpp"
 #include "domain/biaxial/throughput.hpp"
+#include "domain/generation/bonding.hpp"
 #include "domain/measurement/snapshot.hpp"
 #include "domain/scene/hydrate.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
+#include "domain/simulation/simulation.hpp"
 #include "io/results/specimen_file.hpp"
 #include "kernels/stability.hpp"
 

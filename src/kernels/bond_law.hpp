@@ -1,21 +1,17 @@
 #pragma once
 /// The law of an intact bond: forces (seed paper, Eq. 7) and the variants that a scene can choose.
 #include "kernels/bond_geometry.hpp"
+#include "kernels/bond_kind.hpp"
 #include "kernels/bond_stiffness.hpp"
 #include "kernels/bond_strength.hpp"
 #include "kernels/grain_contact.hpp"
 
 namespace clathra {
 
-/// An equilibrium overlap above this marks "no bond".
-inline constexpr Real no_bond = 1e300;
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION auto is_bonded(L const& equilibrium) {
   return equilibrium < L(0.5 * no_bond);
 }
-
-/// How bond and grain contact share a pair. It selects the contact kernel; `memory` is `replace` with a preload.
-enum class Composite : std::int8_t { replace, parallel, memory };
 
 /// Everything one bond needs besides its pair: numbers of the hydrate and of the variant, the same for all bonds of a specimen.
 struct BondLaw {

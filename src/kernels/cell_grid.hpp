@@ -1,7 +1,7 @@
 #pragma once
 /// Binning of discs into square cells.
-#include <stdexcept>
 
+#include "kernels/countable.hpp"
 #include "kernels/particles.hpp"
 
 namespace clathra {
@@ -23,15 +23,6 @@ struct CellGrid {
 };
 
 inline std::size_t bytes(CellGrid const& grid) { return (grid.start.span() + grid.disc.span()) * sizeof(int); }
-
-/// A rank has more than it can number. Other ranks may not.
-struct TooManyToNumber : std::length_error {
-  using std::length_error::length_error;
-};
-
-/// Row entries and discs of a rank are numbered by 32 bits: at most 2^31 - 1 entries, and half a billion discs (up to four cells
-/// each). @throws TooManyToNumber with the number
-void require_countable(std::int64_t entries, std::int64_t discs);
 
 /// Bins the first `discs` discs by counting, scanning and filling. Cells are at least `cell_size` [m] wide; they grow where discs
 /// are so scattered that there would be far more cells than discs.

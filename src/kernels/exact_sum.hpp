@@ -3,11 +3,11 @@
 #include <Kokkos_Core.hpp>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <stdexcept>
 #include <string>
 
 #include "kernels/real.hpp"
+#include "kernels/sum_over_ranks.hpp"
 
 namespace clathra {
 
@@ -113,9 +113,6 @@ struct ExactSumKernel {
     for (unsigned c = 0; c < value_count; ++c) into[c] = into[c] + from[c];
   }
 };
-
-/// Adds integers to those of the other ranks that hold parts of the specimen; empty where there are none.
-using SumOverRanks = std::function<void(std::int64_t*, int)>;
 
 /// How the quantities of a specimen are summed.
 struct Summation {

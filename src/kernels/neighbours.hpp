@@ -2,12 +2,10 @@
 /// Neighbour search: rows of nearby discs, with the history of contacts and bonds carried from the old rows to the new.
 #include "kernels/bond_law.hpp"
 #include "kernels/contacts.hpp"
+#include "kernels/countable.hpp"
 #include "kernels/reports.hpp"
 
 namespace clathra {
-
-/// The longest row; enough for size ratios up to about 15.
-inline constexpr int longest_row = 64;
 
 /// The rows before a search, with neighbours by id: those of the discs that were here, and behind them those of discs that came
 /// from other ranks. A slot is a place in this list of rows, -1 that of a disc that had no row yet; entries are numbered through

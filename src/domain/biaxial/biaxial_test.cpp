@@ -1,18 +1,28 @@
+#include "domain/biaxial/biaxial_test.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <type_traits>
 #include <utility>
 
-#include "domain/biaxial/experiment.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
 #include "domain/generation/bonding.hpp"
 #include "domain/generation/equilibration.hpp"
+#include "domain/measurement/disc_grading.hpp"
+#include "domain/measurement/history_row.hpp"
+#include "domain/measurement/snapshot.hpp"
+#include "domain/parallel/ranks.hpp"
 #include "domain/parallel/redistribution.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/sample_design.hpp"
+#include "domain/scene/scene.hpp"
 #include "domain/scene/scene_laws.hpp"
+#include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
+#include "domain/simulation/break_event.hpp"
+#include "domain/simulation/simulation.hpp"
 
 namespace clathra {
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "domain/generation/equilibration.hpp"
-#include "domain/scene/progress.hpp"
 #include "domain/scene/scene_laws.hpp"
+#include "domain/scene/stage.hpp"
 
 namespace clathra {
 

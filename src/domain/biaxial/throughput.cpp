@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domain/biaxial/experiment.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/generation/bonding.hpp"
 #include "domain/generation/equilibration.hpp"
 #include "domain/generation/tiled.hpp"
+#include "domain/parallel/ranks.hpp"
 #include "domain/parallel/redistribution.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/sample_design.hpp"
+#include "domain/scene/scene.hpp"
 #include "domain/scene/scene_laws.hpp"
+#include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
+#include "domain/simulation/simulation.hpp"
 
 namespace clathra {
 

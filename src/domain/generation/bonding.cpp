@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "domain/scene/hydrate.hpp"
+#include "kernels/bond_law.hpp"
+#include "kernels/exact_sum.hpp"
 
 namespace clathra {
 

@@ -1,6 +1,13 @@
 #pragma once
 /// Where hydrate bonds form in a resting specimen (seed paper, section 4), and how much hydrate they are.
-#include "domain/biaxial/experiment.hpp"
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
 
 namespace clathra {
 
@@ -37,5 +44,10 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
 /// where they keep it.
 /// @param share  this rank's discs and the contacts whose smaller id is among them;  @return the outcome of all ranks
 BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& ranks = {});
+
+/// Installs bonds on a resting, unbonded specimen by scene.bond and scene.hydrate.
+/// The record holds bonds, bonds_per_disc, h_max, geometric (areal) saturation, rejected_no_tension, rejected_out_of_fit.
+/// @param specimen  this rank's share as Simulation::specimen() or by_place() give it; gains the bonds
+void bond_specimen(Scene const& scene, Specimen& specimen, StageRecord& record, Ranks const& ranks = {});
 
 }  // namespace clathra

@@ -1,7 +1,7 @@
 #pragma once
 /// Bringing an assembly to rest under an isotropic stress, at a wanted void ratio.
-#include "domain/scene/progress.hpp"
 #include "domain/scene/scene.hpp"
+#include "domain/scene/stage.hpp"
 #include "domain/simulation/simulation.hpp"
 
 namespace clathra {

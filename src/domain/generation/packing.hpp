@@ -1,9 +1,9 @@
 #pragma once
 /// Multi-layer under-compaction (Jiang, Konrad, Leroueil 2003) to a target void ratio, and the proof of what came out.
 #include "domain/parallel/ranks.hpp"
-#include "domain/scene/progress.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
 
 namespace clathra {
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "domain/parallel/directory.hpp"
+#include "domain/simulation/simulation.hpp"
 #include "kernels/pair_list.hpp"
 
 namespace clathra {

@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "domain/simulation/simulation.hpp"
+#include "domain/simulation/break_event.hpp"
+#include "kernels/break_mode.hpp"
 
 namespace clathra {
+
+class Simulation;
 
 /// What a pair of discs is. A pair whose bond broke stays listed by the mode of its breakage, touching or not: broken_in().
 enum class ContactState : std::uint8_t { contact, bonded };

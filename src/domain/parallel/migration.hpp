@@ -1,7 +1,7 @@
 #pragma once
 /// Discs that crossed a cut change their owner.
 #include "domain/parallel/decomposition.hpp"
-#include "domain/parallel/disc_record.hpp"
+#include "domain/parallel/disc_packing.hpp"
 
 namespace clathra {
 

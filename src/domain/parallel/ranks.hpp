@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/exact_sum.hpp"
+#include "kernels/sum_over_ranks.hpp"
 
 namespace clathra {
 

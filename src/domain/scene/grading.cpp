@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <stdexcept>
 
 #include "domain/scene/csv_rows.hpp"
@@ -94,8 +95,8 @@ double Grading::finer_than(double diameter) const {
 }
 
 double Grading::mean_disc_area() const {
-  if (diameters_.size() == 1) return 0.25 * pi * diameters_[0] * diameters_[0];
-  return 0.25 * pi / number_.back();
+  if (diameters_.size() == 1) return 0.25 * std::numbers::pi * diameters_[0] * diameters_[0];
+  return 0.25 * std::numbers::pi / number_.back();
 }
 
 Grading Grading::scaled(double factor) const {
@@ -115,49 +116,6 @@ std::vector<double> Grading::diameters(std::size_t count) const {
     sizes[i] = 1 / std::sqrt(std::pow(diameters_[k - 1], -2) - 2 * (wanted - number_[k - 1]) / slope);
   }
   return sizes;
-}
-
-namespace {
-
-/// Sum of r^2 of all ranks, in the order of the sizes.
-double total_area(std::vector<double> const& sorted, Ranks const& ranks) {
-  return ranks.relay(0, [&](double total) {
-    for (double r : sorted) total += r * r;
-    return total;
-  });
-}
-
-}  // namespace
-
-double grading_distance(Grading const& grading, std::vector<double> const& radii, Ranks const& ranks) {
-  std::vector<double> const sorted = ranks.sorted_part(radii);
-  double const total = total_area(sorted, ranks);
-  double farthest = 0;
-  ranks.relay(0, [&](double below) {
-    for (double r : sorted) {
-      double const curve = grading.finer_than(2 * r);
-      farthest = std::max(farthest, std::abs(curve - (below + 0.5 * r * r) / total));
-      below += r * r;
-    }
-    return below;
-  });
-  return ranks.max(farthest);
-}
-
-double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks) {
-  std::vector<double> const sorted = ranks.sorted_part(radii);
-  double const total = total_area(sorted, ranks);
-  double found = 1e300;
-  ranks.relay(0, [&](double below) {
-    for (double r : sorted) {
-      below += r * r;
-      if (below >= fraction * total) found = std::min(found, r);
-    }
-    return below;
-  });
-  found = ranks.min(found);
-  if (found < 1e300) return 2 * found;
-  return 2 * ranks.max(sorted.empty() ? 0 : sorted.back());
 }
 
 }  // namespace clathra

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "domain/parallel/ranks.hpp"
 #include "domain/scene/scene.hpp"
 
 namespace clathra {
@@ -41,11 +40,5 @@ class Grading {
   std::vector<double> diameters_, finer_;
   std::vector<double> number_;  // number of discs finer, up to a factor, at each point
 };
-
-/// The largest distance between the grading of discs (by area) and a curve, as a fraction of mass.
-double grading_distance(Grading const& grading, std::vector<double> const& radii, Ranks const& ranks = {});
-
-/// d_x [m] of given discs by area fraction.
-double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks = {});
 
 }  // namespace clathra

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "domain/scene/units.hpp"
+#include "kernels/bond_law.hpp"
 
 namespace clathra {
 namespace {

@@ -6,6 +6,8 @@
 
 namespace clathra {
 
+struct BondLaw;
+
 /// Strength and stiffness of solid hydrate.
 struct HydrateStrength {
   double compression;  ///< q_max,c [Pa]

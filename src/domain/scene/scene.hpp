@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "kernels/bond_law.hpp"
+#include "kernels/bond_kind.hpp"
 
 namespace clathra {
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/bond_kind.hpp"
+
 namespace clathra {
 
 /// A pair with history, once per pair, id_a < id_b.
@@ -13,8 +15,9 @@ struct SpecimenContact {
   int id_a = 0, id_b = 0;
   double shear = 0;                        ///< F_s [N/m], equal on both sides
   double moment = 0;                       ///< M on disc a [N m/m]
-  double equilibrium = 1e300;              ///< u_0 of an intact bond [m], 1e300 = not bonded
+  double equilibrium = no_bond;            ///< u_0 of an intact bond [m]
   double bond_shear = 0, bond_moment = 0;  ///< of a bond in parallel to the grain contact
+  bool bonded() const { return equilibrium < 0.5 * no_bond; }
 };
 
 /// The history of a contact, number by number. Each has the name of a field of the rows (for_each_possible_history()).

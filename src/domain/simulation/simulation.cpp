@@ -45,7 +45,7 @@ void Simulation::step() {
   }
   WallReactions const before = reactions_;
   Kokkos::Timer const pushing;
-  compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, breaks_, losses_, faults_);
+  compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, broken_bonds_.log(), losses_, faults_);
   busy_seconds_ += pushing.seconds();
   if (!periodic()) {
     reactions_ = push_walls(time_step);
@@ -61,7 +61,7 @@ void Simulation::step() {
 void Simulation::rebuild(bool leeway_by_speed, Companions const& also) {
   throw_if_unstable();  // discs that are nowhere have no cell
   Kokkos::Timer const clock;
-  collect_breaks();
+  broken_bonds_.collect();
   if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
   Real const bonded_gap = ranks_.max(widest_bonded_gap(particles_, rows_));
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
@@ -191,7 +191,7 @@ void Simulation::account_boundary_work(WallReactions const& before) {
 
 void Simulation::evaluate_forces() {
   if (rebuild_pending_) rebuild();
-  compute_forces(particles_, rows_, laws_.contact, 0, step_, breaks_, losses_, faults_);
+  compute_forces(particles_, rows_, laws_.contact, 0, step_, broken_bonds_.log(), losses_, faults_);
   if (!periodic()) reactions_ = push_walls(0);
 }
 
@@ -278,6 +278,33 @@ Real Simulation::largest_frequency(int iterations) const {
 }
 
 Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, across()); }
+
+/// Where no rank sends or gets discs, intact bonds only become fewer after inject().
+void Simulation::make_room_for_breaks() {
+  if (laws_.contact.bond_kind == BondKind::none || (ranks_.alone() && broken_bonds_.has_log())) return;
+  broken_bonds_.make_room(broken_bonds_.keeps_events ? static_cast<std::size_t>(count_own_bonds(particles_, rows_)) : 0);
+}
+
+void Simulation::keep_break_events(bool on) {
+  broken_bonds_.collect();
+  broken_bonds_.keeps_events = on;
+  broken_bonds_.drop_log();
+  make_room_for_breaks();
+}
+
+int Simulation::broken_bonds() const { return static_cast<int>(break_counts().total()); }
+
+BreakCounts Simulation::break_counts() const {
+  broken_bonds_.collect();
+  BreakCounts counts = broken_bonds_.counts();
+  ranks_.sum(counts.number, break_mode_count);
+  return counts;
+}
+
+std::vector<BreakEvent> Simulation::break_events(int first) const {
+  broken_bonds_.collect();
+  return broken_bonds_.sorted_events(first);
+}
 
 void Simulation::throw_if_unstable() const {
   auto const here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);

@@ -1,12 +1,13 @@
 #pragma once
 /// A specimen in motion: owns the discs, rows, walls and laws, and the one time step.
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "domain/parallel/disc_record.hpp"
+#include "domain/parallel/disc_packing.hpp"
 #include "domain/parallel/halo.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/stage.hpp"
+#include "domain/simulation/broken_bonds.hpp"
 #include "domain/simulation/loading.hpp"
 #include "domain/simulation/periodic_images.hpp"
 #include "domain/simulation/simulation_state.hpp"
@@ -22,11 +23,6 @@ namespace clathra {
 /// Verlet skin of a test that asks for none, in d50; discs get 1.2 times that on the average (leeway.hpp). Where bonds break all
 /// the time it was the fastest of 0.08, 0.10, 0.12 and 0.16; elsewhere it costs 2 % at most against 0.08 (docs/performance.md).
 inline constexpr double chosen_skin = 0.12;
-
-/// The state diverged or left the range of the model; the text names disc, step and cause.
-struct Diverged : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// What the discs obey. Features follow from it: rolling moments, bonds, a separate bond history, a ledger exist only if asked
 /// for here.
@@ -122,8 +118,8 @@ class Simulation {
   std::vector<BreakEvent> break_events(int first) const;
   /// Bytes of this rank's fields, with the ledger, the log of breaks and the most that a neighbour search has needed beside them.
   std::size_t bytes() const {
-    return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) +
-           clathra::bytes(breaks_) + search_bytes_;
+    return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) + broken_bonds_.bytes() +
+           search_bytes_;
   }
   // Of this rank:
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
@@ -163,7 +159,6 @@ class Simulation {
   void for_each_number(Visit&& visit);
   std::vector<SpecimenContact> contacts_by_id() const;
   void account_boundary_work(WallReactions const& before);
-  void collect_breaks() const;
   void make_room_for_breaks();
 
   Ranks ranks_;
@@ -178,9 +173,7 @@ class Simulation {
   PeriodicCell cell_, reference_cell_;
   PeriodicImages images_;
   Halo halo_;
-  BreakLog breaks_;                         // since the last collect_breaks()
-  mutable std::vector<BreakEvent> broken_;  // before
-  mutable BreakCounts broken_by_mode_;      // on this rank, before
+  mutable BrokenBonds broken_bonds_;  // collected when they are asked for
   EnergyLosses losses_;
   Faults faults_;
   Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
@@ -193,7 +186,6 @@ class Simulation {
   Real strayed_ = 1e300;            // at most, since the last search, as a share of a leeway
   double busy_seconds_ = 0;         // of this rank since the cuts were made
   bool rebuild_pending_ = true;
-  bool keeps_break_events_ = true;
   std::size_t search_bytes_ = 0;  // at most
 };
 

@@ -33,8 +33,6 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
   visit(name + "_largest_speed", drive.largest_speed);
 }
 
-std::string name_of_broken(int mode) { return "broken_" + std::to_string(mode); }
-
 }  // namespace
 
 /// Visits every number of the whole: (name, double, integer, bool or enumeration).
@@ -55,7 +53,7 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("critical_thickness", critical_thickness_);
   visit("boundary_work", boundary_work_);
   visit("ledger", laws_.contact.ledger);
-  visit("keeps_break_events", keeps_break_events_);
+  visit("keeps_break_events", broken_bonds_.keeps_events);
   visit_walls("wall", walls_, visit);
   visit_walls("reference_wall", reference_walls_, visit);
   for (int wall = 0; wall < wall_count; ++wall) {
@@ -102,10 +100,8 @@ SimulationState Simulation::state() {
   RecordColumns const columns = record_columns(with_discs, rows_.features);
   s.disc_columns = columns.discs;
   s.history_columns = columns.history;
-  collect_breaks();
-  s.broken = broken_;
-  for (int mode = 0; mode < break_mode_count; ++mode)
-    s.numbers[name_of_broken(mode)] = static_cast<double>(ranks_.sum(broken_by_mode_.number[mode]));
+  broken_bonds_.collect();
+  broken_bonds_.write(s, ranks_);
   return s;
 }
 
@@ -135,15 +131,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
   wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
-  broken_ = std::move(state.broken);
-  for (int mode = 0; mode < break_mode_count; ++mode) {
-    auto const counted = state.numbers.find(name_of_broken(mode));
-    if (counted != state.numbers.end())
-      broken_by_mode_.number[mode] = ranks_.root() ? std::llround(counted->second) : 0;
-    else  // where all are events
-      broken_by_mode_.number[mode] =
-          std::count_if(broken_.begin(), broken_.end(), [&](BreakEvent const& e) { return e.mode == mode; });
-  }
+  broken_bonds_.read(state, ranks_);
 }
 
 /// The records of the discs that belong to this rank, from wherever they were read.

@@ -93,7 +93,7 @@ std::vector<double> or_zero(std::vector<double> const& values, std::size_t size)
 Real widest_gap(Ranks const& ranks, Specimen const& s, std::int64_t discs) {
   std::vector<int> first, second;
   for (SpecimenContact const& c : s.contacts) {
-    if (!is_bonded(c.equilibrium)) continue;
+    if (!c.bonded()) continue;
     first.push_back(c.id_a);
     second.push_back(c.id_b);
   }
@@ -223,7 +223,7 @@ void Simulation::inject(Specimen const& s) {
   std::for_each(others.begin(), others.end(), write);
   history.upload_to(rows_);
   prepare_rows(particles_, rows_, laws_.contact.bond);
-  breaks_ = BreakLog();  // that of the search before it has room for no bond
+  broken_bonds_.drop_log();  // that of the search before it has room for no bond
   make_room_for_breaks();
 }
 
@@ -267,54 +267,6 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
   }
   std::sort(contacts.begin(), contacts.end(), by_ids);
   return contacts;
-}
-
-/// Moves the breaks that the kernels logged to the host.
-void Simulation::collect_breaks() const {
-  if (breaks_.count.extent(0) == 0) return;
-  auto const by_mode = download(breaks_.by_mode);
-  for (std::size_t mode = 0; mode < break_mode_count; ++mode) broken_by_mode_.number[mode] += by_mode(mode);
-  Kokkos::deep_copy(breaks_.by_mode, 0);
-  int const count = download(breaks_.count)(0);
-  if (count == 0) return;
-  auto const step = download(breaks_.step);
-  auto const id_a = download(breaks_.id_a), id_b = download(breaks_.id_b);
-  auto const mode = download(breaks_.mode);
-  auto const x = download(breaks_.x), y = download(breaks_.y);
-  for (int k = 0; k < count; ++k) broken_.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
-  Kokkos::deep_copy(breaks_.count, 0);
-}
-
-/// Bonds break once: a log as long as the number of intact bonds cannot overflow before the next search. Where no rank sends or
-/// gets discs, they only become fewer after inject().
-void Simulation::make_room_for_breaks() {
-  if (laws_.contact.bond_kind == BondKind::none || (ranks_.alone() && breaks_.count.extent(0) > 0)) return;
-  auto const bonds = keeps_break_events_ ? static_cast<std::size_t>(count_own_bonds(particles_, rows_)) : 0;
-  if (breaks_.count.extent(0) == 0 || breaks_.step.extent(0) < bonds) breaks_ = make_break_log(bonds);
-}
-
-void Simulation::keep_break_events(bool on) {
-  collect_breaks();
-  keeps_break_events_ = on;
-  breaks_ = BreakLog();
-  make_room_for_breaks();
-}
-
-int Simulation::broken_bonds() const { return static_cast<int>(break_counts().total()); }
-
-BreakCounts Simulation::break_counts() const {
-  collect_breaks();
-  BreakCounts counts = broken_by_mode_;
-  ranks_.sum(counts.number, break_mode_count);
-  return counts;
-}
-
-std::vector<BreakEvent> Simulation::break_events(int first) const {
-  collect_breaks();
-  std::vector<BreakEvent> events;
-  if (static_cast<std::size_t>(first) < broken_.size()) events.assign(broken_.begin() + first, broken_.end());
-  std::sort(events.begin(), events.end(), comes_before);
-  return events;
 }
 
 }  // namespace clathra

@@ -2,8 +2,8 @@
 
 #include <new>
 
-#include "domain/scene/progress.hpp"
-#include "domain/simulation/simulation.hpp"
+#include "domain/scene/stage.hpp"
+#include "kernels/countable.hpp"
 
 namespace clathra {
 

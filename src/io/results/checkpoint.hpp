@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/biaxial/biaxial_test.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
 #include "io/errors/problems.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/snapshot_file.hpp"

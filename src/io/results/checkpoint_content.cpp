@@ -10,6 +10,7 @@
 #include "io/results/event_columns.hpp"
 #include "io/results/run_record.hpp"
 #include "io/scene/scene_comparison.hpp"
+#include "kernels/countable.hpp"
 
 namespace clathra {
 namespace {

@@ -2,7 +2,9 @@
 /// What stands in the HDF5 file of a checkpoint.
 #include <filesystem>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/biaxial/biaxial_test.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
 #include "io/errors/problems.hpp"
 
 namespace clathra {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "kernels/bond_strength.hpp"
+#include "kernels/break_mode.hpp"
 
 namespace clathra {
 

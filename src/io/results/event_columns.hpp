@@ -1,7 +1,7 @@
 #pragma once
 /// Broken bonds as columns of an HDF5 file, in its group `events`: step, id_a, id_b and mode. Where they broke is written by
 /// those who know to what digit.
-#include "domain/simulation/simulation_state.hpp"
+#include "domain/simulation/break_event.hpp"
 #include "io/formats/hdf5_file.hpp"
 
 namespace clathra {

@@ -9,6 +9,7 @@
 #include "domain/scene/csv_rows.hpp"
 #include "domain/scene/units.hpp"
 #include "io/errors/problems.hpp"
+#include "kernels/break_mode.hpp"
 
 namespace clathra {
 

@@ -2,7 +2,7 @@
 /// events.csv: each broken bond once.
 #include <vector>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/simulation/break_event.hpp"
 #include "io/formats/text_file.hpp"
 
 namespace clathra {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "domain/parallel/ranks.hpp"
 #include "io/formats/digest.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/scene/schema.hpp"

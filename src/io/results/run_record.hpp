@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "domain/biaxial/experiment.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/scene/stage.hpp"
 #include "io/scene/scene_file.hpp"
 
 namespace clathra {

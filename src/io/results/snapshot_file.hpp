@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "domain/measurement/snapshot.hpp"
+#include "domain/parallel/ranks.hpp"
 
 namespace clathra {
 

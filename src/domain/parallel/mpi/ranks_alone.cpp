@@ -1,6 +1,6 @@
 /// Ranks without MPI: there is one.
 #include "domain/parallel/ranks.hpp"
-#include "domain/scene/progress.hpp"
+#include "domain/scene/stage.hpp"
 
 namespace clathra {
 

@@ -1,24 +1,16 @@
-#include "domain/biaxial/experiment.hpp"
+#include "domain/biaxial/scene_cost.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "domain/biaxial/quasi_static.hpp"
-#include "domain/generation/packing.hpp"
-#include "domain/generation/tiled.hpp"
+#include "domain/scene/hydrate.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene_laws.hpp"
 
 namespace clathra {
 
 namespace {
-
-double standard_deviation(std::vector<double> const& values) {
-  double mean = 0, square = 0;
-  for (double v : values) mean += v / static_cast<double>(values.size());
-  for (double v : values) square += (v - mean) * (v - mean) / static_cast<double>(values.size());
-  return std::sqrt(square);
-}
 
 /// The time step that a specimen of this scene will get [s]: its smallest disc in six contacts, bonded if the scene has hydrate.
 double estimated_time_step(Scene const& scene, Grading const& grading, bool bonded) {
@@ -29,36 +21,6 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
   double const turn = 6 * (ks + rolling) * r * r;
   return scene.run.dt_safety * std::sqrt(2 * 0.5 * mass * r * r / turn);
 }
-
-}  // namespace
-
-GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
-  SampleDesign const design = design_sample(scene);
-  PackedSpecimen packed = scene.sample.generator == Generator::tiled ? pack_by_tiling(scene, design, progress, ranks)
-                                                                     : pack_by_under_compaction(scene, design, progress, ranks);
-  GeneratedSpecimen generated;
-  generated.layer_void_ratios = layer_void_ratios(packed.specimen, std::max(1, scene.sample.layers), ranks);
-  StageRecord& r = generated.record;
-  r["discs"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(packed.specimen.size())));
-  r["void_ratio"] = packed.specimen.void_ratio;
-  r["void_ratio_wanted"] = design.void_ratio;
-  r["layer_void_ratio_sd"] = standard_deviation(generated.layer_void_ratios);
-  r["d50_m"] = diameter_finer(packed.specimen.radius, 0.5, ranks);
-  r["d50_wanted_m"] = design.grading.d50();
-  r["grading_distance"] = grading_distance(design.grading, packed.specimen.radius, ranks);
-  r["generation_friction"] = packed.friction;
-  r["generation_shape_factor"] = packed.shape_factor;
-  r["stress_x_Pa"] = packed.stress_x;
-  r["stress_y_Pa"] = packed.stress_y;
-  r["unbalanced"] = packed.unbalanced;
-  r["disc_steps"] = static_cast<double>(packed.disc_steps);
-  r["width_m"] = packed.specimen.width();
-  r["height_m"] = packed.specimen.height();
-  generated.specimen = std::move(packed.specimen);
-  return generated;
-}
-
-namespace {
 
 /// The largest resident memory of all ranks together [bytes], as measured with samples of 1,000,000 discs.
 double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
@@ -81,7 +43,7 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
 
 StageRecord predict(Scene const& scene, int ranks) {
   SampleDesign const design = design_sample(scene);
-  bool const bonded = scene.bond.law != BondLawKind::none && scene.hydrate.saturation > 0;
+  bool const bonded = has_bonds(scene);
   RateNumbers const rate = rate_numbers(scene, design.grading.d50(), design.height, design.void_ratio);
   auto const discs = static_cast<double>(design.particles);
   StageRecord p;

@@ -1,4 +1,4 @@
-#include "domain/parallel/disc_record.hpp"
+#include "domain/parallel/disc_packing.hpp"
 
 #include <algorithm>
 #include <stdexcept>

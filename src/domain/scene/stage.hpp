@@ -1,7 +1,8 @@
 #pragma once
-/// How long stages report, and how they end early.
+/// A stage of a run: how it reports, how it ends early, what numbers it leaves.
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -20,10 +21,17 @@ using ProgressCallback = std::function<bool(Progress const&)>;
 struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// The state diverged or left the range of the model; the text names disc, step and cause.
+struct Diverged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 /// Thrown when the progress callback asked to stop.
 struct Stopped : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// Named numbers of a stage, for run.json and the screen.
+using StageRecord = std::map<std::string, double>;
 
 /// Passes a report on, if anybody listens. @throws Stopped where the listener says so
 inline void report(ProgressCallback const& callback, Progress const& progress) {

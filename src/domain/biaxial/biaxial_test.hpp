@@ -1,41 +1,19 @@
 #pragma once
-/// From a scene to a sheared specimen: generate, bond, consolidate, shear. What the drivers call.
-#include <functional>
+/// The biaxial test of a specimen: bond, consolidate, shear.
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "domain/measurement/history_row.hpp"
 #include "domain/measurement/snapshot.hpp"
-#include "domain/scene/progress.hpp"
+#include "domain/parallel/ranks.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/specimen.hpp"
-#include "domain/simulation/simulation.hpp"
+#include "domain/scene/stage.hpp"
+#include "domain/simulation/simulation_state.hpp"
 
 namespace clathra {
-
-/// Named numbers of a stage, for run.json and the screen.
-using StageRecord = std::map<std::string, double>;
-
-/// A generated specimen with the proof of its quality: void ratio (whole, each layer, standard deviation), distance to the
-/// grading, d50, friction used, stress and unbalanced ratio.
-struct GeneratedSpecimen {
-  Specimen specimen;
-  StageRecord record;
-  std::vector<double> layer_void_ratios;
-};
-
-/// Generates by scene.sample.generator (not `file`). Same scene, same bits, for any thread count.
-/// @throws Refused where the void ratio cannot be reached, Diverged, Stopped
-/// @return this rank's share of the specimen, and the record of the whole
-GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks = {});
-
-/// Installs bonds on a resting, unbonded specimen by scene.bond and scene.hydrate.
-/// The record holds bonds, bonds_per_disc, h_max, geometric (areal) saturation, rejected_no_tension, rejected_out_of_fit.
-/// @param specimen  this rank's share as Simulation::specimen() or by_place() give it; gains the bonds
-void bond_specimen(Scene const& scene, Specimen& specimen, StageRecord& record, Ranks const& ranks = {});
 
 struct TestState;
 
@@ -89,10 +67,5 @@ struct TestState {
   StageRecord preparation;
   std::vector<std::string> warnings;
 };
-
-/// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,
-/// wave_number, memory_bytes (of all ranks at their peak), disk_bytes, disc_steps.
-/// @param ranks  that will share it
-StageRecord predict(Scene const& scene, int ranks = 1);
 
 }  // namespace clathra

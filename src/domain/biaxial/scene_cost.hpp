@@ -1,0 +1,13 @@
+#pragma once
+/// What a run will cost before it is made.
+#include "domain/scene/scene.hpp"
+#include "domain/scene/stage.hpp"
+
+namespace clathra {
+
+/// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,
+/// wave_number, memory_bytes (of all ranks at their peak), disk_bytes, disc_steps.
+/// @param ranks  that will share it
+StageRecord predict(Scene const& scene, int ranks = 1);
+
+}  // namespace clathra

@@ -1,0 +1,51 @@
+#include "domain/measurement/disc_grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clathra {
+
+namespace {
+
+/// Sum of r^2 of all ranks, in the order of the sizes.
+double total_area(std::vector<double> const& sorted, Ranks const& ranks) {
+  return ranks.relay(0, [&](double total) {
+    for (double r : sorted) total += r * r;
+    return total;
+  });
+}
+
+}  // namespace
+
+double grading_distance(Grading const& grading, std::vector<double> const& radii, Ranks const& ranks) {
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  double const total = total_area(sorted, ranks);
+  double farthest = 0;
+  ranks.relay(0, [&](double below) {
+    for (double r : sorted) {
+      double const curve = grading.finer_than(2 * r);
+      farthest = std::max(farthest, std::abs(curve - (below + 0.5 * r * r) / total));
+      below += r * r;
+    }
+    return below;
+  });
+  return ranks.max(farthest);
+}
+
+double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks) {
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  double const total = total_area(sorted, ranks);
+  double found = 1e300;
+  ranks.relay(0, [&](double below) {
+    for (double r : sorted) {
+      below += r * r;
+      if (below >= fraction * total) found = std::min(found, r);
+    }
+    return below;
+  });
+  found = ranks.min(found);
+  if (found < 1e300) return 2 * found;
+  return 2 * ranks.max(sorted.empty() ? 0 : sorted.back());
+}
+
+}  // namespace clathra

@@ -1,0 +1,43 @@
+#pragma once
+/// Broken bonds: kernels log them, here they are collected on the host.
+#include <vector>
+
+#include "domain/parallel/ranks.hpp"
+#include "domain/simulation/simulation_state.hpp"
+#include "kernels/reports.hpp"
+
+namespace clathra {
+
+/// Those of one rank; each break is seen by one rank.
+class BrokenBonds {
+ public:
+  /// What kernels write into. Bonds break once: a log as long as the number of intact bonds cannot overflow.
+  BreakLog const& log() const { return log_; }
+  bool has_log() const { return log_.count.extent(0) > 0; }
+  void drop_log() { log_ = BreakLog(); }
+  /// Has a log with room for so many bonds from now on, if their events are kept. What it holds must have been collected.
+  void make_room(std::size_t bonds);
+  /// From the next log on; without, only their numbers by mode are known.
+  bool keeps_events = true;
+
+  /// Moves what kernels logged to the host.
+  void collect();
+  // As of the last collect():
+  BreakCounts const& counts() const { return counts_; }
+  std::vector<BreakEvent> const& events() const { return events_; }  ///< in no particular order
+  /// Those from the first-th on, sorted by (step, id_a, id_b).
+  std::vector<BreakEvent> sorted_events(int first) const;
+
+  /// Events of this rank and counts of all, into a checkpoint.
+  void write(SimulationState& state, Ranks const& ranks) const;
+  /// @param state  loses its events
+  void read(SimulationState& state, Ranks const& ranks);
+  std::size_t bytes() const { return clathra::bytes(log_); }
+
+ private:
+  BreakLog log_;  // since the last collect()
+  std::vector<BreakEvent> events_;
+  BreakCounts counts_;
+};
+
+}  // namespace clathra

@@ -1,0 +1,14 @@
+#pragma once
+/// What kinds of bonds there are, and the mark of none: for scenes, specimens and files as well as for kernels.
+#include <cstdint>
+
+namespace clathra {
+
+/// What becomes of a bonded contact's grains (docs/theory.md). `replace`: the bond carries all. `parallel`: bond and grain
+/// contact carry beside each other. `memory`: as replace, and the bond goes on from the grain contact's shear force and moment.
+enum class Composite : std::int8_t { replace, parallel, memory };
+
+/// Stands for the overlap at bond formation u_0 [m] where there is no bond; overlaps above half of it mean none.
+inline constexpr double no_bond = 1e300;
+
+}  // namespace clathra

@@ -1,0 +1,20 @@
+#pragma once
+/// How many neighbours a disc can have, and how many discs and row entries a rank.
+#include <cstdint>
+#include <stdexcept>
+
+namespace clathra {
+
+/// The longest row; enough for size ratios up to about 15.
+inline constexpr int longest_row = 64;
+
+/// A rank has more than it can number. Other ranks may not.
+struct TooManyToNumber : std::length_error {
+  using std::length_error::length_error;
+};
+
+/// Row entries and discs of a rank are numbered by 32 bits: at most 2^31 - 1 entries, and half a billion discs (up to four cells
+/// each). @throws TooManyToNumber with the number
+void require_countable(std::int64_t entries, std::int64_t discs);
+
+}  // namespace clathra
