@@ -55,7 +55,7 @@ Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks) {
   return result;
 }
 
-void judge_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks) {
+void check_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks) {
   constexpr double settled = 0.95;  // one that was wide enough as it was designed is a little narrower at rest
   double largest = 0;
   for (double const radius : specimen.radius) largest = std::max(largest, 2 * radius);

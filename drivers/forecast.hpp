@@ -25,7 +25,7 @@ Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks);
 
 /// Adds that a specimen from a file is too narrow, if it is: the checks of the scene know only those that are generated.
 /// @param specimen  this rank's part
-void judge_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks = {});
+void check_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks = {});
 
 /// Why there is not enough memory for a scene of these numbers, or nothing.
 std::string memory_refusal(StageRecord const& numbers);

@@ -28,7 +28,7 @@ void share_refusals(Ranks const& ranks, std::vector<std::string>& refusals) {
   if (ranks.any(!refusals.empty()) && refusals.empty()) refusals.push_back("another rank cannot take its part");
 }
 
-ExitCode guarded_together(Ranks const& ranks, std::function<ExitCode()> const& work) {
+ExitCode guarded_on_all_ranks(Ranks const& ranks, std::function<ExitCode()> const& work) {
   if (ranks.alone()) return work();
   try {
     return work();

@@ -14,7 +14,7 @@ namespace clathra {
 void share_refusals(Ranks const& ranks, std::vector<std::string>& refusals);
 
 /// Does the work of a verb. A fault of one rank that the others cannot know of ends all of them.
-ExitCode guarded_together(Ranks const& ranks, std::function<ExitCode()> const& work);
+ExitCode guarded_on_all_ranks(Ranks const& ranks, std::function<ExitCode()> const& work);
 
 /// @throws Refused on all ranks where some run another program or another scene than rank 0
 void require_same_everywhere(Ranks const& ranks, LoadedScene const& input);

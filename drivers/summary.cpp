@@ -11,8 +11,8 @@ void Summary::add(HistoryRow const& row) {
   constexpr double tolerance = 0.01;
   last_ = row;
   ++count_;
-  if (count_ == 1 || is_new_peak(row.q_Pa, peak_.q_Pa)) peak_ = row;
-  if (row.eps1 >= residual_from_) residual_sum_ += row.q_Pa, ++residual_count_;
+  eps1_.push_back(row.eps1), eps_v_.push_back(row.eps_v), q_.push_back(row.q_Pa), sigma3_.push_back(row.sigma3_Pa);
+  intact_.push_back(row.intact_initial_pct);
   if (std::fabs(row.sigma3_Pa - confining_stress_) <= tolerance * confining_stress_) ++held_;
   double const contact_q = row.contact_sigma1_Pa - row.contact_sigma3_Pa;
   if (row.p_Pa > 0) mismatch_ = std::max(mismatch_, std::fabs(row.q_Pa - contact_q) / row.p_Pa);
@@ -21,17 +21,16 @@ void Summary::add(HistoryRow const& row) {
 StageRecord Summary::numbers() const {
   StageRecord numbers;
   if (count_ == 0) return numbers;
+  TestNumbers const n = test();
   numbers["records"] = count_;
-  numbers["peak_q_Pa"] = peak_.q_Pa;
-  numbers["peak_eps1"] = peak_.eps1;
-  numbers["peak_eps_v"] = peak_.eps_v;
-  if (residual_count_ > 0) {
-    numbers["residual_q_Pa"] = residual_sum_ / residual_count_;
-    numbers["residual_from_eps1"] = residual_from_;
-  }
-  numbers["end_eps1"] = last_.eps1;
-  numbers["end_eps_v"] = last_.eps_v;
-  numbers["end_intact_initial_pct"] = last_.intact_initial_pct;
+  numbers["peak_q_Pa"] = n.peak_q;
+  numbers["peak_eps1"] = n.peak_eps1;
+  numbers["peak_eps_v"] = n.eps_v_peak;
+  numbers["residual_q_Pa"] = n.residual_q;
+  numbers["residual_from_eps1"] = n.residual_from;
+  numbers["end_eps1"] = n.end_eps1;
+  numbers["end_eps_v"] = n.eps_v_end;
+  numbers["end_intact_initial_pct"] = n.intact_end;
   numbers["sigma3_held"] = static_cast<double>(held_) / count_;
   numbers["stress_mismatch"] = mismatch_;
   if (has_energy_ && energy_.boundary_work != 0) numbers["energy_residual"] = std::fabs(energy_residual());
@@ -56,11 +55,11 @@ std::vector<std::string> Summary::warnings() const {
 
 std::string Summary::text() const {
   if (count_ == 0) return {};
-  std::string text = fmt::format("peak      q {:.4g} MPa at eps1 {:.3g} %, eps_v {:.3g} %\n", peak_.q_Pa * 1e-6, peak_.eps1 * 100,
-                                 peak_.eps_v * 100);
-  if (residual_count_ > 0)
-    text += fmt::format("residual  q {:.4g} MPa (mean from eps1 {:.3g} % on), eps_v {:.3g} % at eps1 {:.3g} %\n",
-                        residual_sum_ / residual_count_ * 1e-6, residual_from_ * 100, last_.eps_v * 100, last_.eps1 * 100);
+  TestNumbers const n = test();
+  std::string text = fmt::format("peak      q {:.4g} MPa at eps1 {:.3g} %, eps_v {:.3g} %\n", n.peak_q * 1e-6, n.peak_eps1 * 100,
+                                 n.eps_v_peak * 100);
+  text += fmt::format("residual  q {:.4g} MPa (mean from eps1 {:.3g} % on), eps_v {:.3g} % at eps1 {:.3g} %\n",
+                      n.residual_q * 1e-6, n.residual_from * 100, n.eps_v_end * 100, n.end_eps1 * 100);
   if (last_.bonds_intact + last_.broken.total() > 0) {
     std::string modes;
     for (BreakModeNames const& m : break_modes)

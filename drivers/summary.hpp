@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "domain/measurement/history_row.hpp"
-#include "domain/measurement/test_phases.hpp"
+#include "domain/measurement/test_numbers.hpp"
 #include "domain/scene/stage.hpp"
 
 namespace clathra {
@@ -12,9 +12,7 @@ namespace clathra {
 /// Collects them from the records of a test as they come.
 class Summary {
  public:
-  /// @param axial_strain  at which the test will end
-  Summary(double confining_stress, double axial_strain)
-      : confining_stress_(confining_stress), residual_from_(residual_from(axial_strain)) {}
+  explicit Summary(double confining_stress) : confining_stress_(confining_stress) {}
   void add(HistoryRow const& row);
   void add(EnergyRow const& row) { energy_ = row, has_energy_ = true; }
 
@@ -32,12 +30,15 @@ class Summary {
  private:
   double energy_residual() const { return energy_.boundary_work != 0 ? energy_.residual / energy_.boundary_work : 0; }
 
-  double confining_stress_, residual_from_;
-  HistoryRow peak_, last_;
+  TestNumbers test() const { return test_numbers({eps1_, eps_v_, q_, sigma3_, intact_}); }
+
+  double confining_stress_;
+  std::vector<double> eps1_, eps_v_, q_, sigma3_, intact_;  // of all records
+  HistoryRow last_;
   EnergyRow energy_;
   bool has_energy_ = false;
-  double residual_sum_ = 0, mismatch_ = 0;
-  int residual_count_ = 0, count_ = 0, held_ = 0;
+  double mismatch_ = 0;
+  int count_ = 0, held_ = 0;
 };
 
 }  // namespace clathra

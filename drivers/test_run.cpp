@@ -45,8 +45,8 @@ void return_free_memory() {
 
 class TestRun::Running {
  public:
-  Running(LoadedScene input, std::optional<Specimen> specimen, Endurance const& endurance, Ranks const& ranks)
-      : ranks_(ranks), endurance_(endurance), scene_(input.scene), specimen_(std::move(specimen)) {
+  Running(LoadedScene input, std::optional<Specimen> specimen, RunLimits const& limits, Ranks const& ranks)
+      : ranks_(ranks), limits_(limits), scene_(input.scene), specimen_(std::move(specimen)) {
     label_before_ = specimen_ ? label_of(*specimen_) : specimen_label(scene_, false);
     strain_before_ = specimen_ ? specimen_->axial_strain.value_or(0) : 0;
     record_.version = CLATHRA_VERSION;
@@ -59,14 +59,14 @@ class TestRun::Running {
       if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
     });
     folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");
-    if (endurance_.resume) look_for_an_earlier_part();
+    if (limits_.resume) look_for_an_earlier_part();
     if (finished_ || resumes()) return;
     on_root(ranks_, [&] {
-      if (!endurance_.resume && !endurance_.overwrite) require_no_unfinished_run();
+      if (!limits_.resume && !limits_.overwrite) require_no_unfinished_run();
       lock_->clear(scene_.sample.file);
     });
     checkpoints_.emplace(folder_, ranks_, std::nullopt);
-    if (endurance_.resume) line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
+    if (limits_.resume) line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
   }
 
   void warn(std::string const& text) { line_.warn(text); }
@@ -155,7 +155,7 @@ class TestRun::Running {
 
   /// Bonds, consolidates, shears and writes what comes out.
   void shear() {
-    summary_.emplace(scene_.test.confining_stress, scene_.test.axial_strain);
+    summary_.emplace(scene_.test.confining_stress);
     Speedometer const preparing;
     std::unique_ptr<BiaxialTest> const test = prepared_test();
     auto const generating = record_.wall_seconds.find("generate");
@@ -198,7 +198,7 @@ class TestRun::Running {
     double const searching_before = test.search_seconds();
     if (!resumed_) write_record_of(test);
     // What took long to prepare is kept at once.
-    if (!resumed_ && endurance_.checkpoint_every > 0 && ranks_.any(preparing_seconds > 0.05 * endurance_.checkpoint_every))
+    if (!resumed_ && limits_.checkpoint_every > 0 && ranks_.any(preparing_seconds > 0.05 * limits_.checkpoint_every))
       write_checkpoint(test);
     while (!test.finished()) {
       if (test.advance(pace_)) write_record_of(test);
@@ -207,7 +207,7 @@ class TestRun::Running {
       record_.wall_seconds["neighbour_searches"] = test.search_seconds() - searching_before;
       record_.disc_steps_per_second = static_cast<double>(record_.disc_steps) / clock.seconds();
       show(test, clock.text(test.strain_fraction(), record_.disc_steps));
-      attend(test);
+      poll(test);
     }
     files_->close();
   }
@@ -221,17 +221,17 @@ class TestRun::Running {
   }
 
   /// Looks, about four times a second, whether the run is to stop or a checkpoint is due. All ranks decide alike.
-  void attend(BiaxialTest& test) {
-    constexpr double glance = 0.25;  // [s]
+  void poll(BiaxialTest& test) {
+    constexpr double poll_interval = 0.25;  // [s]
     double const now = wall_.seconds();
-    bool const due = endurance_.checkpoint_every > 0 && now - last_checkpoint_ > endurance_.checkpoint_every;
+    bool const due = limits_.checkpoint_every > 0 && now - last_checkpoint_ > limits_.checkpoint_every;
     double wish[] = {now - last_glance_, due ? 1.0 : 0.0, interrupted() ? 1.0 : 0.0,
-                     endurance_.most_seconds > 0 && now > endurance_.most_seconds ? 1.0 : 0.0};
+                     limits_.most_seconds > 0 && now > limits_.most_seconds ? 1.0 : 0.0};
     ranks_.max(wish, 4);
     last_glance_ = now;
     // A record that is due cuts a stretch short: it says little of the pace.
     constexpr double most = 100000;
-    pace_ = std::llround(std::clamp(static_cast<double>(pace_) * glance / std::max(wish[0], 1e-6), 1.0,
+    pace_ = std::llround(std::clamp(static_cast<double>(pace_) * poll_interval / std::max(wish[0], 1e-6), 1.0,
                                     std::min(4.0 * static_cast<double>(pace_), most)));
     bool const stop = wish[2] + wish[3] > 0 && !test.finished();
     if (stop || wish[1] > 0) write_checkpoint(test);
@@ -300,7 +300,7 @@ class TestRun::Running {
   }
 
   Ranks ranks_;
-  Endurance endurance_;
+  RunLimits limits_;
   Scene scene_;
   std::optional<Specimen> specimen_;
   SceneTexts label_before_;           // of the specimen before this test
@@ -322,8 +322,8 @@ class TestRun::Running {
   std::int64_t pace_ = 16;  // steps between two glances at clock and signals
 };
 
-TestRun::TestRun(LoadedScene input, std::optional<Specimen> specimen, Endurance const& endurance, Ranks const& ranks)
-    : running_(std::make_unique<Running>(std::move(input), std::move(specimen), endurance, ranks)) {}
+TestRun::TestRun(LoadedScene input, std::optional<Specimen> specimen, RunLimits const& limits, Ranks const& ranks)
+    : running_(std::make_unique<Running>(std::move(input), std::move(specimen), limits, ranks)) {}
 TestRun::~TestRun() = default;
 void TestRun::warn(std::string const& text) { running_->warn(text); }
 ExitCode TestRun::run() { return running_->run(); }

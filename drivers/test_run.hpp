@@ -11,7 +11,7 @@
 namespace clathra {
 
 /// How a run is guarded against its own end. Wall time in seconds.
-struct Endurance {
+struct RunLimits {
   bool resume = false;            ///< go on from the newest checkpoint, if there is one
   bool overwrite = false;         ///< delete an unfinished run in the folder
   double most_seconds = 0;        ///< stop with a checkpoint then; 0 = never
@@ -21,7 +21,7 @@ struct Endurance {
 class TestRun {
  public:
   /// Takes hold of the output folder. Collective, as is run(). @param specimen  this rank's share, if it was read from a file
-  TestRun(LoadedScene input, std::optional<Specimen> specimen, Endurance const& endurance, Ranks const& ranks);
+  TestRun(LoadedScene input, std::optional<Specimen> specimen, RunLimits const& limits, Ranks const& ranks);
   ~TestRun();
   void warn(std::string const& text);
   /// @throws whatever ended the run, after run.json says so

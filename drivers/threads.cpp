@@ -76,7 +76,7 @@ void keep_for_the_new_start() {
 }
 
 /// Sets a variable; true if that changed it.
-bool settle(char const* name, std::string const& value) {
+bool compress_to_void_ratio(char const* name, std::string const& value) {
   char const* const now = std::getenv(name);
   if (now && value == now) return false;
   ::setenv(name, value.c_str(), 1);
@@ -112,16 +112,16 @@ std::string thread_warning(int wanted) {
 void settle_threads(int wanted) {
   int const threads = thread_count(wanted);
   keep_for_the_new_start();
-  bool changed = settle("OMP_NUM_THREADS", std::to_string(threads));
+  bool changed = compress_to_void_ratio("OMP_NUM_THREADS", std::to_string(threads));
   if (launched_ranks() > 1) ::setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // more ranks than cores is for the user to choose
   ::setenv("KOKKOS_NUM_THREADS", std::to_string(threads).c_str(), 1);
   if (!std::getenv("OMP_PROC_BIND")) {
     bool const all = threads == found().cores;
-    changed = settle("OMP_PROC_BIND", all ? "true" : "false") || changed;
+    changed = compress_to_void_ratio("OMP_PROC_BIND", all ? "true" : "false") || changed;
     if (all && !std::getenv("OMP_PLACES")) ::setenv("OMP_PLACES", "cores", 1);
   }
   if (!std::getenv("OMP_WAIT_POLICY") && !std::getenv("GOMP_SPINCOUNT"))
-    changed = settle("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
+    changed = compress_to_void_ratio("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
   if (changed) start_anew();
 }
 

@@ -1,78 +1,36 @@
 /// The table of a set of biaxial tests, from their output folders, as Markdown.
 ///   paper_table OUT...
-/// Reads history.csv, events.csv and run.json of each folder. Columns: peak deviator stress and its axial strain, residual
-/// deviator stress (mean over 12-15 % strain, or the last fifth of a shorter test), volumetric strain at peak and end, intact
-/// share, how well sigma_3 held, how far wall and contact stress differ, the energy residual, and the share of the bonds broken
-/// after the peak that lie in the best band of 25 d50 width. Below it: the records that left sigma_3 by more than 1 %, with the
-/// bonds broken since the record before.
+/// Reads history.csv, events.csv and run.json of each folder. Three tables: the numbers of each test (test_numbers()); how well
+/// each was controlled, with the share of the bonds broken after the peak that lie in the best band and pair of bands of 25 d50
+/// width; and, where runs of one saturation differ in confining stress, their Mohr-Coulomb envelopes (fitted_envelope()). Below
+/// them: the records that left sigma_3 by more than 1 %, with the bonds broken since the record before.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "domain/measurement/test_phases.hpp"
+#include "domain/measurement/shear_band.hpp"
+#include "domain/measurement/strength_fit.hpp"
+#include "domain/measurement/test_numbers.hpp"
 #include "io/results/events.hpp"
 #include "io/results/run_results.hpp"
 
 namespace clathra {
 namespace {
 
-/// A straight band: points with `from` <= x cos(angle) + y sin(angle) <= `to`.
-struct Band {
-  double angle = 0, from = 0, to = 0;
-  std::size_t points = 0;
-  bool holds(double x, double y) const {
-    double const across = std::cos(angle) * x + std::sin(angle) * y;
-    return from <= across && across <= to;
-  }
-};
-
-/// The band of the given width that holds the most points, over all directions.
-Band best_band(std::vector<double> const& x, std::vector<double> const& y, double width) {
-  Band best;
-  for (int degree = 0; degree < 180; ++degree) {
-    double const angle = degree * 3.14159265358979 / 180, c = std::cos(angle), s = std::sin(angle);
-    std::vector<double> across(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) across[i] = c * x[i] + s * y[i];
-    std::sort(across.begin(), across.end());
-    for (std::size_t first = 0, last = 0; last < across.size(); ++last) {
-      while (across[last] - across[first] > width) ++first;
-      if (last - first + 1 > best.points) best = {angle, across[first], across[last], last - first + 1};
-    }
-  }
-  return best;
-}
-
-/// The shares of points in the best band, and in it with the best band of what it leaves (a conjugate pair), as text.
-std::string band_shares(std::vector<double> const& x, std::vector<double> const& y, double width) {
+/// The shares of the points in one and in two bands, as text.
+std::string shares_text(std::vector<double> const& x, std::vector<double> const& y, double width) {
   if (x.empty()) return "-";
-  Band const first = best_band(x, y, width);
-  std::vector<double> rest_x, rest_y;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (first.holds(x[i], y[i])) continue;
-    rest_x.push_back(x[i]);
-    rest_y.push_back(y[i]);
-  }
-  Band const second = best_band(rest_x, rest_y, width);
-  double const all = static_cast<double>(x.size());
+  BandShares const shares = band_shares(x, y, width);
   char text[48];
-  std::snprintf(text, sizeof text, "%.0f %% / %.0f %%", 100 * static_cast<double>(first.points) / all,
-                100 * static_cast<double>(first.points + second.points) / all);
+  std::snprintf(text, sizeof text, "%.0f %% / %.0f %%", 100 * shares.one, 100 * shares.two);
   return text;
-}
-
-double mean_from(HistoryTable const& h, std::string const& column, double from) {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < h["eps1"].size(); ++i) {
-    if (h["eps1"][i] < from) continue;
-    sum += h[column][i];
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
 }
 
 /// The records that left the confining stress by more than 1 %, one line each.
@@ -89,36 +47,98 @@ std::vector<std::string> misses(HistoryTable const& h, double target) {
   return lines;
 }
 
-/// Prints one row; the misses go into `notes`.
-void print_row(std::string const& folder, std::string& notes) {
-  RunResults const run = read_run(folder);
-  HistoryTable const& h = run.history;
-  std::vector<double> const& q = h["q_Pa"];
-  std::size_t const peak = peak_row(q), last = q.size() - 1;
-  double const target = h["sigma3_Pa"][0] > 0 ? std::round(h["sigma3_Pa"][0] / 1e5) * 1e5 : 1;
-  double const residual = mean_from(h, "q_Pa", residual_from(h["eps1"][last]));
-  double wall_contact = 0, energy = 0;
-  for (std::size_t i = 0; i <= last; ++i) {
-    wall_contact += std::abs(h["contact_sigma1_Pa"][i] / h["sigma1_Pa"][i] - 1) / static_cast<double>(last + 1);
-    if (h.has("residual_J") && h["boundary_work_J"][i] > 0 && i > last / 20) {
-      energy = std::max(energy, std::abs(h["residual_J"][i] / h["boundary_work_J"][i]));
-    }
+double target_stress(RunResults const& run) { return run.number("/scene/test/confining_stress").value_or(1); }
+
+void print_numbers(std::vector<RunResults> const& runs) {
+  std::printf(
+      "| run | e at the start | peak q [MPa] | at eps_1 [%%] | E50 [MPa] | residual q [MPa] | eps_v at peak [%%] | largest eps_v "
+      "[%%] | "
+      "eps_v at end [%%] | intact at peak [%%] | intact at end [%%] | disc-steps | seconds |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (RunResults const& run : runs) {
+    HistoryTable const& h = run.history;
+    TestNumbers const n = test_numbers(h.curves());
+    std::vector<double> const& eps_v = h["eps_v"];
+    char intact[32] = "- | -";
+    if (run.has_bonds()) std::snprintf(intact, sizeof intact, "%.1f | %.1f", h["intact_initial_pct"][n.peak], n.intact_end);
+    std::printf("| %s | %.4f | %.2f | %.2f | %.0f | %.2f | %+.2f | %+.2f | %+.2f | %s | %.2g | %.0f |\n", run.name.c_str(),
+                h["void_ratio"][0], n.peak_q / 1e6, 100 * n.peak_eps1, n.secant_modulus.value_or(0) / 1e6, n.residual_q / 1e6,
+                100 * n.eps_v_peak, 100 * *std::max_element(eps_v.begin(), eps_v.end()), 100 * n.eps_v_end, intact,
+                h["step"].back() * run.number("/stages/plan/discs").value_or(0), run.number("/wall_seconds/shear").value_or(0));
   }
+}
+
+/// The shares of the bonds broken after the peak in one and in two bands.
+std::string shares_after_peak(RunResults const& run, double peak_step) {
   std::vector<double> x, y;
-  if (std::filesystem::exists(run.folder / "events.csv")) {
-    for (BreakEvent const& event : read_events(run.folder / "events.csv")) {
-      if (static_cast<double>(event.step) <= h["step"][peak]) continue;
-      x.push_back(event.x);
-      y.push_back(event.y);
-    }
+  if (!std::filesystem::exists(run.folder / "events.csv")) return "-";
+  for (BreakEvent const& event : read_events(run.folder / "events.csv")) {
+    if (static_cast<double>(event.step) <= peak_step) continue;
+    x.push_back(event.x);
+    y.push_back(event.y);
   }
-  double const d50 = run.number("/stages/plan/d50_m").value_or(0.1694e-3);
-  std::vector<std::string> const missed = misses(h, target);
-  std::printf("| %s | %.2f | %.2f | %.2f | %+.2f | %+.2f | %.1f | %.2f | %.3f | %.3f | %s |\n", folder.c_str(), q[peak] / 1e6,
-              100 * h["eps1"][peak], residual / 1e6, 100 * h["eps_v"][peak], 100 * h["eps_v"][last],
-              h["intact_initial_pct"][last], 100.0 * (1 - static_cast<double>(missed.size()) / static_cast<double>(last)),
-              100 * wall_contact, 100 * energy, band_shares(x, y, 25 * d50).c_str());
-  for (std::string const& line : missed) notes += "- " + folder + ": " + line + "\n";
+  return shares_text(x, y, 25 * run.number("/stages/plan/d50_m").value_or(0.1694e-3));
+}
+
+/// The misses go into `notes`.
+void print_control(std::vector<RunResults> const& runs, std::string& notes) {
+  std::printf(
+      "\n| run | records with sigma_3 within 1 %% [%%] | mean difference of wall and contact stress [%%] | energy residual [%% "
+      "of work] | "
+      "post-peak breaks in one / two bands of 25 d50 |\n|---|---|---|---|---|\n");
+  for (RunResults const& run : runs) {
+    HistoryTable const& h = run.history;
+    std::size_t const last = h.rows() - 1;
+    double wall_contact = 0, energy = 0;
+    for (std::size_t i = 0; i <= last; ++i) {
+      wall_contact += std::abs(h["contact_sigma1_Pa"][i] / h["sigma1_Pa"][i] - 1) / static_cast<double>(last + 1);
+      if (h.has("residual_J") && h["boundary_work_J"][i] > 0 && i > last / 20)
+        energy = std::max(energy, std::abs(h["residual_J"][i] / h["boundary_work_J"][i]));
+    }
+    std::vector<std::string> const missed = misses(h, target_stress(run));
+    std::printf("| %s | %.1f | %.2f | %s | %s |\n", run.name.c_str(),
+                100.0 * (1 - static_cast<double>(missed.size()) / static_cast<double>(last)), 100 * wall_contact,
+                h.has("residual_J") ? std::to_string(100 * energy).substr(0, 5).c_str() : "-",
+                shares_after_peak(run, h["step"][test_numbers(h.curves()).peak]).c_str());
+    for (std::string const& line : missed) notes += "- " + run.name + ": " + line + "\n";
+  }
+}
+
+/// c and phi of tests, and how far the line misses them at most.
+std::string envelope_cells(std::vector<FailureStress> const& tests) {
+  std::optional<Envelope> const fit = fitted_envelope(tests);
+  if (!fit) return "- | - | -";
+  double const n = (1 + std::sin(fit->friction_angle)) / (1 - std::sin(fit->friction_angle));
+  double miss = 0;
+  for (FailureStress const& t : tests)
+    miss = std::max(miss, std::abs(t.sigma1 - 2 * fit->cohesion * std::sqrt(n) - n * t.sigma3));
+  constexpr double degrees = 180 / 3.14159265358979;
+  EnvelopeErrors const errors = fit->errors.value_or(EnvelopeErrors());
+  char text[96];
+  std::snprintf(text, sizeof text, "%.2f ± %.2f | %.1f ± %.1f | %.2f", fit->cohesion / 1e6, errors.cohesion / 1e6,
+                fit->friction_angle * degrees, errors.friction_angle * degrees, miss / 1e6);
+  return text;
+}
+
+void print_strength(std::vector<RunResults> const& runs) {
+  std::map<double, std::pair<std::vector<FailureStress>, std::vector<FailureStress>>> by_saturation;
+  for (RunResults const& run : runs) {
+    TestNumbers const n = test_numbers(run.history.curves());
+    auto& [peak, residual] = by_saturation[run.number("/scene/hydrate/saturation").value_or(0)];
+    peak.push_back({n.peak_sigma3 + n.peak_q, n.peak_sigma3});
+    residual.push_back({n.residual_sigma3 + n.residual_q, n.residual_sigma3});
+  }
+  std::string rows;
+  for (auto const& [saturation, tests] : by_saturation)
+    if (fitted_envelope(tests.first))
+      rows += "| " + std::to_string(std::lround(100 * saturation)) + " % | " + std::to_string(tests.first.size()) + " | " +
+              envelope_cells(tests.first) + " | " + envelope_cells(tests.second) + " |\n";
+  if (rows.empty()) return;
+  std::printf(
+      "\n| hydrate | tests | peak: c [MPa] | phi [degrees] | largest misfit of sigma_1 [MPa] | residual: c [MPa] | phi [degrees] "
+      "| "
+      "largest misfit [MPa] |\n|---|---|---|---|---|---|---|---|\n%s",
+      rows.c_str());
 }
 
 }  // namespace
@@ -130,21 +150,20 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: paper_table OUT...   (output folders of clathra run)\n");
     return 64;
   }
-  std::printf(
-      "| run | peak q [MPa] | at eps1 [%%] | residual q [MPa] | eps_v at peak [%%] | eps_v at end [%%] | intact at end [%%] | "
-      "records with sigma3 within 1 %% [%%] | mean wall-contact difference [%%] | energy residual [%% of work] | post-peak "
-      "breaks in "
-      "one / two bands of 25 d50 |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-  std::string notes;
+  std::vector<RunResults> runs;
   int code = 0;
   for (int k = 1; k < argc; ++k) {
     try {
-      print_row(argv[k], notes);
+      runs.push_back(read_run(argv[k]));
     } catch (FileProblem const& problem) {
       std::fprintf(stderr, "paper_table: %s\n", problem.what());
       code = 66;
     }
   }
+  std::string notes;
+  print_numbers(runs);
+  print_control(runs, notes);
+  print_strength(runs);
   if (!notes.empty()) std::printf("\nRecords outside 1 %% of sigma3:\n\n%s", notes.c_str());
   return code;
 }

@@ -7,8 +7,8 @@ bench="$(dirname "${BASH_SOURCE[0]}")/../build/release/perf/step_bench"
 discs=${1:-1000000} rounds=${2:-3}
 cases=("${@:3}")
 [ ${#cases[@]} -gt 0 ] || cases=(rolling bonded)
-# A large packing takes long to settle and shows little of it.
-if ((discs > 500000)); then settle=500; else settle=3000; fi
+# A large packing takes long to come to rest and shows little of it.
+if ((discs > 500000)); then relax=500; else relax=3000; fi
 source "$(dirname "${BASH_SOURCE[0]}")/ranks_environment.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -17,7 +17,7 @@ trap 'rm -rf "$folder"' EXIT
 measure() {
   local launch=()
   [ "$1" = 1 ] || launch=(mpirun -n "$1")
-  KOKKOS_DISABLE_WARNINGS=1 OMP_NUM_THREADS=$2 "${launch[@]}" "$bench" --case "$3" --discs "$discs" --seconds 4 --repeat 1 --settle $settle 2>/dev/null |
+  KOKKOS_DISABLE_WARNINGS=1 OMP_NUM_THREADS=$2 "${launch[@]}" "$bench" --case "$3" --discs "$discs" --seconds 4 --repeat 1 --relax $relax 2>/dev/null |
     awk -F, '$1 == "rolling" || $1 == "bonded" { row = $0 } $1 == "halo_trade" { halo = $3 } END { print row "," halo + 0 }' >>"$folder/$3.$1.$2"
 }
 

@@ -1,6 +1,6 @@
 /// Whole-step throughput on fixed packings: disc-steps per second of Simulation::step() with walls, servo and neighbour
 /// searches.
-///   [mpirun -n RANKS] step_bench [--discs N] [--case rolling|bonded|breaking] [--seconds S] [--repeat R] [--skin S] [--settle
+///   [mpirun -n RANKS] step_bench [--discs N] [--case rolling|bonded|breaking] [--seconds S] [--repeat R] [--skin S] [--relax
 ///   STEPS]
 /// Threads: OMP_NUM_THREADS. Prints one row per repeat, the median, and where the time of one more run went, kernel by kernel.
 /// `clathra bench` gives a user the same numbers.
@@ -33,8 +33,8 @@ Options read_options(int argc, char** argv) {
     else if (auto const at = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), value);
              name == "--case" && at != std::end(throughput_case_names))
       options.setup.what = static_cast<ThroughputCase>(at - std::begin(throughput_case_names));
-    else if (name == "--settle")
-      options.setup.settle_steps = std::atoi(value.c_str());
+    else if (name == "--relax")
+      options.setup.relaxation_steps = std::atoi(value.c_str());
     else if (name == "--seconds")
       options.seconds = std::atof(value.c_str());
     else if (name == "--skin")

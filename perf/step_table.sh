@@ -10,8 +10,8 @@ sizes=("$@")
 echo "| case | discs | threads | M disc-steps/s | M contact-steps/s | neighbour search | bytes a disc | of the bandwidth | of the arithmetic | contact kernel | drift |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|"
 for discs in "${sizes[@]}"; do
-  # A large packing takes long to settle and shows little of it.
-  if ((discs > 500000)); then how=(--settle 500 --repeat 1); else how=(--repeat 3); fi
+  # A large packing takes long to come to rest and shows little of it.
+  if ((discs > 500000)); then how=(--relax 500 --repeat 1); else how=(--repeat 3); fi
   for case in rolling bonded breaking; do
     [ "$case" != breaking ] || ((discs <= 500000)) || continue # thousands of steps until their bonds break
     for threads in 1 2; do

@@ -117,7 +117,7 @@ TEST(Trap07, ANegativeSlopeOfTheEnvelopeIsNoStrength) {
   BondLaw law = law_with(8e-3);
   for (double gap : {6e-3, 7e-3}) {
     BondForce<Real> const bond = resting_bond(law, 40e-3, -gap);
-    BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+    BondStrength const strength = bond_strength(law.strength, bond.width, bond.thickness);
     ASSERT_GT(strength.tension, 0);
     ASSERT_GT(strength.compression, 0);
     EXPECT_NE(strength.test(0, 0, 0), BreakMode::none);
@@ -191,7 +191,7 @@ TEST(Trap14, ABondOnAnOverlapCountsAsOneWithoutGap) {
   BondForce<Real> const touching = resting_bond(law, r, 0);
   for (double overlap : {1e-9, 3.94e-6, 8e-6, 2e-5}) {  // more than h_max = 3.94 micrometres too
     BondForce<Real> const pressed = resting_bond(law, r, overlap);
-    EXPECT_EQ(pressed.gap, 0);
+    EXPECT_EQ(pressed.thickness, 0);
     EXPECT_EQ(pressed.width, touching.width);
     EXPECT_EQ(pressed.stiffness.normal, touching.stiffness.normal);
     EXPECT_EQ(pressed.stiffness.shear, touching.stiffness.shear);
@@ -274,7 +274,7 @@ TEST(Trap25, AStrengthThatFallsBelowThePresentTensionIsANormalTensileBreak) {
   ContactMotion<Real> const stretched{-4.5e-6, 0, 0, 0, r};
   BondForce<Real> const bond = bond_contact(law, stretched, 0.0, law.width_formed_at(r, 0.0), 0.0, 0.0);
   auto const mode = [&] {
-    return bond_strength(law.strength, bond.width, bond.gap).test(bond.force.normal, bond.force.shear, bond.force.moment);
+    return bond_strength(law.strength, bond.width, bond.thickness).test(bond.force.normal, bond.force.shear, bond.force.moment);
   };
   EXPECT_EQ(mode(), BreakMode::none);
   EXPECT_TRUE(is_surely_intact(law, bond));

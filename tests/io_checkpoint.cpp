@@ -104,6 +104,19 @@ TEST_F(CheckpointFile, GoesOnWithTheBitsOfTheTestThatWasLeftAlone) {
   EXPECT_EQ(again.events_after(0).size(), alone.events_after(0).size());
 }
 
+/// Bytes changed, or an end cut off.
+std::string damaged(std::string bytes, std::uint64_t n) {
+  auto const draw = [&](std::uint64_t salt, std::size_t size) {
+    return static_cast<std::size_t>(uniform_random(n, salt, 1) * static_cast<double>(size));
+  };
+  if (n % 10 == 9) {
+    bytes.resize(draw(1, bytes.size()));
+  } else {
+    for (std::uint64_t k = 0; k <= n % 8; ++k) bytes[draw(2 + k, bytes.size())] ^= static_cast<char>(1 + draw(20 + k, 255));
+  }
+  return bytes;
+}
+
 TEST_F(CheckpointFile, IsTakenFromTheOtherGenerationWhereOneIsDamaged) {
   (void)two_generations();
   std::string const good[] = {content(folder / "ckpt/1.h5"), content(folder / "ckpt/1.json")};
@@ -111,15 +124,7 @@ TEST_F(CheckpointFile, IsTakenFromTheOtherGenerationWhereOneIsDamaged) {
   int cases = 0, named = 0;
   for (std::uint64_t n = 0; n < 1000; ++n) {
     auto const which = static_cast<std::size_t>(n % 4 == 0 ? 1 : 0);
-    std::string bad = good[which];
-    auto const draw = [&](std::uint64_t salt, std::size_t size) {
-      return static_cast<std::size_t>(uniform_random(n, salt, 1) * static_cast<double>(size));
-    };
-    if (n % 10 == 9) {
-      bad.resize(draw(1, bad.size()));
-    } else {
-      for (std::uint64_t k = 0; k <= n % 8; ++k) bad[draw(2 + k, bad.size())] ^= static_cast<char>(1 + draw(20 + k, 255));
-    }
+    std::string const bad = damaged(good[which], n);
     if (bad == good[which]) continue;
     put(files[which], bad);
     FoundCheckpoints const found = find_checkpoints(folder);

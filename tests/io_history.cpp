@@ -15,6 +15,7 @@
 #include "io/results/history.hpp"
 #include "io/results/output_folder.hpp"
 #include "io/results/run_record.hpp"
+#include "kernels/real.hpp"
 
 namespace clathra {
 namespace {
@@ -68,7 +69,7 @@ TEST_F(History, HasTheColumnsThatTheDocumentationPromises) {
                                    "void_ratio",
                                    "bonds_intact",
                                    "intact_initial_pct",
-                                   "intact_mechanical_pct",
+                                   "intact_interacting_pct",
                                    "broken_tension",
                                    "broken_compression",
                                    "broken_shear",

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
+#include "domain/measurement/test_numbers.hpp"
 #include "io/report/plot.hpp"
-#include "io/report/test_numbers.hpp"
 #include "io/results/run_results.hpp"
 #include "report_page.hpp"
 
@@ -53,7 +53,7 @@ TEST_F(Report, ThinsALongCurveButKeepsItsPeak) {
 }
 
 TEST_F(Report, KnowsATestByItsNumbers) {
-  TestNumbers const n = test_numbers(HistoryTable(made("a") / "history.csv"));
+  TestNumbers const n = test_numbers(HistoryTable(made("a") / "history.csv").curves());
   EXPECT_DOUBLE_EQ(n.peak_q, 5e6);
   EXPECT_DOUBLE_EQ(n.peak_eps1, 0.02);
   EXPECT_NEAR(n.residual_q, 2e6, 1);

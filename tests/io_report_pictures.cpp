@@ -1,4 +1,4 @@
-/// The pictures of the report: that a pixel, a strain and a direction are what the snapshot holds.
+/// The pictures of the report: that a pixel is what the snapshot holds.
 #include <gtest/gtest.h>
 #include <png.h>
 
@@ -6,15 +6,14 @@
 #include <cmath>
 #include <random>
 
+#include "domain/measurement/fabric.hpp"
 #include "io/report/colours.hpp"
-#include "io/report/fabric.hpp"
 #include "io/report/grading_figure.hpp"
 #include "io/report/map_figures.hpp"
 #include "io/report/maps.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/png.hpp"
 #include "io/report/report.hpp"
-#include "io/report/strain_field.hpp"
 #include "report_runs.hpp"
 
 namespace clathra {
@@ -150,63 +149,6 @@ TEST(ReportPictures, AreTextInThePage) {
   EXPECT_EQ(base64(std::string("\xff\x00\xfe", 3)), "/wD+");
 }
 
-/// Displaces a lattice by x' = F x.
-Snapshot deformed(double fxx, double fxy, double fyx, double fyy) {
-  Snapshot s = made_up_lattice(40, 60);
-  for (std::size_t i = 0; i < s.x.size(); ++i) {
-    double const x = fxx * s.x[i] + fxy * s.y[i], y = fyx * s.x[i] + fyy * s.y[i];
-    s.ux[i] = static_cast<float>(x - s.x[i]), s.uy[i] = static_cast<float>(y - s.y[i]);
-    s.x[i] = x, s.y[i] = y;
-  }
-  return s;
-}
-
-TEST(ReportStrain, IsTheDifferenceOfThePrincipalNaturalStrains) {
-  for (float const strain : shear_strain(deformed(1.1, 0, 0, 0.85))) ASSERT_NEAR(strain, std::log(1.1 / 0.85), 1e-4);
-  double const shear = 0.5;  // simple shear: l1 / l2 = (g / 2 + sqrt(1 + g^2 / 4))^2
-  for (float const strain : shear_strain(deformed(1, shear, 0, 1)))
-    ASSERT_NEAR(strain, 2 * std::log(shear / 2 + std::sqrt(1 + shear * shear / 4)), 1e-4);
-}
-
-TEST(ReportStrain, IsNotMadeByTurningOrSwelling) {
-  for (float const strain : shear_strain(deformed(std::cos(0.7), -std::sin(0.7), std::sin(0.7), std::cos(0.7))))
-    ASSERT_NEAR(strain, 0, 1e-4);
-  for (float const strain : shear_strain(deformed(1.2, 0, 0, 1.2))) ASSERT_NEAR(strain, 0, 1e-4);
-}
-
-TEST(ReportStrain, FindsTheBandAndSurvivesADiscThatFlewAway) {
-  Snapshot s = made_up_lattice(40, 60);
-  double const middle = s.top / 2, half = 0.1 * s.top;
-  for (std::size_t i = 0; i < s.x.size(); ++i) {
-    s.ux[i] = static_cast<float>(std::clamp(s.y[i] - middle, -half, half));
-    s.x[i] += double(s.ux[i]);
-  }
-  std::vector<float> const strain = shear_strain(s);
-  EXPECT_NEAR(strain[20 + 40 * 30], 2 * std::log(0.5 + std::sqrt(1.25)), 0.05);
-  EXPECT_NEAR(strain[20 + 40 * 3], 0, 1e-4);
-  s.x[0] = 1e6, s.y[0] = -1e6;
-  EXPECT_EQ(shear_strain(s).size(), s.x.size());
-  EXPECT_TRUE(std::isnan(shear_strain(made_up_lattice(1, 1)).at(0))) << "one disc has no strain";
-}
-
-TEST(ReportRose, CountsContactsAndForcesByDirection) {
-  Snapshot s = made_up_lattice(30, 30);
-  for (std::size_t k = 0; k < s.a.size(); ++k)
-    if (s.b[k] != s.a[k] + 1) s.normal_force[k] = 3;  // upright
-  Rose const rose = rose_of(s);
-  EXPECT_EQ(rose.pairs, s.a.size());
-  EXPECT_NEAR(rose.normals[0], 9, 1e-9) << "half of the pairs in one of 18 bins";
-  EXPECT_NEAR(rose.normals[9], 9, 1e-9);
-  EXPECT_NEAR(rose.normal_anisotropy, 0, 1e-9);
-  EXPECT_NEAR(rose.forces[0], 0.5, 1e-6);
-  EXPECT_NEAR(rose.forces[9], 1.5, 1e-6);
-  EXPECT_GT(rose.force_anisotropy, 0.5);
-  EXPECT_NEAR(rose.force_direction, std::acos(-1.0) / 2, 0.1);
-  s.state.assign(s.a.size(), static_cast<std::uint8_t>(broken_in(BreakMode::shear)));
-  s.normal_force.assign(s.a.size(), 0.0), s.gap.assign(s.a.size(), 1e-9);
-  EXPECT_EQ(rose_of(s).pairs, 0u) << "bonds that are gone";
-}
-
 /// Weak contacts are most of those that lie across the strong ones: without them the fabric looks more directed than it is.
 TEST(ReportRose, CountsContactsThatAreTooWeakForTheDigitsOfASnapshot) {
   fs::path const file = fs::temp_directory_path() / ("clathra_rose_" + std::to_string(::getpid()) + ".h5");
@@ -239,11 +181,11 @@ TEST(ReportGrading, CountsMassByTheAreaOfDiscs) {
 }
 
 TEST(ReportSnapshots, AreThoseAtTheStartThePeakAndTheEnd) {
-  using Places = std::vector<std::size_t>;
-  EXPECT_EQ(shown_snapshots({0, 10, 20, 30}, 12), (Places{0, 1, 3}));
-  EXPECT_EQ(shown_snapshots({0, 10, 20, 30}, 1), (Places{0, 3}));
-  EXPECT_EQ(shown_snapshots({0, 10, 20, 30}, 29), (Places{0, 3}));
-  EXPECT_EQ(shown_snapshots({0}, 29), (Places{0}));
+  using IdIndex = std::vector<std::size_t>;
+  EXPECT_EQ(shown_snapshots({0, 10, 20, 30}, 12), (IdIndex{0, 1, 3}));
+  EXPECT_EQ(shown_snapshots({0, 10, 20, 30}, 1), (IdIndex{0, 3}));
+  EXPECT_EQ(shown_snapshots({0, 10, 20, 30}, 29), (IdIndex{0, 3}));
+  EXPECT_EQ(shown_snapshots({0}, 29), (IdIndex{0}));
 }
 
 TEST(ReportLong, OfAMillionDiscsIsWrittenInHalfAMinute) {

@@ -51,17 +51,6 @@ TEST_F(ReportStrength, DrawsCohesionAndFrictionAngleAgainstTheSaturation) {
   EXPECT_NEAR(curves[0][2].first, 55, 0.2);
 }
 
-TEST(ReportEnvelope, IsTheLeastSquaresLineAndKnowsWhenThereIsNone) {
-  std::vector<FailureStress> tests;
-  for (double const sigma3 : {0.5e6, 1e6, 2e6, 4e6}) tests.push_back({failure_stress(0.3e6, 0.5, sigma3), sigma3});
-  auto const fit = fitted_envelope(tests);
-  ASSERT_TRUE(fit);
-  EXPECT_NEAR(fit->cohesion, 0.3e6, 1);
-  EXPECT_NEAR(fit->friction_angle, 0.5, 1e-9);
-  EXPECT_FALSE(fitted_envelope({{3e6, 1e6}, {3.1e6, 1e6}}));
-  EXPECT_FALSE(fitted_envelope({{5e6, 1e6}, {3e6, 2e6}})) << "strength that falls with the stress";
-}
-
 /// Two tests at 1 and 3 MPa whose envelopes are known; the second one, and with `both` the first one too, is of another scene.
 struct Pair {
   std::string name;

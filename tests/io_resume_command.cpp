@@ -50,7 +50,7 @@ class RunFolder : public testing::Test {
     fs::copy_file(base() / "sizes.csv", base() / "same.csv");
     CommandResult const alone = run("alone");
     ASSERT_EQ(alone.code, 0) << alone.output;
-    // Told to stop at their first glance at the clock.
+    // Told to stop at their first poll of the clock.
     ASSERT_EQ(run("stopped", "--max-walltime 0.001s --checkpoint-every 0s").code, 75);
     ASSERT_EQ(run("stopped", "--max-walltime 0.001s --checkpoint-every 0s --resume").code, 75);
     ASSERT_EQ(find_checkpoints(base() / "stopped").usable.size(), 2u);

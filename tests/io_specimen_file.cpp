@@ -75,9 +75,9 @@ TEST_F(SpecimenFile, KeepsEveryBit) {
   EXPECT_EQ(read.separate_bonds, written.separate_bonds);
   EXPECT_EQ(read.provenance, written.provenance);
   ASSERT_EQ(read.contacts.size(), 2u);
-  EXPECT_EQ(read.contacts[1].equilibrium, -1e-6);
+  EXPECT_EQ(read.contacts[1].formation_overlap, -1e-6);
   EXPECT_EQ(read.contacts[1].bond_moment, 8e-5);
-  EXPECT_EQ(read.contacts[0].equilibrium, 1e300);
+  EXPECT_EQ(read.contacts[0].formation_overlap, 1e300);
 }
 
 TEST_F(SpecimenFile, TakesSpecimensOfManyChunksAndWithoutContactsOrProvenance) {

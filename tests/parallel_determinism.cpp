@@ -2,9 +2,11 @@
 /// values below are what makes the two comparable.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "domain/generation/random.hpp"
+#include "domain/simulation/simulation.hpp"
 #include "small_test.hpp"
 
 namespace clathra {

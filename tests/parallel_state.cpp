@@ -117,7 +117,7 @@ TEST(State, OfABondAcrossAPeriodicEdgeIsKeptByASearchInAnyStep) {
   Scene const scene = hydrate_scene(0.55, Composite::parallel);
   s.critical_thickness = h_max_of(scene);
   s.contacts.push_back({0, 1});
-  s.contacts[0].equilibrium = -gap;
+  s.contacts[0].formation_overlap = -gap;
   s.separate_bonds = true;
   SimulationLaws const laws = unbreakable(bonded_laws(scene, s.critical_thickness));
   Simulation sim(s, laws, 1e-9);

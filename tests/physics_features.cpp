@@ -53,7 +53,7 @@ SimulationLaws hydrate_laws(Composite composite) {
 std::size_t bytes_per_entry(Simulation const& sim) {
   std::size_t const n = sim.contact_entries();
   ContactRows const& r = sim.rows();
-  for (auto const* field : {&r.shear, &r.moment, &r.equilibrium, &r.width, &r.bond_shear, &r.bond_moment})
+  for (auto const* field : {&r.shear, &r.moment, &r.formation_overlap, &r.width, &r.bond_shear, &r.bond_moment})
     EXPECT_TRUE(field->extent(0) == 0 || field->extent(0) == n);
   return (bytes(r) - (r.slice_start.span() + r.length.span()) * sizeof(int) - r.active.span() * sizeof(std::uint64_t)) / n;
 }
@@ -62,7 +62,7 @@ TEST(Features, ASceneWithoutHydrateHasNoBondField) {
   Simulation sim = packing(sand_laws(), false);
   for (int n = 0; n < 100; ++n) sim.step();
   ContactRows const& rows = sim.rows();
-  EXPECT_EQ(rows.equilibrium.extent(0) + rows.width.extent(0) + rows.bond_shear.extent(0) + rows.bond_moment.extent(0), 0u);
+  EXPECT_EQ(rows.formation_overlap.extent(0) + rows.width.extent(0) + rows.bond_shear.extent(0) + rows.bond_moment.extent(0), 0u);
   EXPECT_EQ(sim.wall_contacts().shear.extent(0), 0u);  // smooth walls
   EXPECT_EQ(sim.broken_bonds(), 0);
   LossTotals const none = sim.losses();

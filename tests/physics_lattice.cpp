@@ -142,7 +142,22 @@ TEST(HexagonalLattice, FailsInIsotropicTensionWhereEveryBondDoes) {
   EXPECT_NEAR(last / (std::sqrt(3.0) * R_t / distance), 1, 2e-3);
   sim.step();
   EXPECT_EQ(sim.break_counts()[BreakMode::tension], 3 * 64);
-  EXPECT_EQ(sim.measures().mechanical, 0);
+  EXPECT_EQ(sim.measures().interacting, 0);
+}
+
+/// Thornton (2000): Z_m = (2 C - N_1) / (N - N_0 - N_1).
+TEST(MechanicalCoordination, LeavesRattlersOut) {
+  Specimen s = open_space();
+  double const touch = 1.999 * grain_radius, half = touch / 2, high = touch * std::sqrt(0.75);
+  add_disc(s, 0, 0), add_disc(s, touch, 0), add_disc(s, half, high);  // each touches the two others
+  add_disc(s, half, high + touch);                                    // hangs on one of them
+  add_disc(s, 10 * touch, 0);                                         // alone
+  Simulation sim(s, sand_laws(), 0.1 * grain_d50);
+  Measures const m = sim.measures();
+  EXPECT_EQ(m.interacting, 4);
+  EXPECT_EQ(m.non_rattlers, 3);
+  EXPECT_DOUBLE_EQ(m.mechanical_coordination(), (2 * 4 - 1) / (5.0 - 1 - 1));
+  EXPECT_EQ(Measures().mechanical_coordination(), 0);
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ TEST(StableTimeStep, KnowsTheStiffnessBehindBondsThatMayBreak) {
     bond_all(s, scene);
     Simulation const bonded(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
     ASSERT_EQ(bonded.measures().bonded, 1);
-    s.contacts[0].equilibrium = no_bond;
+    s.contacts[0].formation_overlap = no_bond;
     Simulation const broken(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
     EXPECT_GT(exact_limit(bonded, 200), 1.2 * exact_limit(broken, 200));
     EXPECT_LE(bonded.stable_limit(), broken.stable_limit() * (1 + 1e-12));

@@ -1,6 +1,8 @@
 #pragma once
 /// A biaxial test of a few seconds.
+#include "domain/biaxial/biaxial_test.hpp"
 #include "domain/generation/generation.hpp"
+#include "domain/measurement/history_row.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/specimen.hpp"
 

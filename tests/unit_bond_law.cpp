@@ -19,16 +19,16 @@ BondLaw law_at(double saturation) {
 /// A bond made at some overlap and loaded since then.
 struct Bond {
   ContactMotion<Real> motion;
-  double equilibrium, shear, moment;
+  double formation_overlap, shear, moment;
 };
 
 BondForce<Real> force_of(BondLaw const& law, Bond const& bond) {
-  double const width = law.width_formed_at(bond.motion.common_radius, bond.equilibrium);
-  return bond_contact(law, bond.motion, bond.equilibrium, width, bond.shear, bond.moment);
+  double const width = law.width_formed_at(bond.motion.common_radius, bond.formation_overlap);
+  return bond_contact(law, bond.motion, bond.formation_overlap, width, bond.shear, bond.moment);
 }
 
 BreakMode test_of(BondLaw const& law, BondForce<Real> const& bond) {
-  return bond_strength(law.strength, bond.width, bond.gap).test(bond.force.normal, bond.force.shear, bond.force.moment);
+  return bond_strength(law.strength, bond.width, bond.thickness).test(bond.force.normal, bond.force.shear, bond.force.moment);
 }
 
 /// The last intact and the first broken state of a bond that is loaded by the same small motion again and again.
@@ -37,14 +37,14 @@ struct Failure {
   BondForce<Real> before, at;
   BondStrength strength;
 };
-Failure load_until_broken(BondLaw const& law, Bond bond, double stretch, double slip, double turn) {
+Failure load_until_broken(BondLaw const& law, Bond bond, double stretch, double shear_increment, double relative_rotation) {
   Failure failure{};
   failure.at = force_of(law, bond);
-  failure.strength = bond_strength(law.strength, failure.at.width, failure.at.gap);
+  failure.strength = bond_strength(law.strength, failure.at.width, failure.at.thickness);
   for (int step = 0; step < 1000000; ++step) {
     bond.motion.overlap -= stretch;
-    bond.motion.slip = slip;
-    bond.motion.turn = turn;
+    bond.motion.shear_increment = shear_increment;
+    bond.motion.relative_rotation = relative_rotation;
     failure.before = failure.at;
     failure.at = force_of(law, bond);
     bond.shear = failure.at.force.shear;
@@ -71,7 +71,7 @@ TEST(BondLaw, HasTheGeometryAndStiffnessOfTheTable) {
     SCOPED_TRACE(testing::Message() << "S = " << row.saturation << " %, h/h_max = " << row.share);
     BondLaw const law = law_at(row.saturation);
     BondForce<Real> const bond = force_of(law, resting(-row.share * law.critical_thickness));
-    EXPECT_TRUE(agrees(bond.gap * 1e6, row.gap));
+    EXPECT_TRUE(agrees(bond.thickness * 1e6, row.gap));
     EXPECT_TRUE(agrees(bond.width * 1e6, row.width));
     EXPECT_TRUE(agrees(bond.stiffness.normal, row.k_bn));
     EXPECT_TRUE(agrees(bond.stiffness.shear, row.k_bs));
@@ -96,7 +96,7 @@ TEST(BondLaw, AddsSlipAndTurnByItsStiffness) {
   BondForce<Real> const loaded = force_of(law_at(41), bond);
   EXPECT_TRUE(within(1e-14, loaded.force.shear, 10 + 1e-8L * loaded.stiffness.shear));
   EXPECT_TRUE(within(1e-12, loaded.force.moment, 1e-4L - 1e-4L * loaded.stiffness.rolling));
-  bond.motion.slip = bond.motion.turn = 0;
+  bond.motion.shear_increment = bond.motion.relative_rotation = 0;
   EXPECT_EQ(force_of(law_at(41), bond).force.shear, 10);
   EXPECT_EQ(force_of(law_at(41), bond).force.moment, 1e-4);
 }
@@ -106,14 +106,14 @@ TEST(BondLaw, ReturnsToRestAfterAClosedPath) {
   Draw draw(51);
   for (int path = 0; path < 100; ++path) {
     Bond bond = resting(-2e-6);
-    double slips[20], turns[20], last = 0;
+    double shear_increments[20], relative_rotations[20], last = 0;
     for (int n = 0; n < 40; ++n) {
-      double& slip = slips[n % 20];
-      double& turn = turns[n % 20];
-      slip = n < 20 ? draw.between(-1, 1) * 1e-7 : -slip;
-      turn = n < 20 ? draw.between(-1, 1) * 1e-4 : -turn;
-      bond.motion.slip = slip;
-      bond.motion.turn = turn;
+      double& shear_increment = shear_increments[n % 20];
+      double& relative_rotation = relative_rotations[n % 20];
+      shear_increment = n < 20 ? draw.between(-1, 1) * 1e-7 : -shear_increment;
+      relative_rotation = n < 20 ? draw.between(-1, 1) * 1e-4 : -relative_rotation;
+      bond.motion.shear_increment = shear_increment;
+      bond.motion.relative_rotation = relative_rotation;
       bond.motion.overlap = n < 39 ? draw.between(-3e-6, 0) : -2e-6;
       BondForce<Real> const now = force_of(law, bond);
       bond.shear = now.force.shear;
@@ -186,11 +186,11 @@ TEST(BondLaw, KeepsTheForceOfALoadedContactWithMemoryAndDropsItWithout) {
 
 TEST(BondLaw, ConstantThicknessMakesAllBondsOfOneRadiusAlike) {
   BondLaw law = law_at(41);
-  law.gap_weight = 0;
+  law.thickness_weight = 0;
   law.plate_thickness = law.thickness_partner = 1e-6;
   for (double made_at : {-5e-6, 0.0, 3e-6}) {
     BondForce<Real> const bond = force_of(law, resting(made_at));
-    EXPECT_EQ(bond.gap, 1e-6);
+    EXPECT_EQ(bond.thickness, 1e-6);
     EXPECT_TRUE(within(1e-12, bond.width, printed::width(golden::radius, law.critical_thickness, 1e-6)));
     EXPECT_TRUE(within(1e-12, bond.stiffness.rolling, printed::k_bm(bond.width, golden::E_m, 1e-6)));
   }
@@ -198,7 +198,7 @@ TEST(BondLaw, ConstantThicknessMakesAllBondsOfOneRadiusAlike) {
 
 TEST(BondLaw, KnowsWhatIsBonded) {
   EXPECT_FALSE(is_bonded(no_bond));
-  for (double equilibrium : {0.0, 1e-3, -1e-3}) EXPECT_TRUE(is_bonded(equilibrium));
+  for (double formation_overlap : {0.0, 1e-3, -1e-3}) EXPECT_TRUE(is_bonded(formation_overlap));
 }
 
 TEST(BondLaw, SwappingThePairGivesExactOpposites) {
@@ -206,14 +206,14 @@ TEST(BondLaw, SwappingThePairGivesExactOpposites) {
   BondLaw const law = law_at(55);
   for (int n = 0; n < 100000; ++n) {
     double const made_at = draw.between(-1.4e-5, 3e-6), overlap = made_at + draw.between(-5e-6, 5e-6);
-    double const r1 = draw.of_size(1e-5, 1e-3), r2 = draw.of_size(1e-5, 1e-3), turn = draw.between(-1, 1) * 1e-2;
-    Bond const seen_from_a{{overlap, 0, draw.between(-1, 1) * 1e-6, turn, common_radius(r1, r2)},
+    double const r1 = draw.of_size(1e-5, 1e-3), r2 = draw.of_size(1e-5, 1e-3), relative_rotation = draw.between(-1, 1) * 1e-2;
+    Bond const seen_from_a{{overlap, 0, draw.between(-1, 1) * 1e-6, relative_rotation, common_radius(r1, r2)},
                            made_at,
                            draw.between(-500, 500),
                            draw.between(-1, 1) * 1e-2};
     Bond seen_from_b = seen_from_a;
     seen_from_b.motion.common_radius = common_radius(r2, r1);
-    seen_from_b.motion.turn = -turn;
+    seen_from_b.motion.relative_rotation = -relative_rotation;
     seen_from_b.moment = -seen_from_a.moment;
     BondForce<Real> const on_a = force_of(law, seen_from_a), on_b = force_of(law, seen_from_b);
     ASSERT_TRUE(same_bits(on_a.force.normal, on_b.force.normal));
@@ -234,30 +234,31 @@ TEST(BondLaw, LanesGiveTheBitsOfTheScalarAlsoBesideUnbondedLanes) {
       double const made_at = draw.between(-1.4e-5, 3e-6);
       bond.motion = {made_at + draw.between(-5e-6, 5e-6), 0, draw.between(-1, 1) * 1e-6, draw.between(-1, 1) * 1e-3,
                      draw.of_size(1e-5, 1e-3)};
-      bond.equilibrium = draw.between(0, 1) < 0.2 ? no_bond : made_at;
+      bond.formation_overlap = draw.between(0, 1) < 0.2 ? no_bond : made_at;
       bond.shear = draw.between(-900, 900);
       bond.moment = draw.between(-1, 1) * 1e-2;
     }
     auto const row = [&](auto number) { return side_by_side(bonds, number); };
-    ContactMotion<Lanes> const motion{
-        row([](Bond const& b) { return b.motion.overlap; }), Lanes(0), row([](Bond const& b) { return b.motion.slip; }),
-        row([](Bond const& b) { return b.motion.turn; }), row([](Bond const& b) { return b.motion.common_radius; })};
-    Lanes const equilibrium = row([](Bond const& b) { return b.equilibrium; });
-    Lanes const width = law.width_formed_at(motion.common_radius, equilibrium);
-    BondForce<Lanes> const trial = bond_contact(law, motion, equilibrium, width, row([](Bond const& b) { return b.shear; }),
+    ContactMotion<Lanes> const motion{row([](Bond const& b) { return b.motion.overlap; }), Lanes(0),
+                                      row([](Bond const& b) { return b.motion.shear_increment; }),
+                                      row([](Bond const& b) { return b.motion.relative_rotation; }),
+                                      row([](Bond const& b) { return b.motion.common_radius; })};
+    Lanes const formation_overlap = row([](Bond const& b) { return b.formation_overlap; });
+    Lanes const width = law.width_formed_at(motion.common_radius, formation_overlap);
+    BondForce<Lanes> const trial = bond_contact(law, motion, formation_overlap, width, row([](Bond const& b) { return b.shear; }),
                                                 row([](Bond const& b) { return b.moment; }));
     auto const intact = is_surely_intact(law, trial), far = is_far_from_breaking(least_strength(law), trial);
     for (int l = 0; l < lane_count; ++l) {
       Bond const& bond = bonds[static_cast<std::size_t>(l)];
       BondForce<Real> const alone = force_of(law, bond);
-      ASSERT_EQ(lane(is_bonded(equilibrium), l), is_bonded(bond.equilibrium));
+      ASSERT_EQ(lane(is_bonded(formation_overlap), l), is_bonded(bond.formation_overlap));
       ASSERT_EQ(lane(intact, l), is_surely_intact(law, alone));
       ASSERT_EQ(lane(far, l), is_far_from_breaking(least_strength(law), alone));
       ASSERT_TRUE(same_bits(lane(trial.force.normal, l), alone.force.normal));
       ASSERT_TRUE(same_bits(lane(trial.force.shear, l), alone.force.shear));
       ASSERT_TRUE(same_bits(lane(trial.force.moment, l), alone.force.moment));
       ASSERT_TRUE(same_bits(lane(trial.width, l), alone.width));
-      ASSERT_TRUE(same_bits(lane(trial.gap, l), alone.gap));
+      ASSERT_TRUE(same_bits(lane(trial.thickness, l), alone.thickness));
     }
   }
 }

@@ -27,7 +27,7 @@ std::vector<BondLaw> various_laws() {
     law.strength.moment_length = 1e-3;
     law.strength.tensile_stress = 1.42648e7;
     laws.push_back(law);
-    law.gap_weight = 0;
+    law.thickness_weight = 0;
     law.plate_thickness = law.thickness_partner = 0.3 * law.critical_thickness;
     laws.push_back(law);
   }
@@ -41,9 +41,9 @@ bool passes_coarse_test(BondLaw const& law, BondForce<Real> const& bond) {
 /// Forces of any size around the envelope of a bond, often just at it.
 BondForce<Real> any_state(Draw& draw, BondLaw const& law) {
   BondForce<Real> bond{};
-  bond.gap = law.gap(draw.between(-1, 0.1) * law.critical_thickness);
-  bond.width = law.width(draw.of_size(2e-5, 4e-4), bond.gap);
-  BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+  bond.thickness = law.bond_thickness(draw.between(-1, 0.1) * law.critical_thickness);
+  bond.width = law.width(draw.of_size(2e-5, 4e-4), bond.thickness);
+  BondStrength const strength = bond_strength(law.strength, bond.width, bond.thickness);
   bond.force.normal = draw.between(-1.1 * std::fabs(strength.tension), 1.1 * strength.compression);
   double const share = draw.between(0, 1) < 0.5 ? draw.between(0, 1.3) : draw.between(0.98, 1.02),
                angle = draw.between(0, 6.2832);
@@ -59,13 +59,13 @@ TEST(BondQuickTest, NeverPassesABondThatIsBroken) {
   for (int n = 0; n < 1000000; ++n) {
     BondLaw const& law = laws[static_cast<std::size_t>(n) % laws.size()];
     BondForce<Real> const bond = any_state(draw, law);
-    BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+    BondStrength const strength = bond_strength(law.strength, bond.width, bond.thickness);
     BreakMode const mode = strength.test(bond.force.normal, bond.force.shear, bond.force.moment);
     (mode == BreakMode::none ? intact : broken) += 1;
     if (mode == BreakMode::none) continue;
-    ASSERT_FALSE(is_surely_intact(law, bond)) << n << ": gap " << bond.gap << " width " << bond.width << " F_n "
+    ASSERT_FALSE(is_surely_intact(law, bond)) << n << ": gap " << bond.thickness << " width " << bond.width << " F_n "
                                               << bond.force.normal << " F_s " << bond.force.shear << " M " << bond.force.moment;
-    ASSERT_FALSE(passes_coarse_test(law, bond)) << n << ": gap " << bond.gap << " width " << bond.width << " F_n "
+    ASSERT_FALSE(passes_coarse_test(law, bond)) << n << ": gap " << bond.thickness << " width " << bond.width << " F_n "
                                                 << bond.force.normal << " F_s " << bond.force.shear << " M " << bond.force.moment;
   }
   EXPECT_GT(broken, 300000);
@@ -77,7 +77,7 @@ TEST(BondQuickTest, NeverPassesABondAtTheEndsOfItsEnvelope) {
   for (BondLaw const& law : various_laws()) {
     for (int n = 0; n < 1000; ++n) {
       BondForce<Real> bond = any_state(draw, law);
-      BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+      BondStrength const strength = bond_strength(law.strength, bond.width, bond.thickness);
       bond.force.shear = bond.force.moment = 0;
       for (double normal : {-strength.tension, std::nextafter(-strength.tension, -1e9), strength.compression,
                             std::nextafter(strength.compression, 1e9), -1e12, 1e12}) {
@@ -95,7 +95,7 @@ TEST(BondQuickTest, SparesNearlyEveryLightlyLoadedBondTheExactTest) {
   for (BondLaw const& law : various_laws()) {
     for (int n = 0; n < 10000; ++n) {
       BondForce<Real> bond = any_state(draw, law);
-      BondStrength const strength = bond_strength(law.strength, bond.width, bond.gap);
+      BondStrength const strength = bond_strength(law.strength, bond.width, bond.thickness);
       if (strength.tension < 50) continue;
       bond.force.normal = draw.between(-0.3 * strength.tension, 0.5 * strength.compression);
       bond.force.shear = draw.between(-0.4, 0.4) * strength.shear(bond.force.normal);
@@ -132,7 +132,8 @@ TEST(BondQuickTest, LeastStrengthsLieBelowThoseOfEveryBondButNotFar) {
   for (BondLaw const& law : various_laws()) {
     LeastStrength const least = least_strength(law);
     for (int n = 0; n < 10000; ++n) {
-      double const gap = law.gap(-draw.between(0, 1) * law.critical_thickness), width = law.width(draw.of_size(2e-5, 4e-4), gap);
+      double const gap = law.bond_thickness(-draw.between(0, 1) * law.critical_thickness),
+                   width = law.width(draw.of_size(2e-5, 4e-4), gap);
       BondStrength const exact = bond_strength(law.strength, width, gap);
       double const tension = least.tension_per_width * width + least.tension;
       double const compression = least.compression_per_width * width + least.compression;

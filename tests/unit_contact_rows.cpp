@@ -43,7 +43,7 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
   auto const carrying = [&](int i) {
     int count = 0;
     for (int k = 0; k < rows.length(i); ++k)
-      count += rows.shear(rows.entry(i, k)) != 0 || is_bonded(rows.equilibrium(rows.entry(i, k))) ? 1 : 0;
+      count += rows.shear(rows.entry(i, k)) != 0 || is_bonded(rows.formation_overlap(rows.entry(i, k))) ? 1 : 0;
     return count;
   };
   int falls = 0;
@@ -114,7 +114,7 @@ TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
     std::vector<std::pair<bool, int>> expected, listed;
     for (int j = 0; j < sim.discs(); ++j) {
       double const gap = std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j);
-      if (j != i && gap < p.leeway(i) + p.leeway(j)) expected.push_back({gap >= 0, p.id(j)});
+      if (j != i && gap < p.verlet_skin(i) + p.verlet_skin(j)) expected.push_back({gap >= 0, p.id(j)});
     }
     std::sort(expected.begin(), expected.end());
     for (int k = 0; k < sim.rows().length(i); ++k) {
@@ -136,10 +136,10 @@ TEST(ContactRows, KeepTheWidthThatTheLawGivesABond) {
   for (int i = 0; i < sim.discs(); ++i) {
     for (int k = 0; k < rows.length(i); ++k) {
       std::size_t const e = rows.entry(i, k);
-      if (!is_bonded(rows.equilibrium(e))) continue;
+      if (!is_bonded(rows.formation_overlap(e))) continue;
       ++bonds;
       Real const common = common_radius(p.radius(i), p.radius(rows.neighbour(e)));
-      EXPECT_EQ(rows.width(e), sim.laws().contact.bond.width_formed_at(common, Real(rows.equilibrium(e))));
+      EXPECT_EQ(rows.width(e), sim.laws().contact.bond.width_formed_at(common, Real(rows.formation_overlap(e))));
       EXPECT_GT(rows.width(e), 0);
     }
   }

@@ -24,9 +24,9 @@ struct Contact {
 Contact any_contact(Draw& draw) {
   Contact contact;
   contact.motion.overlap = draw.between(-1, 3) * 1e-6;
-  contact.motion.approach = draw.between(-0.1, 0.1);
-  contact.motion.slip = draw.between(-1, 1) * 1e-6;
-  contact.motion.turn = draw.between(-1, 1) * 1e-2;
+  contact.motion.closing_velocity = draw.between(-0.1, 0.1);
+  contact.motion.shear_increment = draw.between(-1, 1) * 1e-6;
+  contact.motion.relative_rotation = draw.between(-1, 1) * 1e-2;
   contact.motion.common_radius = draw.of_size(1e-5, 1e-3);
   contact.shear = draw.between(-400, 400);
   contact.moment = draw.between(-1, 1) * 1e-2;
@@ -79,8 +79,8 @@ TEST(GrainContact, KeepsItsForcesWithoutSlipAndSpin) {
 
 TEST(GrainContact, AddsSlipAndTurnByTheirStiffness) {
   ContactMotion<Real> motion = pressed(169.4);
-  motion.slip = 1e-8;
-  motion.turn = -1e-4;
+  motion.shear_increment = 1e-8;
+  motion.relative_rotation = -1e-4;
   ContactForce<Real> const force = grain_contact<true>(sand, motion, 5.0, 1e-3, no_dashpot);
   EXPECT_TRUE(within(1e-14, force.shear, 5.0L + 2e8L * 1e-8L));
   EXPECT_TRUE(within(1e-14, force.moment, 1e-3L - 1e-4L * 3e8L * 4 / 12 * radius * radius));
@@ -90,7 +90,7 @@ TEST(GrainContact, HasTheStiffnessAndLimitsOfTheWorkedExample) {
   EXPECT_TRUE(agrees(sand.shape_factor * radius * 1e3, "0.1694"));
   EXPECT_TRUE(agrees(rolling_stiffness(sand, radius), "0.7174"));
   ContactMotion<Real> motion = pressed(169.4);
-  motion.slip = motion.turn = 1;
+  motion.shear_increment = motion.relative_rotation = 1;
   ContactForce<Real> const force = grain_contact<true>(sand, motion, 0.0, 0.0, no_dashpot);
   EXPECT_TRUE(agrees(force.normal, "169.4"));
   EXPECT_TRUE(agrees(force.shear, "84.7"));
@@ -101,7 +101,7 @@ TEST(GrainContact, SlidesAtTheCoulombLimitAndNeverPulls) {
   ContactMotion<Real> motion = pressed(100);
   for (double direction : {1.0, -1.0}) {
     double shear = 0;
-    motion.slip = direction * 1e-8;  // 2 N/m a step
+    motion.shear_increment = direction * 1e-8;  // 2 N/m a step
     for (int step = 0; step < 40; ++step) {
       ContactForce<Real> const force = grain_contact<true>(sand, motion, shear, 0.0, no_dashpot);
       EXPECT_LE(std::fabs(force.shear), sand.friction * force.normal);
@@ -118,13 +118,14 @@ TEST(GrainContact, RollsAtASixthOfForceTimesWidthInBothDirections) {
   ContactMotion<Real> motion = pressed(100);
   long double const limit = 100.0L * (2 * static_cast<long double>(radius)) / 6;
   for (double direction : {1.0, -1.0}) {
-    motion.turn = direction * 3.0 * 100 / (sand.normal_stiffness * radius);  // three times the turn at which rolling starts
+    motion.relative_rotation =
+        direction * 3.0 * 100 / (sand.normal_stiffness * radius);  // three times the turn at which rolling starts
     ContactForce<Real> const force = grain_contact<true>(sand, motion, 0.0, 0.0, no_dashpot);
     EXPECT_TRUE(within(1e-14, force.moment, direction * limit));
   }
   // The plastic limit is reached at the turn 2 F_n / (k_n B_c), where the first of the springs under the width lets go.
-  motion.turn = 2 * 100 / (sand.normal_stiffness * 2 * radius);
-  EXPECT_TRUE(within(1e-14, rolling_stiffness(sand, radius) * motion.turn, limit));
+  motion.relative_rotation = 2 * 100 / (sand.normal_stiffness * 2 * radius);
+  EXPECT_TRUE(within(1e-14, rolling_stiffness(sand, radius) * motion.relative_rotation, limit));
 }
 
 TEST(GrainContact, RollingResistanceGrowsWithTheSquareOfTheShapeFactorAndItsLimitInProportion) {
@@ -132,7 +133,7 @@ TEST(GrainContact, RollingResistanceGrowsWithTheSquareOfTheShapeFactorAndItsLimi
   angular.shape_factor = 3;
   EXPECT_TRUE(within(1e-15, rolling_stiffness(angular, radius) / rolling_stiffness(sand, radius), 2.25L));
   ContactMotion<Real> motion = pressed(100);
-  motion.turn = 1;
+  motion.relative_rotation = 1;
   double const limit = grain_contact<true>(sand, motion, 0.0, 0.0, no_dashpot).moment;
   EXPECT_TRUE(within(1e-15, grain_contact<true>(angular, motion, 0.0, 0.0, no_dashpot).moment / limit, 1.5L));
   angular.shape_factor = 0;
@@ -141,8 +142,8 @@ TEST(GrainContact, RollingResistanceGrowsWithTheSquareOfTheShapeFactorAndItsLimi
 
 TEST(GrainContact, WithoutRollingResistanceCarriesNoMoment) {
   ContactMotion<Real> motion = pressed(100);
-  motion.slip = 1e-8;
-  motion.turn = 1;
+  motion.shear_increment = 1e-8;
+  motion.relative_rotation = 1;
   ContactForce<Real> const force = grain_contact<false>(sand, motion, 3.0, 1e-3, no_dashpot);
   EXPECT_EQ(force.moment, 0);
   EXPECT_TRUE(within(1e-15, force.shear, 5));
@@ -150,11 +151,11 @@ TEST(GrainContact, WithoutRollingResistanceCarriesNoMoment) {
 
 TEST(GrainContact, DashpotResistsApproachAndNeverPulls) {
   ContactMotion<Real> motion = pressed(100);
-  motion.approach = 0.01;
+  motion.closing_velocity = 0.01;
   EXPECT_TRUE(within(1e-14, grain_contact<true>(sand, motion, 0.0, 0.0, 2000.0).normal, 120));
-  motion.approach = -0.01;
+  motion.closing_velocity = -0.01;
   EXPECT_TRUE(within(1e-14, grain_contact<true>(sand, motion, 0.0, 0.0, 2000.0).normal, 80));
-  motion.approach = -0.06;
+  motion.closing_velocity = -0.06;
   ContactForce<Real> const parting = grain_contact<true>(sand, motion, 40.0, 1e-3, 2000.0);
   EXPECT_EQ(parting.normal, 0);
   EXPECT_EQ(parting.shear, 0);
@@ -190,7 +191,7 @@ TEST(GrainContact, SwappingThePairGivesExactOpposites) {
     Contact seen_from_a = any_contact(draw);
     seen_from_a.motion.common_radius = common_radius(r1, r2);
     Contact seen_from_b = seen_from_a;
-    seen_from_b.motion.turn = -seen_from_a.motion.turn;
+    seen_from_b.motion.relative_rotation = -seen_from_a.motion.relative_rotation;
     seen_from_b.moment = -seen_from_a.moment;
     ContactForce<Real> const on_a = force_of(seen_from_a), on_b = force_of(seen_from_b);
     ASSERT_TRUE(same_bits(on_a.normal, on_b.normal));
@@ -204,8 +205,8 @@ TEST(GrainContact, MirroringTheMotionMirrorsTheForcesToTheBit) {
   for (int n = 0; n < 100000; ++n) {
     Contact const contact = any_contact(draw);
     Contact mirrored = contact;
-    mirrored.motion.slip = -contact.motion.slip;
-    mirrored.motion.turn = -contact.motion.turn;
+    mirrored.motion.shear_increment = -contact.motion.shear_increment;
+    mirrored.motion.relative_rotation = -contact.motion.relative_rotation;
     mirrored.shear = -contact.shear;
     mirrored.moment = -contact.moment;
     ContactForce<Real> const force = force_of(contact), image = force_of(mirrored);
@@ -241,10 +242,11 @@ TEST(GrainContact, LanesGiveTheBitsOfTheScalar) {
     LaneStates<Contact> contacts;
     for (Contact& contact : contacts) contact = any_contact(draw);
     auto const row = [&](auto number) { return side_by_side(contacts, number); };
-    ContactMotion<Lanes> const motion{
-        row([](Contact const& c) { return c.motion.overlap; }), row([](Contact const& c) { return c.motion.approach; }),
-        row([](Contact const& c) { return c.motion.slip; }), row([](Contact const& c) { return c.motion.turn; }),
-        row([](Contact const& c) { return c.motion.common_radius; })};
+    ContactMotion<Lanes> const motion{row([](Contact const& c) { return c.motion.overlap; }),
+                                      row([](Contact const& c) { return c.motion.closing_velocity; }),
+                                      row([](Contact const& c) { return c.motion.shear_increment; }),
+                                      row([](Contact const& c) { return c.motion.relative_rotation; }),
+                                      row([](Contact const& c) { return c.motion.common_radius; })};
     ContactForce<Lanes> const force =
         grain_contact<true>(sand, motion, row([](Contact const& c) { return c.shear; }),
                             row([](Contact const& c) { return c.moment; }), row([](Contact const& c) { return c.dashpot; }));
@@ -271,7 +273,7 @@ TEST(GrainContact, StaysFiniteForCoincidentCentresAndExtremeRatiosOfRadius) {
 TEST(GrainContact, HidesNoNan) {
   double const nan = std::numeric_limits<double>::quiet_NaN();
   ContactMotion<Real> motion = pressed(100);
-  motion.approach = motion.slip = motion.turn = nan;
+  motion.closing_velocity = motion.shear_increment = motion.relative_rotation = nan;
   ContactForce<Real> const force = grain_contact<true>(sand, motion, 0.0, 0.0, 1.0);
   EXPECT_TRUE(std::isnan(force.normal));
   EXPECT_TRUE(std::isnan(force.shear));

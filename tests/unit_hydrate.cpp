@@ -6,6 +6,7 @@
 
 #include "domain/scene/hydrate.hpp"
 #include "golden_bonds.hpp"
+#include "kernels/bond_law.hpp"
 #include "printed_number.hpp"
 
 namespace clathra {
@@ -104,7 +105,7 @@ TEST(Stability, TheGateNamesTheStateAndOpensOnlyForItself) {
 }
 
 void expect_card(BondCard const& card, golden::Bond const& row) {
-  EXPECT_TRUE(agrees(card.gap * 1e6, row.gap));
+  EXPECT_TRUE(agrees(card.thickness * 1e6, row.gap));
   EXPECT_TRUE(agrees(card.B * 1e6, row.width));
   EXPECT_TRUE(agrees(card.h0 * 1e6, row.thickness));
   EXPECT_TRUE(agrees(card.R_t, row.R_t));
@@ -141,7 +142,7 @@ TEST(BondCard, BondsWithoutTensileStrengthAreNotFormed) {
 
 TEST(BondCard, AnOverlapCountsAsAGapOfZeroAndSaturationUpTo20PercentBindsNothing) {
   BondCard const overlap = evaluate_bond(table_scene(0.41), d50, d50 / 2, d50 / 2, -1e-6, 0);
-  EXPECT_EQ(overlap.gap, 0);
+  EXPECT_EQ(overlap.thickness, 0);
   EXPECT_TRUE(agrees(overlap.B * 1e6, "59.450"));
   BondCard const none = evaluate_bond(table_scene(0.2), d50, d50 / 2, d50 / 2, 0, 0);
   EXPECT_FALSE(none.bonded);
@@ -165,7 +166,7 @@ TEST(BondLaw, TheConstantThicknessLawGivesEveryGapTheSameBond) {
   scene.bond.plate_thickness = 4e-6;
   BondCard const touching = evaluate_bond(scene, d50, d50 / 2, d50 / 2, 0, 0);
   BondCard const apart = evaluate_bond(scene, d50, d50 / 2, d50 / 2, 5e-6, 0);
-  EXPECT_EQ(touching.gap, 4e-6);
+  EXPECT_EQ(touching.thickness, 4e-6);
   EXPECT_EQ(touching.h0, 4e-6);
   EXPECT_EQ(touching.B, apart.B);
   EXPECT_EQ(touching.R_t, apart.R_t);

@@ -31,7 +31,7 @@ ExitCode check(CheckOptions const& options) {
     scene = sized_by(scene, *specimen, static_cast<std::int64_t>(specimen->size()));
   }
   Forecast result = forecast(scene, options.rate, options.ranks);
-  if (specimen) judge_size(result, *specimen);
+  if (specimen) check_size(result, *specimen);
   ExitCode const printed = print_result(fmt::format("{}: the scene is right\n{}{}", options.scene.file,
                                                     forecast_text(scene, result), warnings_text(input, result)));
   refuse_if_needed(scene, result);

@@ -64,7 +64,7 @@ ExitCode generate(GenerateOptions const& options) {
     throw Refused("the scene reads its specimen from a file: there is nothing to generate");
   settle_threads(scene.run.threads);
   RankSession const session;
-  return guarded_together(session.ranks(), [&] { return generate_on(session.ranks(), options.output, record); });
+  return guarded_on_all_ranks(session.ranks(), [&] { return generate_on(session.ranks(), options.output, record); });
 }
 
 }  // namespace

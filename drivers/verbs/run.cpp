@@ -26,7 +26,7 @@ struct RunOptions {
   std::string most_time, checkpoint_every = "10m";
 };
 
-ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& endurance, LoadedScene input) {
+ExitCode run_on(Ranks const& ranks, RunOptions const& options, RunLimits const& limits, LoadedScene input) {
   require_same_everywhere(ranks, input);
   if (std::string warning = thread_warning(input.scene.run.threads); !warning.empty())
     input.warnings.push_back(std::move(warning));
@@ -39,7 +39,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& 
     sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
   }
   Forecast cost = forecast(sized, 0, launched_ranks());
-  if (specimen) judge_size(cost, *specimen, ranks);
+  if (specimen) check_size(cost, *specimen, ranks);
   share_refusals(ranks, cost.refusals);
   if (options.dry_run) {
     ExitCode const printed = print_result(forecast_text(sized, cost) + warnings_text(input, cost));
@@ -51,21 +51,21 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, Endurance const& 
   watch_for_interrupt();
   std::vector<std::string> const warnings = warnings_of(input, cost);
   KokkosSession const kokkos;
-  TestRun now(std::move(input), std::move(specimen), endurance, ranks);
+  TestRun now(std::move(input), std::move(specimen), limits, ranks);
   for (std::string const& warning : warnings) now.warn(warning);
   return now.run();
 }
 
 ExitCode run(RunOptions const& options) {
-  Endurance const endurance{options.resume, options.overwrite, options.most_time.empty() ? 0 : duration_of(options.most_time),
-                            duration_of(options.checkpoint_every)};
+  RunLimits const limits{options.resume, options.overwrite, options.most_time.empty() ? 0 : duration_of(options.most_time),
+                         duration_of(options.checkpoint_every)};
   std::vector<std::string> more;
   if (!options.output.empty()) more.push_back("output.folder=" + options.output);
   LoadedScene input = options.scene.load(more);
   if (!options.dry_run) settle_threads(input.scene.run.threads);
   RankSession const session;
   Ranks const& ranks = session.ranks();
-  return guarded_together(ranks, [&] { return run_on(ranks, options, endurance, std::move(input)); });
+  return guarded_on_all_ranks(ranks, [&] { return run_on(ranks, options, limits, std::move(input)); });
 }
 
 }  // namespace

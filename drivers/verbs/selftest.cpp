@@ -21,7 +21,7 @@ struct SelftestOptions {
   int threads = 0;
 };
 
-/// What a check that computes prints. It gets a process of its own: the number of threads is settled when a program starts, and
+/// What a check that computes prints. It gets a process of its own: the number of threads is decided when a program starts, and
 /// an instruction that this machine does not have ends no more than that check.
 std::string printed_by(std::string const& check, int threads) {
   std::string text = output_of_own_program({"selftest", "--only", check, "--threads", std::to_string(threads)});

@@ -97,7 +97,7 @@ void write_bonds(Simulation const& bonded, std::string const& folder) {
     if (!(width > 0)) continue;
     auto const a = static_cast<std::size_t>(s.a[k]), b = static_cast<std::size_t>(s.b[k]);
     file << s.id[a] << ' ' << s.id[b] << '\n';
-    Real const gap = law.gap(-Real(s.gap[k]));
+    Real const gap = law.bond_thickness(-Real(s.gap[k]));
     ContactStiffness<Real> const k_bond = law.stiffness(width, gap);
     BondStrength const limit = bond_strength(law.strength, width, gap);
     stiffness = {stiffness.normal + k_bond.normal, stiffness.shear + k_bond.shear, stiffness.rolling + k_bond.rolling};

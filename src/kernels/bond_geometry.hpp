@@ -22,8 +22,8 @@ KOKKOS_FORCEINLINE_FUNCTION L bond_width(L const& radius, L const& room) {
 
 /// Effective bond thickness h_0 = (h_cr + h_max) / 2 [m] (below Eq. 17); the plate model passes its own thickness twice.
 template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L effective_thickness(L const& gap, L const& critical_thickness) {
-  return (gap + critical_thickness) * L(0.5);
+KOKKOS_FORCEINLINE_FUNCTION L effective_thickness(L const& thickness, L const& critical_thickness) {
+  return (thickness + critical_thickness) * L(0.5);
 }
 
 /// asin(y) - y for 0 <= y <= 1/2 by its series, without the cancellation and without libm.
@@ -40,11 +40,11 @@ KOKKOS_INLINE_FUNCTION Real arc_sine_excess(Real y) {
 /// Area of one bond in the plane (Eq. 5): S_i = (h_max + h) B / 2 + B r - 2 r^2 arctan(B / sqrt(4 r^2 - B^2)).
 /// With y = B / 2r the arctan is asin(y) and B r = 2 r^2 y; they nearly cancel, so their difference is taken as a whole.
 /// @return [m^2]
-KOKKOS_INLINE_FUNCTION Real bond_area(Real radius, Real width, Real gap, Real critical_thickness) {
+KOKKOS_INLINE_FUNCTION Real bond_area(Real radius, Real width, Real thickness, Real critical_thickness) {
   Real const y = width < 2 * radius ? width / (2 * radius) : 1, half = 0.5 * (1 - y);
   // asin(y) = pi / 2 - 2 asin(sqrt((1 - y) / 2)) keeps the argument of the series below 1/2.
   Real const excess = y <= 0.5 ? arc_sine_excess(y) : 0.5 * pi - 2 * (std::sqrt(half) + arc_sine_excess(std::sqrt(half))) - y;
-  return 0.5 * (critical_thickness + gap) * width - 2 * radius * radius * excess;
+  return 0.5 * (critical_thickness + thickness) * width - 2 * radius * radius * excess;
 }
 
 }  // namespace clathra

@@ -9,8 +9,8 @@
 namespace clathra {
 
 template <class L>
-KOKKOS_FORCEINLINE_FUNCTION auto is_bonded(L const& equilibrium) {
-  return equilibrium < L(0.5 * no_bond);
+KOKKOS_FORCEINLINE_FUNCTION auto is_bonded(L const& formation_overlap) {
+  return formation_overlap < L(0.5 * no_bond);
 }
 
 /// Everything one bond needs besides its pair: numbers of the hydrate and of the variant, the same for all bonds of a specimen.
@@ -20,30 +20,31 @@ struct BondLaw {
   Real particle_stiffness = 3.0e8;  ///< k_n of one grain in Eq. 16
   Real critical_thickness = 0;      ///< h_max [m]
   Real thickness_partner = 0;       ///< h_0 = (h_cr + partner) / 2 [m]: h_max, or the plate thickness t_0
-  Real gap_weight = 1;         ///< h_cr = gap_weight * max(0, -u_0) + plate_thickness; 1 and 0 for the thickness-dependent law,
-  Real plate_thickness = 0;    ///< 0 and t_0 for the earlier constant-thickness law
-  Real preload_stiffness = 0;  ///< `memory`: k_n, which keeps the force of a contact that was loaded when the bond formed
+  Real thickness_weight =
+      1;  ///< h_cr = thickness_weight * max(0, -u_0) + plate_thickness; 1 and 0 for the thickness-dependent law,
+  Real plate_thickness = 0;          ///< 0 and t_0 for the earlier constant-thickness law
+  Real preload_stiffness = 0;        ///< `memory`: k_n, which keeps the force of a contact that was loaded when the bond formed
   Real least_shape_of_shear = 1.16;  ///< lower bounds of f_s and f_r over the gaps 0 .. h_max, for the quick test
   Real least_shape_of_rolling = 1.13;
 
-  /// h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
+  /// Thickness h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
   template <class L>
-  KOKKOS_FORCEINLINE_FUNCTION L gap(L const& equilibrium) const {
-    return gap_weight * lane_max(-equilibrium, L(0)) + plate_thickness;
+  KOKKOS_FORCEINLINE_FUNCTION L bond_thickness(L const& formation_overlap) const {
+    return thickness_weight * lane_max(-formation_overlap, L(0)) + plate_thickness;
   }
   /// B [m] of a bond with the given common radius and h_cr [m].
   template <class L>
-  KOKKOS_FORCEINLINE_FUNCTION L width(L const& common_radius, L const& gap) const {
-    return bond_width(common_radius, critical_thickness - gap);
+  KOKKOS_FORCEINLINE_FUNCTION L width(L const& common_radius, L const& thickness) const {
+    return bond_width(common_radius, critical_thickness - thickness);
   }
   /// B [m] of a bond that formed at overlap u_0 [m]: it never changes, so the rows keep it.
   template <class L>
-  KOKKOS_FORCEINLINE_FUNCTION L width_formed_at(L const& common_radius, L const& equilibrium) const {
-    return width(common_radius, gap(equilibrium));
+  KOKKOS_FORCEINLINE_FUNCTION L width_formed_at(L const& common_radius, L const& formation_overlap) const {
+    return width(common_radius, bond_thickness(formation_overlap));
   }
   template <class L>
-  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> stiffness(L const& width, L const& gap) const {
-    return bond_stiffness(particle_stiffness, modulus, width, effective_thickness(gap, L(thickness_partner)));
+  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> stiffness(L const& width, L const& thickness) const {
+    return bond_stiffness(particle_stiffness, modulus, width, effective_thickness(thickness, L(thickness_partner)));
   }
 };
 
@@ -52,23 +53,24 @@ template <class L>
 struct BondForce {
   ContactForce<L> force;
   ContactStiffness<L> stiffness;
-  L width, gap;
+  L width, thickness;
 };
 
 /// F_n = k_bn (u_n - u_0), F_s += k_bs Delta u_s, M += k_bm Delta theta (Eq. 7). With `memory` F_n keeps k_n u_0 of a loaded
 /// contact.
-/// @param equilibrium  u_0 [m];  @param width  B [m];  @param shear,moment  bond F_s [N/m] and M [N m/m] of the last step
+/// @param formation_overlap  u_0 [m];  @param width  B [m];  @param shear,moment  bond F_s [N/m] and M [N m/m] of the last step
 template <class L>
-KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLaw const& law, ContactMotion<L> const& motion, L const& equilibrium,
-                                                      L const& width, L const& shear, L const& moment) {
+KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLaw const& law, ContactMotion<L> const& motion,
+                                                      L const& formation_overlap, L const& width, L const& shear,
+                                                      L const& moment) {
   BondForce<L> bond;
-  bond.gap = law.gap(equilibrium);
+  bond.thickness = law.bond_thickness(formation_overlap);
   bond.width = width;
-  bond.stiffness = law.stiffness(bond.width, bond.gap);
+  bond.stiffness = law.stiffness(bond.width, bond.thickness);
   bond.force.normal =
-      bond.stiffness.normal * (motion.overlap - equilibrium) + law.preload_stiffness * lane_max(equilibrium, L(0));
-  bond.force.shear = shear + bond.stiffness.shear * motion.slip;
-  bond.force.moment = moment + bond.stiffness.rolling * motion.turn;
+      bond.stiffness.normal * (motion.overlap - formation_overlap) + law.preload_stiffness * lane_max(formation_overlap, L(0));
+  bond.force.shear = shear + bond.stiffness.shear * motion.shear_increment;
+  bond.force.moment = moment + bond.stiffness.rolling * motion.relative_rotation;
   return bond;
 }
 

@@ -5,7 +5,8 @@
 
 namespace clathra {
 
-/// Lower bounds of the strengths of every bond that a law can form, whatever its gap from 0 to h_max; B is the bond width [m].
+/// Lower bounds of the strengths of every bond that a law can form, whatever its thickness from 0 to h_max; B is the bond width
+/// [m].
 struct LeastStrength {
   Real tension, tension_per_width;          ///< R_t > tension + tension_per_width B [N/m, N/m^2]
   Real compression, compression_per_width;  ///< R_c > compression + compression_per_width B
@@ -16,16 +17,17 @@ struct LeastStrength {
 KOKKOS_INLINE_FUNCTION LeastStrength least_strength(BondLaw const& law) {
   // Less by a thousand millionth: strictly below what bond_strength() computes, however that is rounded.
   constexpr Real less = 1 - 1e-9, more = 1 + 1e-9;
-  Real const least_gap = law.plate_thickness, widest_gap = law.gap_weight * law.critical_thickness + law.plate_thickness;
-  Real const tension = tensile_strength(law.strength, Real(0), least_gap);
-  Real const compression = compressive_strength(law.strength, Real(0), widest_gap);
-  Real const rolling = less * law.least_shape_of_rolling * rolling_slope(more * widest_gap);
+  Real const least_thickness = law.plate_thickness,
+             largest_thickness = law.thickness_weight * law.critical_thickness + law.plate_thickness;
+  Real const tension = tensile_strength(law.strength, Real(0), least_thickness);
+  Real const compression = compressive_strength(law.strength, Real(0), largest_thickness);
+  Real const rolling = less * law.least_shape_of_rolling * rolling_slope(more * largest_thickness);
   LeastStrength least;
   least.tension = tension - 1e-9 * lane_abs(tension);
   least.tension_per_width = less * law.strength.tensile_stress;
   least.compression = compression - 1e-9 * lane_abs(compression);
   least.compression_per_width = less * law.strength.compressive_stress;
-  least.shear_slope = less * law.least_shape_of_shear * shear_slope(more * widest_gap);
+  least.shear_slope = less * law.least_shape_of_shear * shear_slope(more * largest_thickness);
   least.moment = rolling * law.strength.moment_length;
   least.moment_per_width = rolling * law.strength.moment_width_ratio;
   return least;
@@ -50,10 +52,10 @@ KOKKOS_FORCEINLINE_FUNCTION auto is_far_from_breaking(LeastStrength const& least
 /// test decides.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION auto is_surely_intact(BondLaw const& law, BondForce<L> const& bond) {
-  L const tension = tensile_strength(law.strength, bond.width, bond.gap);
-  L const compression = compressive_strength(law.strength, bond.width, bond.gap);
-  L const a = law.least_shape_of_shear * shear_slope(bond.gap);
-  L const b = law.least_shape_of_rolling * rolling_slope(bond.gap) * moment_length(law.strength, bond.width);
+  L const tension = tensile_strength(law.strength, bond.width, bond.thickness);
+  L const compression = compressive_strength(law.strength, bond.width, bond.thickness);
+  L const a = law.least_shape_of_shear * shear_slope(bond.thickness);
+  L const b = law.least_shape_of_rolling * rolling_slope(bond.thickness) * moment_length(law.strength, bond.width);
   L const size = lane_max(envelope_lower_bound(bond.force.normal + tension, compression + tension), L(0));
   L const of_shear = bond.force.shear * b, of_moment = bond.force.moment * a, limit = a * b * size;
   return of_shear * of_shear + of_moment * of_moment < limit * limit;

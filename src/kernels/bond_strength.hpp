@@ -18,16 +18,16 @@ struct BondStrengthLaw {
 
 /// R_t = 3 B q_max,t + 2.67e5 (h_cr - 0.6 mm) [N/m] (Eqs. 11a, 12a; with the printed stress this is Eq. 15a). Can be <= 0: such a
 /// bond is not formed (see domain/generation/bonding.hpp).
-/// @param width  bond width B [m];  @param gap  h_cr [m], >= 0
+/// @param width  bond width B [m];  @param thickness  h_cr [m], >= 0
 template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L tensile_strength(BondStrengthLaw const& law, L const& width, L const& gap) {
-  return law.tensile_stress * width + (L(2.67e5) * gap - L(160.2));
+KOKKOS_FORCEINLINE_FUNCTION L tensile_strength(BondStrengthLaw const& law, L const& width, L const& thickness) {
+  return law.tensile_stress * width + (L(2.67e5) * thickness - L(160.2));
 }
 
 /// R_c = 3 B q_max,c - 4.18e6 (h_cr - 0.6 mm) [N/m] (Eqs. 11b, 12b; Eq. 15b).
 template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L compressive_strength(BondStrengthLaw const& law, L const& width, L const& gap) {
-  return law.compressive_stress * width - (L(4.18e6) * gap - L(2508.0));
+KOKKOS_FORCEINLINE_FUNCTION L compressive_strength(BondStrengthLaw const& law, L const& width, L const& thickness) {
+  return law.compressive_stress * width - (L(4.18e6) * thickness - L(2508.0));
 }
 
 /// L_r [m], the length that turns Eq. 9b into a moment.
@@ -36,24 +36,24 @@ KOKKOS_FORCEINLINE_FUNCTION L moment_length(BondStrengthLaw const& law, L const&
   return law.moment_length + law.moment_width_ratio * width;
 }
 
-/// Slopes K_s and K_r of the envelope against the gap h_cr [m] (Eqs. 10b, 10d), dimensionless. Above 6.7 and 5.7 mm the
-/// printed lines are negative: no strength, so 0. (The envelope is compared in squares and would take them for strength.)
+/// Slopes K_s and K_r of the envelope against the bond thickness h_cr [m] (Eqs. 10b, 10d), dimensionless. Above 6.7 and 5.7 mm
+/// the printed lines are negative: no strength, so 0. (The envelope is compared in squares and would take them for strength.)
 template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L shear_slope(L const& gap) {
-  return lane_max(L(0), L(0.41) - L(61.07) * gap);
+KOKKOS_FORCEINLINE_FUNCTION L shear_slope(L const& thickness) {
+  return lane_max(L(0), L(0.41) - L(61.07) * thickness);
 }
 template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L rolling_slope(L const& gap) {
-  return lane_max(L(0), L(0.83) - L(146.36) * gap);
+KOKKOS_FORCEINLINE_FUNCTION L rolling_slope(L const& thickness) {
+  return lane_max(L(0), L(0.83) - L(146.36) * thickness);
 }
 
 /// f_s and f_r (Eqs. 10a, 10c), dimensionless; smallest (1.16 and 1.13) at h_cr = 1.15 mm.
-KOKKOS_INLINE_FUNCTION Real shape_of_shear(Real gap) {
-  Real const z = 1000 * gap - 1.15;
+KOKKOS_INLINE_FUNCTION Real shape_of_shear(Real thickness) {
+  Real const z = 1000 * thickness - 1.15;
   return 2.05 - 0.89 * exponential(-z * z);
 }
-KOKKOS_INLINE_FUNCTION Real shape_of_rolling(Real gap) {
-  Real const z = 1000 * gap - 1.15;
+KOKKOS_INLINE_FUNCTION Real shape_of_rolling(Real thickness) {
+  Real const z = 1000 * thickness - 1.15;
   return 2.05 - 0.92 * exponential(-z * z);
 }
 
@@ -105,13 +105,13 @@ struct BondStrength {
   }
 };
 
-/// The exact envelope of a bond of width B and gap h_cr [m].
-KOKKOS_INLINE_FUNCTION BondStrength bond_strength(BondStrengthLaw const& law, Real width, Real gap) {
+/// The exact envelope of a bond of width B and thickness h_cr [m].
+KOKKOS_INLINE_FUNCTION BondStrength bond_strength(BondStrengthLaw const& law, Real width, Real thickness) {
   BondStrength strength;
-  strength.tension = tensile_strength(law, width, gap);
-  strength.compression = compressive_strength(law, width, gap);
-  strength.shear_slope = shape_of_shear(gap) * shear_slope(gap);
-  strength.moment_slope = shape_of_rolling(gap) * rolling_slope(gap) * moment_length(law, width);
+  strength.tension = tensile_strength(law, width, thickness);
+  strength.compression = compressive_strength(law, width, thickness);
+  strength.shear_slope = shape_of_shear(thickness) * shear_slope(thickness);
+  strength.moment_slope = shape_of_rolling(thickness) * rolling_slope(thickness) * moment_length(law, width);
   return strength;
 }
 

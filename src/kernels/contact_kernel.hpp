@@ -41,7 +41,7 @@ struct ContactKernel {
 
   /// History of one block of entries.
   struct History {
-    Lanes shear, moment, equilibrium, width, bond_shear, bond_moment;
+    Lanes shear, moment, formation_overlap, width, bond_shear, bond_moment;
   };
 
   KOKKOS_FUNCTION void operator()(int group) const {
@@ -105,11 +105,11 @@ struct ContactKernel {
     Lanes const other_omega = gather(p.omega.data(), j);
     ContactMotion<Lanes> motion;
     motion.overlap = reach - distance;
-    motion.approach = -(dvx * nx + dvy * ny);
+    motion.closing_velocity = -(dvx * nx + dvy * ny);
     Lanes const half_overlap = Lanes(0.5) * motion.overlap;
     Lanes const arm = own.radius - half_overlap, other_arm = other_radius - half_overlap;  // arm + other_arm = distance
-    motion.slip = ((dvy * nx - dvx * ny) - (own.omega * arm + other_omega * other_arm)) * law.dt;
-    motion.turn = (other_omega - own.omega) * law.dt;
+    motion.shear_increment = ((dvy * nx - dvx * ny) - (own.omega * arm + other_omega * other_arm)) * law.dt;
+    motion.relative_rotation = (other_omega - own.omega) * law.dt;
     motion.common_radius = common_radius(own.radius, other_radius);
     auto const deep = distance < lane_max(own.radius, other_radius);  // one disc's centre lies inside the other
     if (any(deep)) report_deep(first, deep);
@@ -119,12 +119,12 @@ struct ContactKernel {
     ContactForce<Lanes> force = grain_force(law, motion, dashpot, h, own);
     auto carrying = touching;
     if constexpr (bonded_code) {
-      auto const bonded = is_bonded(h.equilibrium);
+      auto const bonded = is_bonded(h.formation_overlap);
       BondForce<Lanes> const trial = bond_trial(law, motion, h);
       auto intact = bonded;
       auto const doubt = bonded && !is_far_from_breaking(law.least, trial);
       if (any(doubt)) {
-        intact = bonded && !break_bonds({first, e, doubt, trial.width, trial.gap, trial.force.normal, trial.force.shear,
+        intact = bonded && !break_bonds({first, e, doubt, trial.width, trial.thickness, trial.force.normal, trial.force.shear,
                                          trial.force.moment, own.x + Lanes(0.5) * dx, own.y + Lanes(0.5) * dy});
       }
       force = with_bond(law, force, motion, dashpot, trial, bonded, intact, h, own);
@@ -163,10 +163,10 @@ struct ContactKernel {
 
   /// A block with bonds that may break. It is put together where one is met: a block whose values had an address would spend its
   /// time storing and loading them.
-  struct Doubtful {
+  struct FailureCandidates {
     std::size_t first, entry;
     Mask where;
-    Lanes width, gap, normal, shear, moment;
+    Lanes width, thickness, normal, shear, moment;
     Lanes x, y;  ///< midpoints of the branches
   };
 
@@ -175,7 +175,7 @@ struct ContactKernel {
     if constexpr (shears) h.shear = load(&rows.shear(e));
     if constexpr (moments) h.moment = load(&rows.moment(e));
     if constexpr (bonded_code) {
-      h.equilibrium = load(&rows.equilibrium(e));
+      h.formation_overlap = load(&rows.formation_overlap(e));
       h.width = load(&rows.width(e));
     }
     if constexpr (Bond == BondKind::parallel) {
@@ -200,8 +200,8 @@ struct ContactKernel {
     if constexpr (Bond == BondKind::replace) return {};
     ContactForce<Lanes> const force = grain_contact<Rolling, Friction>(law.grain, motion, h.shear, h.moment, dashpot);
     if constexpr (Ledger) {
-      add_grain_losses(law, motion, h.shear + law.grain.shear_stiffness * motion.slip, h.moment + rolling_trial(law, motion), h,
-                       force, own);
+      add_grain_losses(law, motion, h.shear + law.grain.shear_stiffness * motion.shear_increment,
+                       h.moment + rolling_trial(law, motion), h, force, own);
     }
     h.shear = force.shear;
     h.moment = force.moment;
@@ -209,14 +209,14 @@ struct ContactKernel {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static Lanes rolling_trial(Constants const& law, ContactMotion<Lanes> const& motion) {
-    return rolling_stiffness(law.grain, motion.common_radius) * motion.turn;
+    return rolling_stiffness(law.grain, motion.common_radius) * motion.relative_rotation;
   }
 
   /// What the bonds would carry if none broke.
   KOKKOS_FORCEINLINE_FUNCTION static BondForce<Lanes> bond_trial(Constants const& law, ContactMotion<Lanes> const& motion,
                                                                  History const& h) {
     constexpr bool parallel = Bond == BondKind::parallel;
-    return bond_contact(law.bond, motion, h.equilibrium, h.width, parallel ? h.bond_shear : h.shear,
+    return bond_contact(law.bond, motion, h.formation_overlap, h.width, parallel ? h.bond_shear : h.shear,
                         parallel ? h.bond_moment : h.moment);
   }
 
@@ -234,7 +234,7 @@ struct ContactKernel {
       h.bond_moment = select(intact, trial.force.moment, zero);
       return {grain_part.normal + select(intact, trial.force.normal, zero), h.shear + h.bond_shear, h.moment + h.bond_moment};
     } else {
-      Lanes const trial_shear = select(bonded, trial.force.shear, h.shear + law.grain.shear_stiffness * motion.slip);
+      Lanes const trial_shear = select(bonded, trial.force.shear, h.shear + law.grain.shear_stiffness * motion.shear_increment);
       Lanes const trial_moment = select(bonded, trial.force.moment, Rolling ? h.moment + rolling_trial(law, motion) : zero);
       ContactForce<Lanes> const unbonded =
           limit_grain_contact<Rolling, shears>(law.grain, motion, trial_shear, trial_moment, dashpot);
@@ -245,17 +245,17 @@ struct ContactKernel {
     }
   }
 
-  /// The closer strength test of the doubtful bonds and, one by one, the exact one of those that it leaves. @return those that
-  /// broke
-  CLATHRA_COLD_FUNCTION Mask break_bonds(Doubtful const& block) const {
+  /// The closer strength test of the failure candidates and, one by one, the exact one of those that it leaves. @return those
+  /// that broke
+  CLATHRA_COLD_FUNCTION Mask break_bonds(FailureCandidates const& block) const {
     Mask broken(false);
-    BondForce<Lanes> const trial{{block.normal, block.shear, block.moment}, {0, 0, 0}, block.width, block.gap};
+    BondForce<Lanes> const trial{{block.normal, block.shear, block.moment}, {0, 0, 0}, block.width, block.thickness};
     for_each_set(block.where && !is_surely_intact(constants.bond, trial), [&](int l) {
-      BondStrength const strength = bond_strength(constants.bond.strength, lane(block.width, l), lane(block.gap, l));
+      BondStrength const strength = bond_strength(constants.bond.strength, lane(block.width, l), lane(block.thickness, l));
       BreakMode const mode = strength.test(lane(block.normal, l), lane(block.shear, l), lane(block.moment, l));
       if (mode == BreakMode::none) return;
       std::size_t const e = block.entry + static_cast<std::size_t>(l);
-      rows.equilibrium(e) = no_bond;
+      rows.formation_overlap(e) = no_bond;
       set_lane(broken, l, true);
       int const id = p.id(block.first + static_cast<std::size_t>(l)), other = p.id(rows.neighbour(e));
       if (id < other) breaks.record(step, id, other, mode, lane(block.x, l), lane(block.y, l));  // the other side sees it too

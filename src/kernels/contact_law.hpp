@@ -7,11 +7,11 @@ namespace clathra {
 /// How two discs moved against each other during one step, seen from disc a. L is a lane type, all values per contact.
 template <class L>
 struct ContactMotion {
-  L overlap;        ///< u_n = r1 + r2 - d [m]; negative for a gap
-  L approach;       ///< -d(d)/dt, the normal closing velocity [m/s]
-  L slip;           ///< Delta u_s [m] during the step, equal on both sides
-  L turn;           ///< Delta theta = (omega_b - omega_a) dt [rad], opposite on the two sides
-  L common_radius;  ///< 2 r1 r2 / (r1 + r2) [m]
+  L overlap;            ///< u_n = r1 + r2 - d [m]; negative for a gap
+  L closing_velocity;   ///< -d(d)/dt, the normal closing velocity [m/s]
+  L shear_increment;    ///< Delta u_s [m] during the step, equal on both sides
+  L relative_rotation;  ///< Delta theta = (omega_b - omega_a) dt [rad], opposite on the two sides
+  L common_radius;      ///< 2 r1 r2 / (r1 + r2) [m]
 };
 
 /// Forces of one contact: normal > 0 in compression [N/m], shear along t = (-n_y, n_x) [N/m], moment on disc a [N m/m].

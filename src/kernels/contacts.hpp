@@ -9,7 +9,7 @@ namespace clathra {
 struct ContactFeatures {
   bool shear = true;           ///< F_s of grain contacts with friction, or of bonds in their place (`replace`)
   bool rolling = true;         ///< contact moments
-  bool bonds = false;          ///< bond equilibrium
+  bool bonds = false;          ///< bond formation_overlap
   bool separate_bond = false;  ///< `parallel`: the bond has a history of its own beside the grain contact
   bool operator==(ContactFeatures const&) const = default;
 };
@@ -23,17 +23,17 @@ KOKKOS_INLINE_FUNCTION std::size_t entry_in(SliceStart const& slice_start, int d
 
 /// Full rows (each pair stands in both rows) in sliced ELLPACK: `slice_width` discs form a slice, entry k of its discs lies side
 /// by side. Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where
-/// discs are stored. Both sides of a pair hold equal `shear` and `equilibrium` and exactly opposite `moment`.
+/// discs are stored. Both sides of a pair hold equal `shear` and `formation_overlap` and exactly opposite `moment`.
 struct ContactRows {
   ContactFeatures features;
-  Field<int> slice_start;   ///< [slices + 1] in units of slice_width entries
-  Field<int> length;        ///< [owned] entries in use
-  Field<int> neighbour;     ///< [entries] index of the other disc, or the padding disc
-  Field<Real> shear;        ///< [entries] F_s [N/m]; as the following, empty where no feature needs it
-  Field<Real> moment;       ///< [entries] M on the row's own disc [N m/m]
-  Field<Real> equilibrium;  ///< [entries] u_0 of the bond [m], no_bond without one
-  Field<Real> bond_shear;   ///< [entries] F_s of a separate bond [N/m]
-  Field<Real> bond_moment;  ///< [entries] M of a separate bond [N m/m]
+  Field<int> slice_start;         ///< [slices + 1] in units of slice_width entries
+  Field<int> length;              ///< [owned] entries in use
+  Field<int> neighbour;           ///< [entries] index of the other disc, or the padding disc
+  Field<Real> shear;              ///< [entries] F_s [N/m]; as the following, empty where no feature needs it
+  Field<Real> moment;             ///< [entries] M on the row's own disc [N m/m]
+  Field<Real> formation_overlap;  ///< [entries] u_0 of the bond [m], no_bond without one
+  Field<Real> bond_shear;         ///< [entries] F_s of a separate bond [N/m]
+  Field<Real> bond_moment;        ///< [entries] M of a separate bond [N m/m]
   // Derived, not part of the state: set by prepare_rows().
   Field<Real> width;            ///< [entries] B of the bond [m], 0 without one
   Field<std::uint64_t> active;  ///< [groups of lanes] bit k: entries k of the group may carry a history and must be evaluated
@@ -55,7 +55,7 @@ template <class Visit, class... Rows>
 KOKKOS_INLINE_FUNCTION void for_each_possible_history(ContactFeatures const& f, Visit&& visit, Rows&... rows) {
   visit(HistoryField{"shear"}, f.shear, rows.shear...);
   visit(HistoryField{"moment", 0, true}, f.rolling || f.bonds, rows.moment...);
-  visit(HistoryField{"equilibrium", no_bond}, f.bonds, rows.equilibrium...);
+  visit(HistoryField{"formation_overlap", no_bond}, f.bonds, rows.formation_overlap...);
   visit(HistoryField{"bond_shear"}, f.separate_bond, rows.bond_shear...);
   visit(HistoryField{"bond_moment", 0, true}, f.separate_bond, rows.bond_moment...);
 }

@@ -39,9 +39,9 @@ struct SetBondWidths {
     int const slice = slot / slice_width, used = slot < p.owned ? rows.length(slot) : 0;
     for (int k = 0; k < rows.slice_start(slice + 1) - rows.slice_start(slice); ++k) {
       std::size_t const e = rows.entry(slot, k);
-      bool const bonded = k < used && is_bonded(rows.equilibrium(e));
+      bool const bonded = k < used && is_bonded(rows.formation_overlap(e));
       rows.width(e) =
-          bonded ? law.width_formed_at(common_radius(p.radius(slot), p.radius(rows.neighbour(e))), rows.equilibrium(e)) : 0;
+          bonded ? law.width_formed_at(common_radius(p.radius(slot), p.radius(rows.neighbour(e))), rows.formation_overlap(e)) : 0;
     }
   }
 };
@@ -56,9 +56,9 @@ void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const
     rows.width = Field<Real>();
     return;
   }
-  if (rows.width.extent(0) != rows.equilibrium.extent(0)) {
+  if (rows.width.extent(0) != rows.formation_overlap.extent(0)) {
     rows.width = Field<Real>();
-    rows.width = uninitialised<Real>("width", rows.equilibrium.extent(0));
+    rows.width = uninitialised<Real>("width", rows.formation_overlap.extent(0));
   }
   int const slots = slice_count(particles.owned) * slice_width;
   Kokkos::parallel_for("set_bond_widths", Kokkos::RangePolicy<ExecutionSpace>(0, slots), SetBondWidths{particles, rows, law});

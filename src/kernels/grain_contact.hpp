@@ -55,14 +55,14 @@ KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L>
 /// The same with a dashpot [N s/m per m]; the sum of both is never tensile.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L> const& motion, L const& dashpot) {
-  L const damped = lane_max(L(0), spring_force(law, motion.overlap) + dashpot * motion.approach);
+  L const damped = lane_max(L(0), spring_force(law, motion.overlap) + dashpot * motion.closing_velocity);
   return select(motion.overlap > L(0), damped, L(0));
 }
 
 /// What the dashpot takes out in a step, from a normal force that it has a part in [J/m].
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L dashpot_loss(GrainLaw const& law, ContactMotion<L> const& motion, L const& normal, Real dt) {
-  return (normal - normal_force(law, motion, Undamped())) * (motion.approach * dt);
+  return (normal - normal_force(law, motion, Undamped())) * (motion.closing_velocity * dt);
 }
 
 /// Eq. 8 with signed limits: F_n = k_n u_n >= 0; |F_s| <= mu F_n; |M| <= F_n B_c / 6. A contact with u_n <= 0 carries nothing.
@@ -88,8 +88,8 @@ template <bool Rolling, bool Friction = true, class L, class Dashpot>
 KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> grain_contact(GrainLaw const& law, ContactMotion<L> const& motion, L const& shear,
                                                           L const& moment, Dashpot const& dashpot) {
   L trial_shear(0), trial_moment(0);
-  if constexpr (Friction) trial_shear = shear + law.shear_stiffness * motion.slip;
-  if constexpr (Rolling) trial_moment = moment + rolling_stiffness(law, motion.common_radius) * motion.turn;
+  if constexpr (Friction) trial_shear = shear + law.shear_stiffness * motion.shear_increment;
+  if constexpr (Rolling) trial_moment = moment + rolling_stiffness(law, motion.common_radius) * motion.relative_rotation;
   return limit_grain_contact<Rolling, Friction>(law, motion, trial_shear, trial_moment, dashpot);
 }
 

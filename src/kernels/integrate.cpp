@@ -32,7 +32,7 @@ struct KickAndDrift {
     return first + (next < groups ? next : groups) - 1 - place;
   }
 
-  KOKKOS_FUNCTION void operator()(int place, Real& longest_way) const {
+  KOKKOS_FUNCTION void operator()(int place, Real& largest_displacement) const {
     auto const i = static_cast<std::size_t>(backwards(place)) * lane_count;
     Lanes const inverse_mass = load(&p.inverse_mass(i));
     auto const free = inverse_mass > Lanes(0);  // padding discs have none
@@ -54,15 +54,16 @@ struct KickAndDrift {
     store(&p.angle(i), load(&p.angle(i)) + omega * dt);
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
 
-    Lanes way = lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
-    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(way, l, 0);  // ghosts share the last group
-    if (any(!(way < Lanes(1e5)))) report(i, way);
-    longest_way = lane_max(longest_way, largest(select(way > Lanes(0), way, Lanes(0))));
+    Lanes displacement = lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
+    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l)
+      set_lane(displacement, l, 0);  // ghosts share the last group
+    if (any(!(displacement < Lanes(1e5)))) report(i, displacement);
+    largest_displacement = lane_max(largest_displacement, largest(select(displacement > Lanes(0), displacement, Lanes(0))));
   }
 
-  KOKKOS_FUNCTION void report(std::size_t i, Lanes const& way) const {
+  KOKKOS_FUNCTION void report(std::size_t i, Lanes const& displacement) const {
     for (int l = 0; l < lane_count; ++l) {
-      if (!(lane(way, l) < 1e5)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
+      if (!(lane(displacement, l) < 1e5)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
     }
   }
 };
@@ -73,17 +74,17 @@ Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, Affi
                Faults const& faults) {
   int const groups = group_count(particles.owned), threads = ExecutionSpace().concurrency();
   int const share = (groups + threads - 1) / threads;
-  Real longest_way = 0;
+  Real largest_displacement = 0;
   auto const run = [&](auto const& kernel) {
     Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, groups), kernel,
-                            Kokkos::Max<Real>(longest_way));
+                            Kokkos::Max<Real>(largest_displacement));
   };
   if (losses.damping.extent(0) > 0) {
     run(KickAndDrift<true>{particles, law, dt, frame, losses.damping, faults, groups, share});
   } else {
     run(KickAndDrift<false>{particles, law, dt, frame, losses.damping, faults, groups, share});
   }
-  return longest_way;
+  return largest_displacement;
 }
 
 }  // namespace clathra

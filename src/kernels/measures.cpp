@@ -12,10 +12,12 @@ enum Sum : int {
   stress_yx,
   stress_yy,
   touching,
-  mechanical,
+  interacting,
+  non_rattlers,
+  contacts_of_non_rattlers,
   bonded,
   contact_force,
-  force_carriers,
+  active_contacts,
   unbalanced,
   kinetic,
   elastic,
@@ -36,9 +38,11 @@ struct DiscSums {
     Real const speed2 = p.vx(i) * p.vx(i) + p.vy(i) * p.vy(i), spin2 = p.omega(i) * p.omega(i);
     // A disc that is driven from outside has no inverse mass, and no share in the energy of the specimen.
     if (p.inverse_mass(i) > 0) out[kinetic] = 0.5 * (speed2 / p.inverse_mass(i) + spin2 / p.inverse_inertia(i));
+    int contacts = 0;
     for (int k = 0; k < rows.length(i); ++k) {
       PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
       if (!s.touching && !s.bonded) continue;
+      ++contacts;
       Real const fx = s.normal * s.nx + s.shear * s.ny, fy = s.normal * s.ny - s.shear * s.nx;  // against the force on disc i
       Real const lx = 0.5 * s.distance * s.nx, ly = 0.5 * s.distance * s.ny;
       out[stress_xx] += fx * lx;
@@ -46,18 +50,21 @@ struct DiscSums {
       out[stress_yx] += fy * lx;
       out[stress_yy] += fy * ly;
       out[touching] += s.touching ? 0.5 : 0;
-      out[mechanical] += 0.5;
+      out[interacting] += 0.5;
       out[bonded] += s.bonded ? 0.5 : 0;
       out[contact_force] += 0.5 * std::sqrt(fx * fx + fy * fy);
-      out[force_carriers] += 0.5;
+      out[active_contacts] += 0.5;
       out[elastic] += 0.5 * s.grain_energy;
       out[elastic_of_bonds] += 0.5 * s.bond_energy;
       out[deep] += s.overlap > 0.1 * lane_min(p.radius(i), p.radius(s.other)) ? 0.5 : 0;
       if (s.bonded) {
         Real const common = common_radius(p.radius(i), p.radius(s.other));
-        out[area] += 0.5 * bond_area(common, s.width, s.gap, laws.bond.critical_thickness);
+        out[area] += 0.5 * bond_area(common, s.width, s.thickness, laws.bond.critical_thickness);
       }
     }
+    if (contacts < 2) return;
+    out[non_rattlers] = 1;
+    out[contacts_of_non_rattlers] = contacts;
   }
 };
 
@@ -81,7 +88,7 @@ struct WallSums {
       // f . t against the disc times the branch: t = (-n_y, n_x), the branch is distance * n.
       out[upright ? stress_yx : stress_xy] += (upright ? -shear : shear) * face.distance;
       out[contact_force] += std::sqrt(normal * normal + shear * shear);
-      out[force_carriers] += 1;
+      out[active_contacts] += 1;
       out[elastic] += grain_energy(grain, {normal, shear, 0}, grain_stiffness(grain, overlap, 2 * p.radius(i)));
     }
   }
@@ -173,10 +180,12 @@ Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactL
   m.stress_area_yx = pairs[stress_yx] + at_walls[stress_yx];
   m.stress_area_yy = pairs[stress_yy] + at_walls[stress_yy];
   m.touching = pairs[touching];
-  m.mechanical = pairs[mechanical];
+  m.interacting = pairs[interacting];
+  m.non_rattlers = pairs[non_rattlers];
+  m.contacts_of_non_rattlers = pairs[contacts_of_non_rattlers];
   m.bonded = pairs[bonded];
   m.contact_force = pairs[contact_force] + at_walls[contact_force];
-  m.force_carriers = pairs[force_carriers] + at_walls[force_carriers];
+  m.active_contacts = pairs[active_contacts] + at_walls[active_contacts];
   m.unbalanced = pairs[unbalanced];
   m.kinetic = pairs[kinetic];
   m.grain_energy = pairs[elastic];

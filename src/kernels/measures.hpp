@@ -10,19 +10,25 @@ struct Measures {
   Real stress_area_xx = 0, stress_area_xy = 0, stress_area_yx = 0,
        stress_area_yy = 0;                                  ///< sum f (x) l [N], stress times area, compression positive
   Real touching = 0;                                        ///< pairs with u_n > 0
-  Real mechanical = 0;                                      ///< pairs touching or bonded
+  Real non_rattlers = 0;                                    ///< discs in two interacting pairs or more
+  Real contacts_of_non_rattlers = 0;                        ///< their pairs, those between two of them twice
+  Real interacting = 0;                                     ///< pairs touching or bonded
   Real bonded = 0;                                          ///< pairs with an intact bond
-  Real contact_force = 0;                                   ///< sum of |F| over mechanical pairs and wall contacts [N/m]
-  Real force_carriers = 0;                                  ///< number of those
+  Real contact_force = 0;                                   ///< sum of |F| over interacting pairs and wall contacts [N/m]
+  Real active_contacts = 0;                                 ///< number of those
   Real unbalanced = 0;                                      ///< sum of |F| over discs [N/m]
   Real kinetic = 0;                                         ///< [J/m]
   Real grain_energy = 0, bond_energy = 0, wall_energy = 0;  ///< elastic [J/m]
   Real deep = 0;                                            ///< pairs that overlap by more than 10 % of the smaller radius
   Real bond_area = 0;                                       ///< sum of Eq. 5 over intact bonds [m^2]
 
+  /// Z_m = (2 C - N_1) / (N - N_0 - N_1) of N discs with C pairs, N_0 and N_1 of them with none and with one (Thornton 2000,
+  /// Geotechnique 50(1), 43-53); contacts with walls do not count. 0 where all are rattlers.
+  Real mechanical_coordination() const { return non_rattlers > 0 ? contacts_of_non_rattlers / non_rattlers : 0; }
+
   /// Mean unbalanced force per disc over mean contact force.
   Real unbalanced_ratio(int discs) const {
-    return contact_force > 0 && discs > 0 ? (unbalanced / discs) / (contact_force / force_carriers) : 0;
+    return contact_force > 0 && discs > 0 ? (unbalanced / discs) / (contact_force / active_contacts) : 0;
   }
 };
 

@@ -37,7 +37,7 @@ class OldRow {
     return -1;
   }
   KOKKOS_INLINE_FUNCTION bool was_bonded(int other) {
-    if (old_.here.equilibrium.extent(0) == 0) return false;
+    if (old_.here.formation_overlap.extent(0) == 0) return false;
     if (length_ < 0) read();
     int found = -1;
     for (int k = 0; k < length_; ++k) found = id_[k] == other ? k : found;  // without a branch that nothing foresees
@@ -61,7 +61,7 @@ class OldRow {
 struct Candidates {
   Field<int> disc;
   Field<Coord> x, y;
-  Field<Real> radius, leeway;
+  Field<Real> radius, verlet_skin;
 };
 std::size_t bytes(Candidates const& c) { return c.disc.span() * (sizeof(int) + 2 * sizeof(Coord) + 2 * sizeof(Real)); }
 
@@ -85,7 +85,7 @@ struct LineUp {
     to.x(k) = p.x(i);
     to.y(k) = p.y(i);
     to.radius(k) = p.radius(i);
-    to.leeway(k) = p.leeway(i);
+    to.verlet_skin(k) = p.verlet_skin(i);
   }
 };
 
@@ -93,7 +93,7 @@ Candidates line_up(ParticleSoA const& particles, CellGrid const& grid) {
   Candidates candidates;
   std::size_t const size = grid.disc.extent(0) + lane_count;
   for (Field<Coord>* field : {&candidates.x, &candidates.y}) *field = uninitialised<Coord>("candidates", size);
-  for (Field<Real>* field : {&candidates.radius, &candidates.leeway}) *field = uninitialised<Real>("candidates", size);
+  for (Field<Real>* field : {&candidates.radius, &candidates.verlet_skin}) *field = uninitialised<Real>("candidates", size);
   candidates.disc = uninitialised<int>("candidates", size);
   Kokkos::parallel_for("line_up", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(size)),
                        LineUp{particles, grid.disc, candidates});
@@ -130,7 +130,7 @@ struct Search {
                                             int& others) const {
     Lanes const dx = load(&candidates.x(k)) - p.x(i), dy = load(&candidates.y(k)) - p.y(i);
     Lanes const touch = load(&candidates.radius(k)) + p.radius(i), distance2 = dx * dx + dy * dy;
-    Lanes const reach = touch + (load(&candidates.leeway(k)) + p.leeway(i)), bonded = touch + bonded_reach;
+    Lanes const reach = touch + (load(&candidates.verlet_skin(k)) + p.verlet_skin(i)), bonded = touch + bonded_reach;
     auto const candidate = first_lanes(end - k), in_touch = candidate && distance2 < touch * touch;
     auto const apart = candidate && !in_touch && distance2 < reach * reach;
     touching += pack_set(in_touch, &candidates.disc(k), found.in_touch + touching);
@@ -267,7 +267,7 @@ struct WidestBondedGap {
     Lanes widest_here(0);
     for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
       std::size_t const e = static_cast<std::size_t>(k) * slice_width + i % slice_width;
-      auto const bonded = is_bonded(load(&rows.equilibrium(e)));
+      auto const bonded = is_bonded(load(&rows.formation_overlap(e)));
       if (!any(bonded)) continue;
       int const* const other = &rows.neighbour(e);
       Lanes const dx = gather(p.x.data(), other) - x, dy = gather(p.y.data(), other) - y;
@@ -284,7 +284,7 @@ struct CountOwnBonds {
   KOKKOS_FUNCTION void operator()(int i, int& bonds) const {
     for (int k = 0; k < rows.length(i); ++k) {
       std::size_t const e = rows.entry(i, k);
-      if (is_bonded(rows.equilibrium(e)) && p.id(i) < p.id(rows.neighbour(e))) ++bonds;
+      if (is_bonded(rows.formation_overlap(e)) && p.id(i) < p.id(rows.neighbour(e))) ++bonds;
     }
   }
 };
@@ -337,26 +337,26 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old) {
 
 int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows) {
   int bonds = 0;
-  if (rows.equilibrium.extent(0) > 0)
+  if (rows.formation_overlap.extent(0) > 0)
     Kokkos::parallel_reduce("count_own_bonds", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                             CountOwnBonds{particles, rows}, bonds);
   return bonds;
 }
 
 Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
-  if (rows.equilibrium.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
+  if (rows.formation_overlap.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
   Real widest = 0;
   Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
                           WidestBondedGap{particles, rows}, Kokkos::Max<Real>(widest));
   return lane_max(widest, Real(0));
 }
 
-std::size_t find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
+std::size_t find_neighbours(ParticleSoA const& particles, Real largest_skin, OldRows const& old, Field<int> const& slot,
                             ContactRows& rows, Faults const& faults, Real bonded_gap) {
   auto const owned = static_cast<std::size_t>(particles.owned);
   auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
   Real const bonded_reach = bonded_gap * (1 + 1e-9);
-  Real const cell = 2 * largest_radius(particles, particles.all()) + lane_max(2 * widest_leeway, bonded_reach);
+  Real const cell = 2 * largest_radius(particles, particles.all()) + lane_max(2 * largest_skin, bonded_reach);
   Search search{particles, bin_particles(particles, particles.all(), cell), {}, bonded_reach, old, slot};
   search.candidates = line_up(particles, search.grid);
   Found near;

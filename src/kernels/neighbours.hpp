@@ -27,8 +27,8 @@ struct OldRows {
     return entry < entries_here ? here.neighbour(entry) : arrived.neighbour(entry - entries_here);
   }
   KOKKOS_INLINE_FUNCTION bool bonded(int entry) const {
-    if (here.equilibrium.extent(0) == 0) return false;
-    return is_bonded(entry < entries_here ? here.equilibrium(entry) : arrived.equilibrium(entry - entries_here));
+    if (here.formation_overlap.extent(0) == 0) return false;
+    return is_bonded(entry < entries_here ? here.formation_overlap(entry) : arrived.formation_overlap(entry - entries_here));
   }
 };
 
@@ -38,14 +38,14 @@ OldRows take_as_old(ParticleSoA const& particles, ContactRows const& rows);
 /// [owned] the slot of each disc, before discs move: its index.
 Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old);
 
-/// Makes rows of all pairs closer than the sum of their leeways (surface to surface), plus all bonded pairs at any distance.
+/// Makes rows of all pairs closer than the sum of their skins (surface to surface), plus all bonded pairs at any distance.
 /// History is kept by the pair's ids.
-/// @param widest_leeway  of all ranks [m]
+/// @param largest_skin  of all ranks [m]
 /// @param slot  [owned] where the old row of each disc is
 /// @param bonded_gap  widest_bonded_gap() before the search, of all ranks [m]
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
 /// @return the most bytes that it held at once beside particles and old rows;  @throws TooManyToNumber by require_countable()
-std::size_t find_neighbours(ParticleSoA const& particles, Real widest_leeway, OldRows const& old, Field<int> const& slot,
+std::size_t find_neighbours(ParticleSoA const& particles, Real largest_skin, OldRows const& old, Field<int> const& slot,
                             ContactRows& rows, Faults const& faults, Real bonded_gap);
 
 /// Intact bonds whose break this rank would report: those of its discs to discs with a larger id.

@@ -63,7 +63,7 @@ struct SumLoads {
 
   KOKKOS_FUNCTION void operator()(int i) const {
     Real xx = 0, yy = 0, xy = 0;
-    int carriers = 0, bonds = 0;
+    int active_contacts = 0, bonds = 0;
     for (int k = 0; k < rows.length(i); ++k) {
       PairState const s = pair_state(p, rows, laws, i, rows.entry(i, k));
       if (!s.carries()) continue;
@@ -71,7 +71,7 @@ struct SumLoads {
       xx += s.arm * s.nx * fx;
       yy += s.arm * s.ny * fy;
       xy += 0.5 * s.arm * (s.nx * fy + s.ny * fx);
-      ++carriers;
+      ++active_contacts;
       bonds += s.bonded ? 1 : 0;
     }
     for (int wall = 0; wall < wall_count; ++wall) {
@@ -79,13 +79,13 @@ struct SumLoads {
       Real const overlap = p.radius(i) - face.distance;
       if (overlap <= 0) continue;
       (face.nx != 0 ? xx : yy) += spring_force(wall_law.as_grain(), overlap) * face.distance;
-      ++carriers;
+      ++active_contacts;
     }
     Real const area = pi * p.radius(i) * p.radius(i);
     loads.stress_xx(i) = static_cast<float>(xx / area);
     loads.stress_yy(i) = static_cast<float>(yy / area);
     loads.stress_xy(i) = static_cast<float>(xy / area);
-    loads.carriers(i) = carriers;
+    loads.active_contacts(i) = active_contacts;
     loads.bonds(i) = bonds;
   }
 };
@@ -110,7 +110,7 @@ DiscLoads disc_loads(ParticleSoA const& particles, ContactRows const& rows, Cont
   auto const size = static_cast<std::size_t>(particles.owned);
   DiscLoads loads;
   for (auto* field : {&loads.stress_xx, &loads.stress_yy, &loads.stress_xy}) *field = Field<float>("disc_loads", size);
-  for (auto* field : {&loads.carriers, &loads.bonds}) *field = Field<int>("disc_loads", size);
+  for (auto* field : {&loads.active_contacts, &loads.bonds}) *field = Field<int>("disc_loads", size);
   Kokkos::parallel_for("disc_loads", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        SumLoads{particles, rows, laws, walls, wall_law, loads});
   return loads;

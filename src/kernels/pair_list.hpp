@@ -22,10 +22,10 @@ PairList list_pairs(ParticleSoA const& particles, ContactRows const& rows, Conta
 /// What acts on each disc.
 struct DiscLoads {
   Field<float> stress_xx,
-      stress_yy;           ///< [owned] mean stress of the disc, compression positive [Pa]: sum of arm x force over pi r^2
-  Field<float> stress_xy;  ///< [owned] its symmetric part
-  Field<int> carriers;     ///< [owned] pairs and walls that carry force
-  Field<int> bonds;        ///< [owned] intact bonds
+      stress_yy;               ///< [owned] mean stress of the disc, compression positive [Pa]: sum of arm x force over pi r^2
+  Field<float> stress_xy;      ///< [owned] its symmetric part
+  Field<int> active_contacts;  ///< [owned] pairs and walls that carry force
+  Field<int> bonds;            ///< [owned] intact bonds
 };
 DiscLoads disc_loads(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Walls const& walls,
                      WallLaw const& wall_law);

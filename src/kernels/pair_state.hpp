@@ -15,7 +15,7 @@ struct PairState {
   Real bond_normal = 0, bond_shear = 0, bond_moment = 0;  ///< the bond's part
   ContactStiffness<Real> stiffness{0, 0, 0};              ///< of both together
   Real grain_energy = 0, bond_energy = 0;                 ///< elastic [J/m]
-  Real width = 0, gap = 0;                                ///< B and h_cr of the bond [m]
+  Real width = 0, thickness = 0;                          ///< B and h_cr of the bond [m]
   KOKKOS_INLINE_FUNCTION bool carries() const { return touching || bonded; }
 };
 
@@ -42,7 +42,7 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   s.arm = p.radius(i) - 0.5 * s.overlap;
   s.other_arm = p.radius(s.other) - 0.5 * s.overlap;
   bool const separate = laws.bond_kind == BondKind::parallel;
-  s.bonded = laws.bond_kind != BondKind::none && is_bonded(rows.equilibrium(e));
+  s.bonded = laws.bond_kind != BondKind::none && is_bonded(rows.formation_overlap(e));
   Real const common = common_radius(p.radius(i), p.radius(s.other));
   Real const moment = rows.moment.extent(0) > 0 ? rows.moment(e) : 0;
   if (s.touching && (!s.bonded || separate)) {
@@ -57,13 +57,11 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   if (s.bonded) {
     ContactMotion<Real> const still{s.overlap, 0, 0, 0, common};
     BondForce<Real> const bond =
-        bond_contact(laws.bond, still, Real(rows.equilibrium(e)), Real(rows.width(e)),
+        bond_contact(laws.bond, still, Real(rows.formation_overlap(e)), Real(rows.width(e)),
                      Real(separate ? rows.bond_shear(e) : rows.shear(e)), separate ? Real(rows.bond_moment(e)) : moment);
     s.width = bond.width;
-    s.gap = bond.gap;
-    s.bond_normal = bond.force.normal;
-    s.bond_shear = bond.force.shear;
-    s.bond_moment = bond.force.moment;
+    s.thickness = bond.thickness;
+    s.bond_normal = bond.force.normal, s.bond_shear = bond.force.shear, s.bond_moment = bond.force.moment;
     s.normal += s.bond_normal;
     s.shear += s.bond_shear;
     s.moment += s.bond_moment;

@@ -27,7 +27,7 @@ struct ParticleSoA {
   Field<Real> force_x, force_y;           ///< [N/m]
   Field<Real> torque;                     ///< [N m/m]
   Field<Coord> reference_x, reference_y;  ///< centre at the last neighbour search [m]
-  Field<Real> leeway;                     ///< how far from there, beside the homogeneous motion, until the next one [m]
+  Field<Real> verlet_skin;                ///< how far from there, beside the homogeneous motion, until the next one [m]
 
   int all() const { return owned + ghosts; }
   /// The index of a padding disc.
@@ -70,7 +70,7 @@ template <class Particles, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_mark_of_search(Particles& p, Visit&& visit) {
   visit(DiscField{"reference_x", far_outside}, p.reference_x);
   visit(DiscField{"reference_y", far_outside}, p.reference_y);
-  visit(DiscField{"leeway", 1}, p.leeway);
+  visit(DiscField{"verlet_skin", 1}, p.verlet_skin);
 }
 template <class Particles, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_derived_field(Particles& p, Visit&& visit) {

@@ -15,13 +15,13 @@ struct WorkOfSlots {
 
   KOKKOS_FUNCTION void operator()(int group) const {
     int const begin = group * lane_count, slice = begin / slice_width;
-    bool const shear = rows.shear.extent(0) > 0, bonds = rows.equilibrium.extent(0) > 0;
+    bool const shear = rows.shear.extent(0) > 0, bonds = rows.formation_overlap.extent(0) > 0;
     Lanes carrying(0);
     for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
       std::size_t const e = static_cast<std::size_t>(k) * slice_width + static_cast<std::size_t>(begin % slice_width);
       Mask marked(false);
       if (shear) marked = load(&rows.shear(e)) != Lanes(0);
-      if (bonds) marked = marked || is_bonded(load(&rows.equilibrium(e)));
+      if (bonds) marked = marked || is_bonded(load(&rows.formation_overlap(e)));
       carrying += select(marked, Lanes(1), Lanes(0));
     }
     for (int l = 0; l < lane_count; ++l) {

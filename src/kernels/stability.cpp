@@ -17,33 +17,33 @@ struct LocalPeriod {
   KOKKOS_FUNCTION void operator()(int i, Real& least) const {
     ParticleSoA const& p = net.particles;
     Real const r = p.radius(i);
-    Real kxx = 0, kyy = 0, rotation = 0, stiffest = 0, stiffest_turn = 0;
+    Real kxx = 0, kyy = 0, rotation = 0, stiffest = 0, stiffest_rotational = 0;
     int contacts = 0;
     for_each_spring(net, i, {true, any_gap, 0}, [&](Spring const& s) {
-      Real const turn = s.shear * r * r + s.rolling;
+      Real const rotational = s.shear * r * r + s.rolling;
       kxx += s.normal * s.nx * s.nx + s.shear * s.ny * s.ny;
       kyy += s.normal * s.ny * s.ny + s.shear * s.nx * s.nx;
-      rotation += turn;
+      rotation += rotational;
       if (s.other < 0) return;  // a wall is no reason to count fewer contacts to come
       stiffest = lane_max(stiffest, 0.5 * (s.normal + s.shear));
-      stiffest_turn = lane_max(stiffest_turn, turn);
+      stiffest_rotational = lane_max(stiffest_rotational, rotational);
       ++contacts;
     });
     if (contacts == 0) {
       ContactStiffness<Real> const k = kept_stiffness(net.rows, net.laws.grain, 0, r);  // with a disc of its own size
       stiffest = 0.5 * (k.normal + k.shear);
-      stiffest_turn = k.shear * r * r + k.rolling;
+      stiffest_rotational = k.shear * r * r + k.rolling;
     }
     int const missing = contacts < least_contacts ? least_contacts - contacts : 0;
     Real const translation = lane_max(kxx, kyy) + missing * stiffest;
     least = lane_min(least, 1 / (p.inverse_mass(i) * translation));
-    least = lane_min(least, 1 / (p.inverse_inertia(i) * (rotation + missing * stiffest_turn)));
+    least = lane_min(least, 1 / (p.inverse_inertia(i) * (rotation + missing * stiffest_rotational)));
   }
 };
 
 /// A motion of all discs, ghosts included: two displacements and a rotation each.
 struct Motion {
-  Field<Real> x, y, turn;
+  Field<Real> x, y, rotation;
 };
 
 struct RandomMotion {
@@ -57,7 +57,7 @@ struct RandomMotion {
     };
     u.x(i) = draw(0);
     u.y(i) = draw(1);
-    u.turn(i) = draw(2) / p.radius(i);
+    u.rotation(i) = draw(2) / p.radius(i);
   }
 };
 
@@ -71,20 +71,20 @@ struct StiffnessProduct {
     Real fx = 0, fy = 0, torque = 0;
     for_each_spring(net, i, {}, [&](Spring const& s) {
       Real const other_x = s.other < 0 ? 0 : u.x(s.other), other_y = s.other < 0 ? 0 : u.y(s.other);
-      Real const other_turn = s.other < 0 ? 0 : u.turn(s.other);
+      Real const other_rotation = s.other < 0 ? 0 : u.rotation(s.other);
       Real const dx = other_x - u.x(i), dy = other_y - u.y(i);
       Real const normal = -s.normal * (dx * s.nx + dy * s.ny);
-      Real const shear = s.shear * ((dy * s.nx - dx * s.ny) - (u.turn(i) * s.arm + other_turn * s.other_arm));
+      Real const shear = s.shear * ((dy * s.nx - dx * s.ny) - (u.rotation(i) * s.arm + other_rotation * s.other_arm));
       fx -= normal * s.nx + shear * s.ny;
       fy += shear * s.nx - normal * s.ny;
-      torque += s.arm * shear + s.rolling * (other_turn - u.turn(i));
+      torque += s.arm * shear + s.rolling * (other_rotation - u.rotation(i));
     });
     w.x(i) = -fx * p.inverse_mass(i);
     w.y(i) = -fy * p.inverse_mass(i);
-    w.turn(i) = -torque * p.inverse_inertia(i);
+    w.rotation(i) = -torque * p.inverse_inertia(i);
     Real const mass = 1 / p.inverse_mass(i), inertia = 1 / p.inverse_inertia(i);
-    out[0] = mass * (u.x(i) * u.x(i) + u.y(i) * u.y(i)) + inertia * u.turn(i) * u.turn(i);
-    out[1] = mass * (u.x(i) * w.x(i) + u.y(i) * w.y(i)) + inertia * u.turn(i) * w.turn(i);
+    out[0] = mass * (u.x(i) * u.x(i) + u.y(i) * u.y(i)) + inertia * u.rotation(i) * u.rotation(i);
+    out[1] = mass * (u.x(i) * w.x(i) + u.y(i) * w.y(i)) + inertia * u.rotation(i) * w.rotation(i);
   }
 };
 
@@ -94,7 +94,7 @@ struct Rescale {
   KOKKOS_FUNCTION void operator()(int i) const {
     to.x(i) = from.x(i) * factor;
     to.y(i) = from.y(i) * factor;
-    to.turn(i) = from.turn(i) * factor;
+    to.rotation(i) = from.rotation(i) * factor;
   }
 };
 
@@ -104,7 +104,7 @@ struct UnitMotion {
   Motion u;
   KOKKOS_FUNCTION void operator()(int i) const {
     u.x(i) = u.y(i) = lane_sqrt(p.inverse_mass(i));
-    u.turn(i) = lane_sqrt(p.inverse_inertia(i));
+    u.rotation(i) = lane_sqrt(p.inverse_inertia(i));
   }
 };
 
@@ -118,7 +118,7 @@ struct AbsoluteProduct {
   KOKKOS_FUNCTION void operator()(int i, Real& greatest) const {
     ParticleSoA const& p = net.particles;
     Real kxx = 0, kxy = 0, kyy = 0, kxt = 0, kyt = 0, ktt = 0;  // of the disc with itself
-    Real x = 0, y = 0, turn = 0;                                // from the others
+    Real x = 0, y = 0, rotation = 0;                            // from the others
     for_each_spring(net, i, {true, closing, closing}, [&](Spring const& s) {
       Real const normal = s.normal + s.dashpot * twice_rate, tx = -s.ny, ty = s.nx;
       Real const axx = normal * s.nx * s.nx + s.shear * tx * tx, axy = normal * s.nx * s.ny + s.shear * tx * ty,
@@ -130,30 +130,30 @@ struct AbsoluteProduct {
       kyt += s.shear * s.arm * ty;
       ktt += s.shear * s.arm * s.arm + s.rolling;
       if (s.other < 0) return;
-      Real const ux = u.x(s.other), uy = u.y(s.other), ut = u.turn(s.other);
+      Real const ux = u.x(s.other), uy = u.y(s.other), ut = u.rotation(s.other);
       x += axx * ux + std::fabs(axy) * uy + std::fabs(s.shear * s.other_arm * tx) * ut;
       y += std::fabs(axy) * ux + ayy * uy + std::fabs(s.shear * s.other_arm * ty) * ut;
-      turn += std::fabs(s.shear * s.arm * tx) * ux + std::fabs(s.shear * s.arm * ty) * uy +
-              std::fabs(s.shear * s.arm * s.other_arm - s.rolling) * ut;
+      rotation += std::fabs(s.shear * s.arm * tx) * ux + std::fabs(s.shear * s.arm * ty) * uy +
+                  std::fabs(s.shear * s.arm * s.other_arm - s.rolling) * ut;
     });
-    Real const ux = u.x(i), uy = u.y(i), ut = u.turn(i);
+    Real const ux = u.x(i), uy = u.y(i), ut = u.rotation(i);
     w.x(i) = (kxx * ux + std::fabs(kxy) * uy + std::fabs(kxt) * ut + x) * p.inverse_mass(i);
     w.y(i) = (std::fabs(kxy) * ux + kyy * uy + std::fabs(kyt) * ut + y) * p.inverse_mass(i);
-    w.turn(i) = (std::fabs(kxt) * ux + std::fabs(kyt) * uy + ktt * ut + turn) * p.inverse_inertia(i);
-    for (Real const ratio : {w.x(i) / ux, w.y(i) / uy, w.turn(i) / ut})
+    w.rotation(i) = (std::fabs(kxt) * ux + std::fabs(kyt) * uy + ktt * ut + rotation) * p.inverse_inertia(i);
+    for (Real const ratio : {w.x(i) / ux, w.y(i) / uy, w.rotation(i) / ut})
       if (ratio > greatest) greatest = ratio;  // not where both are 0: such a motion meets no spring
   }
 };
 
 Motion make_motion(int discs) {
   auto const n = static_cast<std::size_t>(discs);
-  return {Field<Real>("motion.x", n), Field<Real>("motion.y", n), Field<Real>("motion.turn", n)};
+  return {Field<Real>("motion.x", n), Field<Real>("motion.y", n), Field<Real>("motion.relative_rotation", n)};
 }
 
 /// u = factor w, on all ranks.
 void rescale(ParticleSoA const& particles, Motion const& w, Motion const& u, Real factor, AcrossRanks const& across) {
   Kokkos::parallel_for("rescale_motion", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), Rescale{w, u, factor});
-  for (auto const& field : {u.x, u.y, u.turn}) across.refresh_ghosts(field);
+  for (auto const& field : {u.x, u.y, u.rotation}) across.refresh_ghosts(field);
 }
 
 }  // namespace

@@ -45,14 +45,14 @@ struct WallForces {
   KOKKOS_INLINE_FUNCTION void add_losses(int i, ContactMotion<Real> const& motion, Real old_shear,
                                          ContactForce<Real> const& now) const {
     if (law.friction > 0 && losses.sliding.extent(0) > 0) {
-      Real const slid = motion.slip + (old_shear - now.shear) / law.shear_stiffness;
+      Real const slid = motion.shear_increment + (old_shear - now.shear) / law.shear_stiffness;
       losses.sliding(i) += 0.5 * (old_shear + now.shear) * slid;
     }
     if (law.damping_ratio > 0 && losses.dashpot.extent(0) > 0) losses.dashpot(i) += dashpot_loss(law, motion, now.normal, dt);
   }
 };
 
-/// Lists the discs within twice their leeway of a wall.
+/// Lists the discs within twice their skin of a wall.
 struct FindNearWalls {
   ParticleSoA p;
   Walls walls;
@@ -61,7 +61,7 @@ struct FindNearWalls {
     Real nearest = -1e300;
     for (int wall = 0; wall < wall_count; ++wall)
       nearest = lane_max(nearest, p.radius(i) - wall_face(walls, wall, p.x(i), p.y(i)).distance);
-    if (nearest < -2 * p.leeway(i)) return;
+    if (nearest < -2 * p.verlet_skin(i)) return;
     if (final) disc(slot) = i;
     ++slot;
   }

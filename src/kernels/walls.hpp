@@ -68,8 +68,8 @@ struct WallShear {
 };
 WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts);
 
-/// Finds the discs whose surface is within twice their leeway of a wall (found again after a restart, discs may have
-/// strayed away from it by one and stray back by two); those of a rough wall have the shear history `shear`.
+/// Finds the discs whose surface is within twice their skin of a wall (found again after a restart, discs may have
+/// moved away from it by one and may come back by two); those of a rough wall have the shear history `shear`.
 WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, bool friction, WallShear const& shear);
 
 /// Adds the wall forces to the discs near the walls and returns the reactions of all ranks. A wall is a disc of infinite radius

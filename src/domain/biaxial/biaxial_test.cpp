@@ -47,23 +47,6 @@ SimulationLaws test_laws(Scene const& scene, double h_max) {
   return laws;
 }
 
-/// The events of all ranks on rank 0, in order.
-std::vector<BreakEvent> gathered(Ranks const& ranks, std::vector<BreakEvent> events) {
-  if (ranks.alone()) return events;
-  std::vector<double> numbers;
-  for (BreakEvent const& e : events)
-    numbers.insert(numbers.end(), {static_cast<double>(e.step), double(e.id_a), double(e.id_b), double(e.mode), e.x, e.y});
-  numbers = ranks.gather(numbers);
-  events.clear();
-  for (std::size_t k = 0; k < numbers.size(); k += 6) {
-    double const* const n = &numbers[k];
-    events.push_back(
-        {static_cast<std::int64_t>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3]), n[4], n[5]});
-  }
-  std::sort(events.begin(), events.end(), comes_before);
-  return events;
-}
-
 double height_of(Simulation const& s) { return s.walls().height(); }
 
 }  // namespace
@@ -184,7 +167,7 @@ void BiaxialTest::State::begin_shear() {
   height0 = height_of(s);
   area0 = s.area();
   rate = rate_numbers(scene, d50, height0, s.void_ratio());
-  for (std::string const& warning : judge_rate(scene, rate)) warnings.push_back(warning);
+  for (std::string const& warning : check_rate(scene, rate)) warnings.push_back(warning);
   s.loading.y = AxisDrive::at_rate(rate.strain_rate);
   s.loading.x = AxisDrive::at_stress(scene.test.confining_stress, 2 * rate.strain_rate * height0);
   s.loading.x.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.walls().width();
@@ -289,9 +272,10 @@ HistoryRow BiaxialTest::record() {
   row.void_ratio = s.void_ratio();
   row.bonds_intact = std::llround(m.bonded);
   row.intact_initial_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
-  row.intact_mechanical_pct = m.mechanical > 0 ? 100.0 * m.bonded / m.mechanical : 0;
+  row.intact_interacting_pct = m.interacting > 0 ? 100.0 * m.bonded / m.interacting : 0;
   row.broken = s.break_counts();
-  row.coordination = 2 * m.mechanical / s.discs();
+  row.coordination = 2 * m.interacting / s.discs();
+  row.mechanical_coordination = m.mechanical_coordination();
   row.inertial_number = state_->rate.strain_rate * state_->d50 * std::sqrt(s.density() / std::max(row.sigma3_Pa, 1.0));
   row.wave_number = rate_numbers(state_->scene, state_->d50, height_of(s), row.void_ratio).wave_number;
   row.unbalanced = m.unbalanced_ratio(s.discs());

@@ -64,7 +64,7 @@ std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n)
   return warnings;
 }
 
-std::vector<std::string> judge_rate(Scene const& scene, RateNumbers const& n) {
+std::vector<std::string> check_rate(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> warnings = rate_warnings(scene, n);
   std::string all;
   for (std::string const& refusal : rate_refusals(scene, n)) {

@@ -28,6 +28,6 @@ std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& nu
 /// What is near those limits, in words.
 std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& numbers);
 /// The warnings, and the refusals as warnings where the scene forces the test; @throws Refused where it does not.
-std::vector<std::string> judge_rate(Scene const& scene, RateNumbers const& numbers);
+std::vector<std::string> check_rate(Scene const& scene, RateNumbers const& numbers);
 
 }  // namespace clathra

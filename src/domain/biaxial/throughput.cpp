@@ -41,7 +41,7 @@ double moved_bytes(Simulation const& simulation) {
   double const entries = static_cast<double>(total(simulation, simulation.contact_entries())) / simulation.discs();
   ContactRows rows = simulation.rows();
   double written = 0;
-  for_each_history(rows, [&](HistoryField const&, auto const& field) { written += &field == &rows.equilibrium ? 0 : 1; });
+  for_each_history(rows, [&](HistoryField const&, auto const& field) { written += &field == &rows.formation_overlap ? 0 : 1; });
   double const row = sizeof(int) + sizeof(Real) * (2 * written + (rows.features.bonds ? 2 : 0));
   constexpr double contact_pass = 6 + 3, drift = 11 + 6;  // fields of a disc
   return entries * row + sizeof(Real) * (contact_pass + drift);
@@ -52,7 +52,7 @@ double moved_bytes(Simulation const& simulation) {
 constexpr double flops_of_contact = 58, flops_of_bonded_pair = 113, flops_of_drift = 33;
 
 double flops_per_step(Simulation const& simulation, Measures const& m) {
-  double const pairs = flops_of_bonded_pair * m.bonded + flops_of_contact * (m.mechanical - m.bonded);
+  double const pairs = flops_of_bonded_pair * m.bonded + flops_of_contact * (m.interacting - m.bonded);
   return 2 * pairs + flops_of_drift * simulation.discs();
 }
 
@@ -111,7 +111,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a
   // test.
   prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.dt_safety);
-  for (int n = 0; n < setup.settle_steps; ++n) simulation.step();
+  for (int n = 0; n < setup.relaxation_steps; ++n) simulation.step();
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
   prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.dt_safety);
   RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
@@ -120,10 +120,11 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   if (breaking) {
     // Faster to where bonds break, but platens no faster than those of a small specimen, or large ones burst; then a while for
     // the waves of that to die.
-    constexpr double strain = 0.05, hurry_of_small = 10, calming_of_small = 500, small = 20000;
-    double const length = std::sqrt(std::max(1.0, simulation.discs() / small)), hurry = std::max(1.0, hurry_of_small / length);
-    simulation.loading.y = AxisDrive::at_rate(hurry * rate.strain_rate);
-    auto const steps = static_cast<int>(strain / (hurry * rate.strain_rate * simulation.time_step));
+    constexpr double strain = 0.05, rate_factor_of_small = 10, calming_of_small = 500, small = 20000;
+    double const length = std::sqrt(std::max(1.0, simulation.discs() / small)),
+                 rate_factor = std::max(1.0, rate_factor_of_small / length);
+    simulation.loading.y = AxisDrive::at_rate(rate_factor * rate.strain_rate);
+    auto const steps = static_cast<int>(strain / (rate_factor * rate.strain_rate * simulation.time_step));
     for (int n = 0; n < steps; ++n) simulation.step();
     simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
     for (int n = 0; n < calming_of_small * length; ++n) simulation.step();
@@ -147,7 +148,7 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
   result.disc_steps_per_second = steps_per_s * simulation.discs();
   Measures const m = simulation.measures();
-  result.contact_steps_per_s = steps_per_s * m.mechanical;
+  result.contact_steps_per_s = steps_per_s * m.interacting;
   result.flops_per_s = steps_per_s * flops_per_step(simulation, m);
   result.broken = simulation.broken_bonds() - broken;
   result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.discs();

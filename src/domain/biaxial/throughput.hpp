@@ -14,8 +14,8 @@ inline constexpr char const* throughput_case_names[] = {"rolling", "bonded", "br
 struct ThroughputSetup {
   ThroughputCase what = ThroughputCase::bonded;
   std::int64_t discs = 20000;
-  double skin = chosen_skin;  ///< in d50
-  int settle_steps = 3000;    ///< in which the walls find the cut packing
+  double skin = chosen_skin;    ///< in d50
+  int relaxation_steps = 3000;  ///< in which the walls find the cut packing
 };
 
 /// A periodic cell of 2,000 discs packed under 1 MPa, repeated, cut by walls, bonded, and sheared at the inertial number 1e-4

@@ -37,15 +37,15 @@ HostCells host_cells(Specimen const& s, double size) {
   return cells;
 }
 
-enum class Verdict { bond, no_tension, out_of_fit };
+enum class Bondability { bondable, no_tension, out_of_fit };
 
 /// Whether a pair may be bonded: the traps 4, 6 and 7 of the strength laws.
-Verdict judge(BondLaw const& law, double radius, double gap) {
-  double const width = law.width(radius, gap);
-  BondStrength const strength = bond_strength(law.strength, width, gap);
-  if (!(strength.tension > 0)) return Verdict::no_tension;
+Bondability bondability(BondLaw const& law, double radius, double thickness) {
+  double const width = law.width(radius, thickness);
+  BondStrength const strength = bond_strength(law.strength, width, thickness);
+  if (!(strength.tension > 0)) return Bondability::no_tension;
   bool const fits = strength.compression > 0 && strength.shear_slope > 0 && strength.moment_slope > 0;
-  return fits ? Verdict::bond : Verdict::out_of_fit;
+  return fits ? Bondability::bondable : Bondability::out_of_fit;
 }
 
 double unit_of_area(Specimen const& s) { return SumUnits::near(s.d50 * s.d50); }
@@ -56,8 +56,9 @@ double area_at(Scene const& scene, Specimen const& s, std::vector<NearPair> cons
   ExactSum area(unit_of_area(s));
   for (NearPair const& p : pairs) {
     if (!(p.gap < h_max)) continue;
-    double const radius = common_radius(s.radius[p.a], s.radius[p.b]), gap = law.gap(-p.gap);
-    if (judge(law, radius, gap) == Verdict::bond) area.add(bond_area(radius, law.width(radius, gap), gap, h_max));
+    double const radius = common_radius(s.radius[p.a], s.radius[p.b]), thickness = law.bond_thickness(-p.gap);
+    if (bondability(law, radius, thickness) == Bondability::bondable)
+      area.add(bond_area(radius, law.width(radius, thickness), thickness, h_max));
   }
   return area.over(ranks.summation());
 }
@@ -172,19 +173,19 @@ namespace {
 /// Bonds a pair, or counts why it may not be bonded.
 void decide(Scene const& scene, BondLaw const& law, double radius, double distance, SpecimenContact& contact,
             BondingOutcome& outcome, ExactSum& area) {
-  double const gap = law.gap(-distance);
-  switch (judge(law, radius, gap)) {
-    case Verdict::no_tension:
+  double const thickness = law.bond_thickness(-distance);
+  switch (bondability(law, radius, thickness)) {
+    case Bondability::no_tension:
       ++outcome.rejected_no_tension;
       break;
-    case Verdict::out_of_fit:
+    case Bondability::out_of_fit:
       ++outcome.rejected_out_of_fit;
       break;
-    case Verdict::bond:
+    case Bondability::bondable:
       ++outcome.bonds;
-      contact.equilibrium = -distance;
+      contact.formation_overlap = -distance;
       if (scene.bond.composite == Composite::replace) contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
-      area.add(bond_area(radius, law.width(radius, gap), gap, outcome.critical_thickness));
+      area.add(bond_area(radius, law.width(radius, thickness), thickness, outcome.critical_thickness));
   }
 }
 

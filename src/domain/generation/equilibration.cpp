@@ -45,8 +45,8 @@ void close_homogeneously(Simulation& simulation, double rate, double present_rat
 /// Closes the assembly to the target's void ratio, ever slower towards it, so that it arrives at rest: the force network of a
 /// flowing assembly would collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
 /// @return the lowest share of the friction that was needed
-double close_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction& friction, SettlingTarget const& target,
-                           ProgressCallback const& progress) {
+double compress_until_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction& friction,
+                                 CompressionTarget const& target, ProgressCallback const& progress) {
   constexpr int look = 10;                 // steps between looks at the stress
   constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
   constexpr double slowing_range = 0.004;  // in void ratio
@@ -54,8 +54,8 @@ double close_to_void_ratio(Simulation& simulation, Scene const& scene, Generatio
   double rate = 0, lowest = 1;
   while (simulation.void_ratio() > target.void_ratio + 1e-5) {
     double const above = simulation.void_ratio() - target.void_ratio;
-    double const hurry = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
-    double const slowed = full_rate * hurry * std::clamp(above / slowing_range, 0.05, 1.0);
+    double const rate_factor = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
+    double const slowed = full_rate * rate_factor * std::clamp(above / slowing_range, 0.05, 1.0);
     close_homogeneously(simulation, slowed, rate);
     rate = slowed;
     for (int n = 0; n < look; ++n) simulation.step();
@@ -138,11 +138,11 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
   return calm >= 3;
 }
 
-double settle(Simulation& simulation, Scene const& scene, GenerationFriction friction, SettlingTarget const& target,
-              ProgressCallback const& progress) {
+double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,
+                              CompressionTarget const& target, ProgressCallback const& progress) {
   prepare_servo(simulation, target.stress, target.inertial_number, target.d50, scene.run.dt_safety);
   AxisDrive const servo_x = simulation.loading.x, servo_y = simulation.loading.y;
-  double const lowest = close_to_void_ratio(simulation, scene, friction, target, progress);
+  double const lowest = compress_until_void_ratio(simulation, scene, friction, target, progress);
   // With the full friction back the assembly creeps no further.
   friction.share = 1;
   simulation.set_laws(generation_laws(scene, friction));

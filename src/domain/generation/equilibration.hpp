@@ -6,8 +6,8 @@
 
 namespace clathra {
 
-/// What a settled assembly should look like.
-struct SettlingTarget {
+/// The state that an assembly is to rest in.
+struct CompressionTarget {
   double stress = 50e3;   ///< isotropic [Pa]
   double void_ratio = 0;  ///< nominal
   double void_tolerance = 0.004;
@@ -37,8 +37,8 @@ SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& fri
 /// creeps no further. No search for a friction is needed.
 /// @return the lowest share;  @throws Refused where the target is denser than frictionless grains pack, or looser than full
 /// friction holds
-double settle(Simulation& simulation, Scene const& scene, GenerationFriction friction, SettlingTarget const& target,
-              ProgressCallback const& progress);
+double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,
+                              CompressionTarget const& target, ProgressCallback const& progress);
 
 /// Steps with walls (or the periodic cell) steered to an isotropic stress until it holds within 0.5 % and the unbalanced ratio is
 /// below `rest`.

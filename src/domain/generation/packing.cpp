@@ -51,7 +51,7 @@ void add_layer(Specimen& specimen, Grading const& grading, Layer const& layer, d
       return specimen.width() * static_cast<double>(layer.begin(p)) / static_cast<double>(layer.discs);
     };
     Region const region{specimen.left + edge(patch), from, edge(patch + 1) - edge(patch), height, false};
-    Placement const placed = place_loosely(radii, region, layer.seed, layer.stream_of(patch));
+    Placement const placed = place_by_random_addition(radii, region, layer.seed, layer.stream_of(patch));
     for (std::size_t i = 0; i < radii.size(); ++i) {
       specimen.id.push_back(static_cast<int>(layer.first_id + layer.begin(patch)) + static_cast<int>(i));
       specimen.x.push_back(placed.x[i]);
@@ -91,6 +91,33 @@ void compact(Simulation& simulation, double void_ratio, double stress, double sp
   }
 }
 
+/// All discs in layers, each compacted to its own void ratio of Jiang's rule on those below it; unjammed and without motion.
+/// @param counted  gets the disc-steps of all layers
+Specimen compacted_layers(Scene const& scene, SampleDesign const& design, SimulationLaws const& laws,
+                          ProgressCallback const& counted, std::int64_t& disc_steps, Ranks const& ranks) {
+  Specimen specimen;
+  specimen.right = design.width;
+  specimen.density = scene.grains.density;
+  specimen.d50 = design.grading.d50();
+  double const speed = 0.5 * std::sqrt(scene.bond.stress / scene.grains.density);
+  int const layers =
+      static_cast<int>(std::min<std::int64_t>(scene.sample.layers, std::max<std::int64_t>(1, design.particles / 50)));
+  for (int layer = 1; layer <= layers; ++layer) {
+    std::int64_t const upto = design.particles * layer / layers, before = design.particles * (layer - 1) / layers;
+    Layer const loose{before, upto - before, scene.run.seed, static_cast<std::uint64_t>(layer)};
+    add_layer(specimen, design.grading, loose, highest_point(specimen, ranks), speed, ranks);
+    Simulation simulation(specimen, laws, loose_skin * specimen.d50, ranks);
+    Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
+                         "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
+    compact(simulation, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, scene.bond.stress, speed, stage,
+            counted);
+    disc_steps += simulation.steps() * simulation.discs();
+    simulation.stop_discs();
+    specimen = simulation.specimen();
+  }
+  return specimen;
+}
+
 }  // namespace
 
 double under_compaction_void_ratio(double target, int layer, int layers, double excess, double exponent) {
@@ -111,38 +138,19 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   GenerationFriction knob;
   knob.shape_factor = design.void_ratio > 0.28 ? 2 : 1;  // friction alone packs to about 0.25, with impacts to 0.24
   SimulationLaws const laws = generation_laws(scene, knob);
-  Specimen specimen;
-  specimen.right = design.width;
-  specimen.density = scene.grains.density;
-  specimen.d50 = d50;
   PackedSpecimen packed;
   ProgressCallback const counted = [&](Progress p) {
     p.disc_steps += packed.disc_steps;  // of the layers before
     return !progress || progress(p);
   };
-  double const speed = 0.5 * std::sqrt(scene.bond.stress / scene.grains.density);
-  int const layers =
-      static_cast<int>(std::min<std::int64_t>(scene.sample.layers, std::max<std::int64_t>(1, design.particles / 50)));
-  for (int layer = 1; layer <= layers; ++layer) {
-    std::int64_t const upto = design.particles * layer / layers, before = design.particles * (layer - 1) / layers;
-    Layer const loose{before, upto - before, scene.run.seed, static_cast<std::uint64_t>(layer)};
-    add_layer(specimen, design.grading, loose, highest_point(specimen, ranks), speed, ranks);
-    Simulation simulation(specimen, laws, loose_skin * d50, ranks);
-    Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
-                         "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
-    compact(simulation, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, scene.bond.stress, speed, stage,
-            counted);
-    packed.disc_steps += simulation.steps() * simulation.discs();
-    simulation.stop_discs();
-    specimen = simulation.specimen();
-  }
+  Specimen const specimen = compacted_layers(scene, design, laws, counted, packed.disc_steps, ranks);
   Simulation simulation(specimen, laws, 0.1 * d50, ranks);
   simulation.stop_discs();
-  SettlingTarget target;
+  CompressionTarget target;
   target.stress = scene.bond.stress;
   target.void_ratio = design.void_ratio;
   target.d50 = d50;
-  double const share = settle(simulation, scene, knob, target, counted);
+  double const share = compress_to_void_ratio(simulation, scene, knob, target, counted);
   packed.disc_steps += simulation.steps() * simulation.discs();
   packed.specimen = simulation.specimen();
   packed.specimen.stress = scene.bond.stress;

@@ -21,7 +21,7 @@ struct PackedSpecimen {
 };
 
 /// Layer by layer: discs of the whole grading are placed loosely above the ones below, and the top wall compacts all of them to
-/// e_(i); then the walls settle to the bonding stress and the friction is lowered until the target void ratio is met.
+/// e_(i); then the walls are brought to the bonding stress and the friction is lowered until the target void ratio is met.
 PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
                                         Ranks const& ranks = {});
 

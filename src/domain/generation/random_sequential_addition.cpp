@@ -59,7 +59,8 @@ class Occupancy {
 
 }  // namespace
 
-Placement place_loosely(std::vector<double> const& radii, Region const& region, std::uint64_t seed, std::uint64_t stream) {
+Placement place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
+                                   std::uint64_t stream) {
   constexpr int most_tries = 20000;
   std::vector<std::size_t> order(radii.size());
   std::iota(order.begin(), order.end(), 0);

@@ -15,9 +15,10 @@ struct Placement {
   std::vector<double> x, y;
 };
 
-/// Places discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). A region that
+/// IdIndex discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). A region that
 /// proves too small for random addition (more than about 55 % solid) is refused.
 /// @return centres in the order of `radii`;  @throws std::runtime_error where a disc finds no place
-Placement place_loosely(std::vector<double> const& radii, Region const& region, std::uint64_t seed, std::uint64_t stream);
+Placement place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
+                                   std::uint64_t stream);
 
 }  // namespace clathra

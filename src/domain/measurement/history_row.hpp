@@ -16,9 +16,10 @@ struct HistoryRow {
   double void_ratio = 0;                                    ///< nominal
   std::int64_t bonds_intact = 0;
   double intact_initial_pct = 0;                ///< of the bonds at installation
-  double intact_mechanical_pct = 0;             ///< bonded / (touching or bonded), the paper's measure
+  double intact_interacting_pct = 0;            ///< bonded / (touching or bonded), the paper's measure
   BreakCounts broken;                           ///< bonds since the start of the shear, by mode
-  double coordination = 0;                      ///< 2 * mechanical contacts / discs
+  double coordination = 0;                      ///< 2 * interacting pairs / discs
+  double mechanical_coordination = 0;           ///< the same without rattlers (Thornton 2000)
   double inertial_number = 0, wave_number = 0;  ///< I and W
   double unbalanced = 0;                        ///< mean unbalanced force / mean contact force
 };
@@ -39,9 +40,10 @@ void for_each_column(Row& row, Visit&& visit) {
   visit("void_ratio", row.void_ratio);
   visit("bonds_intact", row.bonds_intact);
   visit("intact_initial_pct", row.intact_initial_pct);
-  visit("intact_mechanical_pct", row.intact_mechanical_pct);
+  visit("intact_interacting_pct", row.intact_interacting_pct);
   for (BreakModeNames const& m : break_modes) visit(m.broken, row.broken[m.mode]);
   visit("coordination", row.coordination);
+  visit("mechanical_coordination", row.mechanical_coordination);
   visit("inertial_number", row.inertial_number);
   visit("wave_number", row.wave_number);
   visit("unbalanced", row.unbalanced);

@@ -52,7 +52,7 @@ void copy_discs(Snapshot& s, Simulation const& simulation) {
   s.stress_xx = listed<float>(loads.stress_xx, n);
   s.stress_yy = listed<float>(loads.stress_yy, n);
   s.stress_xy = listed<float>(loads.stress_xy, n);
-  s.coordination = listed<std::uint8_t>(loads.carriers, n);
+  s.coordination = listed<std::uint8_t>(loads.active_contacts, n);
   s.bonds_intact = listed<std::uint8_t>(loads.bonds, n);
   s.bonds_initial = s.bonds_intact;
 }
@@ -133,14 +133,14 @@ BrokenHere broken_here(Ranks const& ranks, Snapshot const& s, int discs, std::ve
 
 /// Marks the pairs whose bond broke, and appends those that no longer touch.
 void add_broken_pairs(Snapshot& s, BrokenHere const& broken) {
-  std::size_t const carriers = s.a.size();
+  std::size_t const active_contacts = s.a.size();
   auto const place = [&](auto number) { return static_cast<std::size_t>(number) - static_cast<std::size_t>(s.first_disc); };
   for (std::size_t const number : broken.second) ++s.bonds_initial[place(number)];
   for (BrokenPair const& pair : broken.first) {
     auto const a = static_cast<std::int32_t>(pair.a), b = static_cast<std::int32_t>(pair.b);
     std::size_t const i = place(pair.a);
     ++s.bonds_initial[i];
-    auto const end = s.a.begin() + static_cast<std::ptrdiff_t>(carriers);
+    auto const end = s.a.begin() + static_cast<std::ptrdiff_t>(active_contacts);
     auto const [from, to] = std::equal_range(s.a.begin(), end, a);
     auto at = static_cast<std::size_t>(from - s.a.begin());
     while (at < static_cast<std::size_t>(to - s.a.begin()) && s.b[at] != b) ++at;

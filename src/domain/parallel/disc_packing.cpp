@@ -22,13 +22,13 @@ auto on_host_view(Vector& numbers) {
   return Kokkos::View<Number*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(numbers.data(), numbers.size());
 }
 
-/// Writes records but for the companions, for which it leaves room.
+/// Writes records but for the auxiliary fields, for which it leaves room.
 template <class Numbers>
 struct Pack {
   Field<int> which;
   ParticleSoA p;
   ContactRows rows;
-  int companions;
+  int auxiliary;
   Offsets begin;
   Numbers numbers;
 
@@ -36,7 +36,7 @@ struct Pack {
     int const i = which(k), length = rows.length(i);
     auto at = begin(k);
     for_each_field(p, [&](DiscField const&, auto const& field) { numbers(at++) = field(i); });
-    at += companions;
+    at += auxiliary;
     numbers(at++) = length;
     for (int n = 0; n < length; ++n) {
       std::size_t const e = rows.entry(i, n);
@@ -53,12 +53,12 @@ struct Unpack {
   int first;  // where the new discs go
   ParticleSoA p;
   ContactRows rows;
-  int companions;
+  int auxiliary;
 
   KOKKOS_FUNCTION void operator()(int k) const {
     auto at = begin(k);
     for_each_field(p, [&, i = first + k](DiscField const&, auto const& field) { field(i) = as_in(field, numbers(at++)); });
-    at += companions;
+    at += auxiliary;
     auto const length = static_cast<int>(numbers(at++));
     rows.length(k) = length;
     for (int n = 0; n < length; ++n) {
@@ -73,7 +73,7 @@ struct Unpack {
   }
 };
 
-/// One companion of all discs, to or from its place `offset` behind the beginning of their records.
+/// One auxiliary field of all discs, to or from its place `offset` behind the beginning of their records.
 template <class T, class Numbers>
 struct PackCompanion {
   Field<int> which;
@@ -127,21 +127,21 @@ std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) 
 
 }  // namespace
 
-RecordColumns record_columns(Companions const& companions, ContactFeatures const& features) {
+RecordColumns record_columns(AuxiliaryFields const& auxiliary, ContactFeatures const& features) {
   RecordColumns columns;
   ParticleSoA const none;
   for_each_field(none, [&](DiscField const& about, auto const&) { columns.discs.emplace_back(about.name); });
   columns.discs.erase(columns.discs.begin());  // the id stands for itself
-  for (Companion const& companion : companions) columns.discs.emplace_back(companion.name);
+  for (AuxiliaryField const& field : auxiliary) columns.discs.emplace_back(field.name);
   ContactRows rows;
   rows.features = features;
   for_each_history(rows, [&](HistoryField const& about, auto const&) { columns.history.emplace_back(about.name); });
   return columns;
 }
 
-DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companions, ContactRows const& rows,
+DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows,
                        std::vector<int> const& which) {
-  auto const others = static_cast<int>(companions.size());
+  auto const others = static_cast<int>(auxiliary.size());
   int const state = state_columns(), entry = 1 + history_columns(rows.features);
   auto const n = static_cast<int>(which.size());
   Field<int> const indices = on_device("packed", which), length = uninitialised<int>("packed_lengths", which.size());
@@ -159,7 +159,7 @@ DiscRecords pack_discs(ParticleSoA const& particles, Companions const& companion
   Offsets const begin = on_device("record_offsets", signed_offsets(records.begin));
   Kokkos::parallel_for("pack_discs", each, Pack<Numbers>{indices, particles, rows, others, begin, numbers});
   int offset = state;
-  for_each_companion(companions, [&]<class T>(Field<T> const& field) {
+  for_each_auxiliary_field(auxiliary, [&]<class T>(Field<T> const& field) {
     Kokkos::parallel_for("pack_companion", each, PackCompanion<T, Numbers>{indices, field, begin, offset++, numbers});
   });
   Kokkos::fence();
@@ -203,10 +203,10 @@ DiscRecords with_columns(DiscRecords records, RecordColumns const& present, Reco
 }
 
 ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures const& features, ParticleSoA& particles,
-                         Companions const& companions) {
+                         AuxiliaryFields const& auxiliary) {
   ContactRows rows;
   rows.features = features;
-  auto const others = static_cast<int>(companions.size());
+  auto const others = static_cast<int>(auxiliary.size());
   int const state = state_columns(), columns = state + others, histories = history_columns(features);
   std::vector<std::int64_t> begin;
   std::vector<int> slice_start{0};
@@ -226,7 +226,7 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   reserve(particles, first + came);
   particles.owned = first + came;
   particles.ghosts = 0;
-  for_each_companion(companions, [&](auto& field) { Kokkos::resize(field, particles.x.extent(0)); });
+  for_each_auxiliary_field(auxiliary, [&](auto& field) { Kokkos::resize(field, particles.x.extent(0)); });
   fill_padding(particles);
   rows.slice_start = on_device("rows.slice_start", slice_start);
   rows.length = uninitialised<int>("rows.length", begin.size());
@@ -238,7 +238,7 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   Kokkos::RangePolicy<ExecutionSpace> const each(0, came);
   Kokkos::parallel_for("unpack_discs", each, Unpack<Numbers>{reached, offsets, first, particles, rows, others});
   int offset = state;
-  for_each_companion(companions, [&]<class T>(Field<T> const& field) {
+  for_each_auxiliary_field(auxiliary, [&]<class T>(Field<T> const& field) {
     Kokkos::parallel_for("unpack_companion", each, UnpackCompanion<T, Numbers>{reached, offsets, offset++, first, field});
   });
   Kokkos::fence();  // the numbers are the caller's

@@ -1,13 +1,13 @@
 #pragma once
-/// Discs by value, each with its companions and its row, as a string of numbers: how they travel to other ranks and to
+/// Discs by value, each with its auxiliary fields and its row, as a string of numbers: how they travel to other ranks and to
 /// checkpoints.
 #include <string>
 #include <vector>
 
 namespace clathra {
 
-/// Discs in a row of numbers. One record: the disc's fields from the id on, its companions, the length of its row, and for each
-/// entry the neighbour's id and the history.
+/// Discs in a row of numbers. One record: the disc's fields from the id on, its auxiliary fields, the length of its row, and for
+/// each entry the neighbour's id and the history.
 struct DiscRecords {
   std::vector<std::size_t> begin{0};  ///< [discs + 1] where each record begins
   std::vector<double> numbers;

@@ -7,10 +7,10 @@
 namespace clathra {
 
 /// Indices of discs by id.
-class Places {
+class IdIndex {
  public:
   template <class Ids>
-  Places(Ids const& id, int discs) {
+  IdIndex(Ids const& id, int discs) {
     for (int i = 0; i < discs; ++i) sorted_.emplace_back(id(i), i);
     std::sort(sorted_.begin(), sorted_.end());
   }

@@ -27,19 +27,19 @@ std::vector<int> owners(Decomposition const& decomposition, ParticleSoA const& p
 }
 
 /// Drops the discs that left: their rows stay in `old`, where no slot names them any more.
-void keep_only(std::vector<int> const& staying, ParticleSoA& particles, Companions const& companions, Field<int>& slot) {
+void keep_only(std::vector<int> const& staying, ParticleSoA& particles, AuxiliaryFields const& auxiliary, Field<int>& slot) {
   Field<int> const order = uninitialised<int>("staying", staying.size());
   auto host = Kokkos::create_mirror_view(order);
   for (std::size_t k = 0; k < staying.size(); ++k) host(k) = staying[k];
   Kokkos::deep_copy(order, host);
   permute(particles, order);
   slot = permuted(slot, order, staying.size());
-  for_each_companion(companions, [&](auto& field) { field = permuted(field, order, particles.x.extent(0)); });
+  for_each_auxiliary_field(auxiliary, [&](auto& field) { field = permuted(field, order, particles.x.extent(0)); });
 }
 
 }  // namespace
 
-void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, Companions const& companions,
+void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, AuxiliaryFields const& auxiliary,
              OldRows& old, Field<int>& slot) {
   std::vector<int> const owner = owners(decomposition, particles);
   std::vector<std::vector<int>> leaving(static_cast<std::size_t>(ranks.count()));
@@ -56,13 +56,13 @@ void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA
     unknown.length = Field<int>("no_rows", static_cast<std::size_t>(particles.owned));
   }
   for (std::size_t r = 0; r < leaving.size(); ++r) {
-    if (!leaving[r].empty()) to[r] = pack_discs(particles, companions, rows_known ? old.here : unknown, leaving[r]).numbers;
+    if (!leaving[r].empty()) to[r] = pack_discs(particles, auxiliary, rows_known ? old.here : unknown, leaving[r]).numbers;
   }
-  if (static_cast<int>(staying.size()) < particles.owned) keep_only(staying, particles, companions, slot);
+  if (static_cast<int>(staying.size()) < particles.owned) keep_only(staying, particles, auxiliary, slot);
   std::vector<double> came;
   for (std::vector<double> const& part : ranks.exchange(std::move(to))) came.insert(came.end(), part.begin(), part.end());
   int const first = particles.owned;
-  old.arrived = unpack_discs(came, old.here.features, particles, companions);
+  old.arrived = unpack_discs(came, old.here.features, particles, auxiliary);
   Kokkos::resize(slot, static_cast<std::size_t>(particles.owned));
   Kokkos::parallel_for("number_arrivals", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned - first),
                        NumberArrivals{slot, first, old.slots_here});

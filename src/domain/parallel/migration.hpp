@@ -5,10 +5,10 @@
 
 namespace clathra {
 
-/// Gives the discs that lie in other ranks' rectangles to these, with their rows and companions, and takes those that came. The
-/// discs that stay keep their order; those that came stand behind them.
+/// Gives the discs that lie in other ranks' rectangles to these, with their rows and auxiliary fields, and takes those that came.
+/// The discs that stay keep their order; those that came stand behind them.
 /// @param slot  [owned] the slot of each disc in `old`; brought up to date
-void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, Companions const& companions,
+void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, AuxiliaryFields const& auxiliary,
              OldRows& old, Field<int>& slot);
 
 }  // namespace clathra

@@ -104,7 +104,7 @@ BondLaw make_bond_law(Scene const& scene, double critical_thickness) {
   law.thickness_partner = critical_thickness;
   if (scene.bond.law == BondLawKind::constant_thickness) {
     double const plate = scene.bond.plate_thickness > 0 ? scene.bond.plate_thickness : critical_thickness / 2;
-    law.gap_weight = 0;
+    law.thickness_weight = 0;
     law.plate_thickness = plate;
     law.thickness_partner = plate;
   }
@@ -125,28 +125,28 @@ BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, dou
   BondCard card;
   card.h_max = h_max;
   card.common_radius = common_radius(r1, r2);
-  card.gap = law.gap(-gap);
-  card.B = law.width(card.common_radius, card.gap);
-  card.h0 = effective_thickness(card.gap, law.thickness_partner);
-  card.area = bond_area(card.common_radius, card.B, card.gap, h_max);
+  card.thickness = law.bond_thickness(-gap);
+  card.B = law.width(card.common_radius, card.thickness);
+  card.h0 = effective_thickness(card.thickness, law.thickness_partner);
+  card.area = bond_area(card.common_radius, card.B, card.thickness, h_max);
   card.q_c = solid.compression;
   card.q_t = solid.tension;
   card.E_m = solid.modulus;
-  card.R_t = tensile_strength(law.strength, card.B, card.gap);
-  card.R_c = compressive_strength(law.strength, card.B, card.gap);
+  card.R_t = tensile_strength(law.strength, card.B, card.thickness);
+  card.R_c = compressive_strength(law.strength, card.B, card.thickness);
   card.k_mh = card.h0 > 0 ? card.B * law.modulus / card.h0 : 0;
-  ContactStiffness<double> const stiffness = law.stiffness(card.B, card.gap);
+  ContactStiffness<double> const stiffness = law.stiffness(card.B, card.thickness);
   card.k_bn = stiffness.normal;
   card.k_bs = stiffness.shear;
   card.k_bm = stiffness.rolling;
-  card.f_s = shape_of_shear(card.gap);
-  card.K_s = shear_slope(card.gap);
-  card.f_r = shape_of_rolling(card.gap);
-  card.K_r = rolling_slope(card.gap);
+  card.f_s = shape_of_shear(card.thickness);
+  card.K_s = shear_slope(card.thickness);
+  card.f_r = shape_of_rolling(card.thickness);
+  card.K_r = rolling_slope(card.thickness);
   card.moment_length = moment_length(law.strength, card.B);
   card.bonded = scene.bond.law != BondLawKind::none && h_max > 0 && gap < h_max && card.R_t > 0 && card.R_c > 0;
 
-  BondStrength strength = bond_strength(law.strength, card.B, card.gap);
+  BondStrength strength = bond_strength(law.strength, card.B, card.thickness);
   card.R_s = strength.shear(normal_force);
   strength.moment_slope = card.f_r * card.K_r;  // without L_r, which may be 0 for a bond of no width
   card.R_r_per_length = strength.rolling(normal_force);

@@ -49,7 +49,7 @@ BondLaw make_bond_law(Scene const& scene, double critical_thickness);
 struct BondCard {
   bool bonded;  ///< 0 < h_max, gap < h_max and R_t > 0
   double h_max, common_radius;
-  double gap;  ///< h_cr: the gap, 0 for an overlap; t_0 for the constant-thickness law
+  double thickness;  ///< h_cr: the gap, 0 for an overlap; t_0 for the constant-thickness law
   double B, h0, area;
   double q_c, q_t, E_m;  ///< of the hydrate's state by Eqs. 13 and 18, whichever coefficients the strengths below use
   double R_t, R_c, k_mh, k_bn, k_bs, k_bm, f_s, K_s, f_r, K_r;

@@ -15,9 +15,9 @@ struct SpecimenContact {
   int id_a = 0, id_b = 0;
   double shear = 0;                        ///< F_s [N/m], equal on both sides
   double moment = 0;                       ///< M on disc a [N m/m]
-  double equilibrium = no_bond;            ///< u_0 of an intact bond [m]
+  double formation_overlap = no_bond;      ///< u_0 of an intact bond [m]
   double bond_shear = 0, bond_moment = 0;  ///< of a bond in parallel to the grain contact
-  bool bonded() const { return equilibrium < 0.5 * no_bond; }
+  bool bonded() const { return formation_overlap < 0.5 * no_bond; }
 };
 
 /// The history of a contact, number by number. Each has the name of a field of the rows (for_each_possible_history()).
@@ -26,11 +26,12 @@ struct ContactNumber {
   double SpecimenContact::*of;
   char const* unit;
 };
-inline constexpr ContactNumber contact_numbers[] = {{"shear", &SpecimenContact::shear, "N/m"},
-                                                    {"moment", &SpecimenContact::moment, "N m/m"},
-                                                    {"equilibrium", &SpecimenContact::equilibrium, "m (1e300 = not bonded)"},
-                                                    {"bond_shear", &SpecimenContact::bond_shear, "N/m"},
-                                                    {"bond_moment", &SpecimenContact::bond_moment, "N m/m"}};
+inline constexpr ContactNumber contact_numbers[] = {
+    {"shear", &SpecimenContact::shear, "N/m"},
+    {"moment", &SpecimenContact::moment, "N m/m"},
+    {"formation_overlap", &SpecimenContact::formation_overlap, "m (1e300 = not bonded)"},
+    {"bond_shear", &SpecimenContact::bond_shear, "N/m"},
+    {"bond_moment", &SpecimenContact::bond_moment, "N m/m"}};
 
 /// Contacts as rows of numbers, to send them to other ranks.
 inline constexpr std::size_t numbers_of_contact = 2 + std::size(contact_numbers);

@@ -61,4 +61,20 @@ void BrokenBonds::read(SimulationState& state, Ranks const& ranks) {
   }
 }
 
+std::vector<BreakEvent> gathered(Ranks const& ranks, std::vector<BreakEvent> events) {
+  if (ranks.alone()) return events;
+  std::vector<double> numbers;
+  for (BreakEvent const& e : events)
+    numbers.insert(numbers.end(), {static_cast<double>(e.step), double(e.id_a), double(e.id_b), double(e.mode), e.x, e.y});
+  numbers = ranks.gather(numbers);
+  events.clear();
+  for (std::size_t k = 0; k < numbers.size(); k += 6) {
+    double const* const n = &numbers[k];
+    events.push_back(
+        {static_cast<std::int64_t>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3]), n[4], n[5]});
+  }
+  std::sort(events.begin(), events.end(), comes_before);
+  return events;
+}
+
 }  // namespace clathra

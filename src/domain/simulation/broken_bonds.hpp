@@ -40,4 +40,7 @@ class BrokenBonds {
   BreakCounts counts_;
 };
 
+/// The events of all ranks on rank 0, sorted by (step, id_a, id_b); nothing elsewhere.
+std::vector<BreakEvent> gathered(Ranks const& ranks, std::vector<BreakEvent> events);
+
 }  // namespace clathra

@@ -35,10 +35,10 @@ WallReactions Simulation::push_walls(Real dt) {
 void Simulation::step() {
   loading.move(walls_, time_step);
   Kokkos::Timer const moving;
-  Real const longest_way = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
+  Real const largest_displacement = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
   busy_seconds_ += moving.seconds();
   if (periodic()) stretch_homogeneously();
-  if (rebuild_pending_ || outdated(ranks_.max(longest_way))) {
+  if (rebuild_pending_ || outdated(ranks_.max(largest_displacement))) {
     rebuild();
   } else {
     refresh_ghosts();
@@ -57,15 +57,15 @@ void Simulation::step() {
   if (step_ % check_every == 0) throw_if_unstable();
 }
 
-/// @param also  what goes with the discs beside companions()
-void Simulation::rebuild(bool leeway_by_speed, Companions const& also) {
+/// @param also  what goes with the discs beside auxiliary_fields()
+void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
   throw_if_unstable();  // discs that are nowhere have no cell
   Kokkos::Timer const clock;
   broken_bonds_.collect();
   if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
   Real const bonded_gap = ranks_.max(widest_bonded_gap(particles_, rows_));
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  Companions const with_discs = with(companions(wall_shear), also);
+  AuxiliaryFields const with_discs = with(auxiliary_fields(wall_shear), also);
   OldRows old = take_as_old(particles_, rows_);
   Field<int> slot = slots_of_discs(particles_, old);
   if (!ranks_.alone()) {
@@ -74,21 +74,21 @@ void Simulation::rebuild(bool leeway_by_speed, Companions const& also) {
     migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
   }
   Field<int> const order = sort_in_space(particles_, old, slot, skin_, sorting_is_due());
-  for_each_companion(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0)); });
-  Real const widest_leeway =
-      ranks_.max(in_range([&] { return give_leeway(particles_, frame(), leeway_range(leeway_by_speed), sums_); }));
-  reach_ = 2 * largest_radius_ + std::max(2 * widest_leeway, bonded_gap);
+  for_each_auxiliary_field(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0)); });
+  Real const largest_skin =
+      ranks_.max(in_range([&] { return assign_verlet_skins(particles_, frame(), skin_range(skin_by_speed), sums_); }));
+  reach_ = 2 * largest_radius_ + std::max(2 * largest_skin, bonded_gap);
   if (periodic()) images_.rebuild(particles_, cell_, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
-  refresh_ghosts(particles_.leeway);
-  search_bytes_ = std::max(search_bytes_, find_neighbours(particles_, widest_leeway, old, slot, rows_, faults_, bonded_gap));
+  refresh_ghosts(particles_.verlet_skin);
+  search_bytes_ = std::max(search_bytes_, find_neighbours(particles_, largest_skin, old, slot, rows_, faults_, bonded_gap));
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
   if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
   mark_reference(particles_);
   reference_walls_ = walls_;
   reference_cell_ = cell_;
-  strayed_ = 0;
+  nonaffine_displacement_ = 0;
   rebuild_pending_ = false;
   ++rebuilds_;
   Kokkos::fence();
@@ -115,8 +115,8 @@ void Simulation::rebalance_if_it_pays() {
   busy_seconds_ = 0;
 }
 
-Companions Simulation::companions(WallShear& wall_shear) {
-  Companions with_discs;
+AuxiliaryFields Simulation::auxiliary_fields(WallShear& wall_shear) {
+  AuxiliaryFields with_discs;
   for_each_account(losses_, {}, [&](char const* name, Field<Accum>& account, bool) {
     if (account.extent(0) > 0) with_discs.push_back({name, &account});
   });
@@ -157,7 +157,7 @@ AffineFrame Simulation::frame() const {
 }
 
 /// A periodic cell must stay twice as wide as neighbours reach.
-LeewayRange Simulation::leeway_range(bool by_speed) const {
+SkinRange Simulation::skin_range(bool by_speed) const {
   constexpr Real times = 5;
   Real const least = skin_ / 2;
   if (!by_speed) return {least, least};
@@ -166,19 +166,20 @@ LeewayRange Simulation::leeway_range(bool by_speed) const {
   return {least, std::max(most, least)};
 }
 
-/// Whether two discs that are not in each other's rows could touch: the greatest share of its leeway that a disc has strayed off
-/// the homogeneous motion, plus what the homogeneous motion itself brings two discs nearer, as a share of the least leeway. Ways
-/// are added up until they could amount to that, and only then is it looked where the discs are.
-/// @param longest_way  of a disc of any rank in this step [m]
-bool Simulation::outdated(Real longest_way) {
+/// Whether two discs that are not in each other's rows could touch: the largest non-affine displacement of a disc as a share of
+/// its skin, plus what the homogeneous motion itself brings two discs nearer, as a share of the least skin. Displacements a step
+/// are added up until they could amount to that, and only then are the discs' own ones computed.
+/// @param largest_displacement  of a disc of any rank in this step [m]
+bool Simulation::outdated(Real largest_displacement) {
   AffineFrame const f = frame();
   Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
   Real const spent = closing * (2 * largest_radius_ / skin_ + 1);
-  Real const way_of_frame = periodic() ? 0 : (walls_.largest_speed(left, right) + walls_.largest_speed(bottom, top)) * time_step;
-  strayed_ += (longest_way + way_of_frame) / leeway_range(false).least;
-  if (strayed_ * (1 + closing) + spent < 1) return false;
-  strayed_ = std::sqrt(ranks_.max(largest_stray2(particles_, f)));
-  return strayed_ + spent >= 1;
+  Real const frame_displacement =
+      periodic() ? 0 : (walls_.largest_speed(left, right) + walls_.largest_speed(bottom, top)) * time_step;
+  nonaffine_displacement_ += (largest_displacement + frame_displacement) / skin_range(false).least;
+  if (nonaffine_displacement_ * (1 + closing) + spent < 1) return false;
+  nonaffine_displacement_ = std::sqrt(ranks_.max(largest_nonaffine_displacement2(particles_, f)));
+  return nonaffine_displacement_ + spent >= 1;
 }
 
 void Simulation::account_boundary_work(WallReactions const& before) {

@@ -12,16 +12,17 @@
 #include "domain/simulation/periodic_images.hpp"
 #include "domain/simulation/simulation_state.hpp"
 #include "kernels/forces.hpp"
-#include "kernels/leeway.hpp"
 #include "kernels/measures.hpp"
 #include "kernels/neighbours.hpp"
 #include "kernels/stability.hpp"
+#include "kernels/verlet_skin.hpp"
 #include "kernels/walls.hpp"
 
 namespace clathra {
 
-/// Verlet skin of a test that asks for none, in d50; discs get 1.2 times that on the average (leeway.hpp). Where bonds break all
-/// the time it was the fastest of 0.08, 0.10, 0.12 and 0.16; elsewhere it costs 2 % at most against 0.08 (docs/performance.md).
+/// Verlet skin of a test that asks for none, in d50; discs get 1.2 times that on the average (verlet_skin.hpp). Where bonds break
+/// all the time it was the fastest of 0.08, 0.10, 0.12 and 0.16; elsewhere it costs 2 % at most against 0.08
+/// (docs/performance.md).
 inline constexpr double chosen_skin = 0.12;
 
 /// What the discs obey. Features follow from it: rolling moments, bonds, a separate bond history, a ledger exist only if asked
@@ -47,7 +48,7 @@ class Simulation {
  public:
   /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
   /// @param specimen  this rank's share of it: each disc and each contact on one rank, whichever
-  /// @param skin  Verlet skin [m], surface to surface, of discs at rest; those that fly have more (leeway.hpp)
+  /// @param skin  Verlet skin [m], surface to surface, of discs at rest; those that fly have more (verlet_skin.hpp)
   Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin, Ranks ranks = {});
 
   /// Goes on from a state, on any number of ranks, with the bits of the simulation that gave it.
@@ -135,19 +136,19 @@ class Simulation {
 
  private:
   void refresh_ghosts() const;  // all of their state
-  void rebuild(bool leeway_by_speed = true, Companions const& also = {});
+  void rebuild(bool skin_by_speed = true, AuxiliaryFields const& also = {});
   void adopt_discs(Specimen const& specimen);
   void inject(Specimen const& specimen);
   AffineFrame frame() const;
-  LeewayRange leeway_range(bool by_speed) const;
-  bool outdated(Real longest_way);
+  SkinRange skin_range(bool by_speed) const;
+  bool outdated(Real largest_displacement);
   void stretch_homogeneously();
   bool sorting_is_due();
   void rebalance_if_it_pays();
-  Companions companions(WallShear& wall_shear);
+  AuxiliaryFields auxiliary_fields(WallShear& wall_shear);
   void set_sums();
-  Companions forces();
-  Companions derived();
+  AuxiliaryFields forces();
+  AuxiliaryFields derived();
   SpringNetwork springs() const;
   AcrossRanks across() const;
   template <class Work>
@@ -182,9 +183,9 @@ class Simulation {
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Coord> start_x_, start_y_;
-  int searches_until_sorting_ = 0;  // in space; the first sorts
-  Real strayed_ = 1e300;            // at most, since the last search, as a share of a leeway
-  double busy_seconds_ = 0;         // of this rank since the cuts were made
+  int searches_until_sorting_ = 0;       // in space; the first sorts
+  Real nonaffine_displacement_ = 1e300;  // at most, since the last search, as a share of a skin
+  double busy_seconds_ = 0;              // of this rank since the cuts were made
   bool rebuild_pending_ = true;
   std::size_t search_bytes_ = 0;  // at most
 };

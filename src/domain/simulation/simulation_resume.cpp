@@ -69,15 +69,15 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("servo_contact_stiffness", loading.servo.contact_stiffness);
 }
 
-Companions Simulation::forces() {
-  Companions all;
+AuxiliaryFields Simulation::forces() {
+  AuxiliaryFields all;
   for_each_force(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
   return all;
 }
 
 /// What is derived from the state but must not be derived anew: forces, and where the last search found the discs.
-Companions Simulation::derived() {
-  Companions all;
+AuxiliaryFields Simulation::derived() {
+  AuxiliaryFields all;
   for_each_derived_field(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
   return all;
 }
@@ -89,7 +89,7 @@ SimulationState Simulation::state() {
   for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
   s.numbers["marked_start"] = start_x_.extent(0) > 0 ? 1 : 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  Companions const with_discs = with(companions(wall_shear), derived());
+  AuxiliaryFields const with_discs = with(auxiliary_fields(wall_shear), derived());
   ContactRows named = rows_;
   named.neighbour = uninitialised<int>("named", rows_.neighbour.extent(0));
   Kokkos::deep_copy(named.neighbour, rows_.neighbour);
@@ -117,15 +117,15 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   if (state.numbers.at("marked_start") != 0) mark_start();
   wall_contacts_.rough = laws_.wall.friction > 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  Companions with_discs = with(companions(wall_shear), derived());
+  AuxiliaryFields with_discs = with(auxiliary_fields(wall_shear), derived());
   auto const& columns = state.disc_columns;
-  bool const one_leeway = std::find(columns.begin(), columns.end(), "leeway") == columns.end();
-  if (one_leeway) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
+  bool const one_skin = std::find(columns.begin(), columns.end(), "verlet_skin") == columns.end();
+  if (one_skin) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
   state.discs = with_columns(std::move(state.discs), {state.disc_columns, state.history_columns},
                              record_columns(with_discs, laws_.features()));
   rows_ = unpack_discs(brought_home(std::move(state.discs)), laws_.features(), particles_, with_discs);
-  if (one_leeway) Kokkos::deep_copy(particles_.leeway, skin_ / 2);
-  // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their leeways.
+  if (one_skin) Kokkos::deep_copy(particles_.verlet_skin, skin_ / 2);
+  // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their skins.
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * (reach_ - 2 * largest_radius_));
   find_listed_neighbours();
   prepare_rows(particles_, rows_, laws_.contact.bond);
@@ -166,7 +166,7 @@ void Simulation::find_listed_neighbours() {
   auto const slice_start = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.slice_start);
   auto const listed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.neighbour);
   std::vector<int> index(listed.extent(0), particles_.padding());
-  Places const places(id, particles_.all());
+  IdIndex const places(id, particles_.all());
   bool lost = false;
   for (int i = 0; i < particles_.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {

@@ -128,7 +128,7 @@ void require_finite(Ranks const& ranks, Specimen const& s) {
 }
 
 /// The contacts with a disc of this rank that stand in another rank's share of the specimen.
-std::vector<SpecimenContact> contacts_from_others(Ranks const& ranks, Specimen const& s, std::int64_t discs, Places const& here,
+std::vector<SpecimenContact> contacts_from_others(Ranks const& ranks, Specimen const& s, std::int64_t discs, IdIndex const& here,
                                                   std::vector<int> const& ids) {
   if (ranks.alone()) return {};
   std::vector<int> elsewhere;
@@ -167,7 +167,7 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin,
   // The first search must reach the widest bond; the skin is its own again afterwards.
   Real const own_skin = skin_;
   skin_ = std::max(skin_, widest_gap(ranks_, s, total) * (1 + 1e-9));
-  rebuild(/*leeway_by_speed=*/false);
+  rebuild(/*skin_by_speed=*/false);
   skin_ = own_skin;
   rebuild_pending_ = true;
   inject(s);
@@ -205,7 +205,7 @@ void Simulation::adopt_discs(Specimen const& s) {
 void Simulation::inject(Specimen const& s) {
   auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
              neighbour = download(rows_.neighbour);
-  Places const at(id, particles_.owned);
+  IdIndex const at(id, particles_.owned);
   HistoryOnHost history(rows_);
   auto const write = [&](SpecimenContact const& c) {
     for (auto const& [mine, other, is_first] : {std::tuple{c.id_a, c.id_b, true}, std::tuple{c.id_b, c.id_a, false}}) {
@@ -240,7 +240,7 @@ Specimen Simulation::specimen() const {
   s.separate_bonds = laws_.contact.bond_kind == BondKind::parallel;
   s.critical_thickness = laws_.contact.bond_kind == BondKind::none ? 0 : critical_thickness_;
   auto const n = static_cast<std::size_t>(particles_.owned);
-  Places const places(download(particles_.id), particles_.owned);
+  IdIndex const places(download(particles_.id), particles_.owned);
   for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
   for_each_column_of_specimen(particles_, [&](auto const& field, ParticleColumn const& column) {
     auto const host = download(field);

@@ -243,6 +243,8 @@ Hdf5File::OpenColumn Hdf5File::open_column(std::string const& name, std::size_t 
   return {std::move(column), std::move(space), shape[0]};
 }
 
+bool Hdf5File::has(std::string const& name) const { return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0; }
+
 std::size_t Hdf5File::rows_of(std::string const& name) const { return open_column(name, any_size, 1).rows; }
 
 template <class T>

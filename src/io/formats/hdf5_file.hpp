@@ -46,6 +46,7 @@ class Hdf5File {
   static constexpr std::size_t any_size = static_cast<std::size_t>(-1);
   template <class T>
   std::vector<T> read(std::string const& name, std::size_t size, std::size_t width = 1) const;
+  bool has(std::string const& name) const;             ///< whether there is a column of this name, in a group that there is
   std::size_t rows_of(std::string const& name) const;  ///< of a column; @throws FileProblem bad_input
   /// Some rows of a column.
   template <class T>

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "domain/measurement/test_numbers.hpp"
 #include "io/report/markup.hpp"
-#include "io/report/test_numbers.hpp"
 
 namespace clathra {
 namespace {
@@ -38,7 +38,7 @@ std::string stress_figure(std::vector<RunResults> const& runs) {
   Plot plot = plot_of(runs, "q_Pa", mega, "deviator stress q [MPa]");
   plot.title = "Deviator stress against axial strain";
   for (RunResults const& run : runs) {
-    TestNumbers const n = test_numbers(run.history);
+    TestNumbers const n = test_numbers(run.history.curves());
     plot.description += fmt::format("{}: peak {:.3g} MPa at {:.3g} %, residual {:.3g} MPa. ", run_label(run), n.peak_q * mega,
                                     n.peak_eps1 * percent, n.residual_q * mega);
   }

@@ -7,14 +7,15 @@
 #include <functional>
 #include <numeric>
 
+#include "domain/measurement/principal_axes.hpp"
+#include "domain/measurement/strain_field.hpp"
+#include "domain/measurement/test_numbers.hpp"
 #include "io/report/curves.hpp"
-#include "io/report/fabric.hpp"
 #include "io/report/grading_figure.hpp"
 #include "io/report/maps.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/png.hpp"
-#include "io/report/strain_field.hpp"
-#include "io/report/test_numbers.hpp"
+#include "io/report/rose_diagrams.hpp"
 #include "io/results/snapshot_file.hpp"
 
 namespace clathra {
@@ -182,6 +183,7 @@ std::string rose_figure(Shown const& shown) {
   Snapshot const& s = shown.snapshots[shown.peak];
   Rose const now = rose_of(s), before = rose_of(shown.first());
   if (now.pairs == 0) return "";
+  PrincipalAxes const stress = principal_stress(s);
   std::string const label = run_label(shown.run) + ", " + strain_text(s);
   constexpr double to_degrees = 180 / 3.14159265358979323846;
   return figure(
@@ -193,9 +195,10 @@ std::string rose_figure(Shown const& shown) {
           "is "
           "there, both relative to the mean over all directions (ring 1), at {}. Dashed: at the start. Red line: the fit "
           "1 + a cos 2(θ − θₐ), with a = {:.2f} at θₐ = {:.0f}° for the contacts and a = {:.2f} at {:.0f}° for the forces; "
-          "90° is vertical, the direction of σ₁.",
+          "90° is vertical. The mean stress of the grains is {:.4g} and {:.4g} MPa, the larger one at {:.0f}°.",
           grouped(static_cast<double>(now.pairs)), strain_text(s), now.normal_anisotropy, now.normal_direction * to_degrees,
-          now.force_anisotropy, now.force_direction * to_degrees));
+          now.force_anisotropy, now.force_direction * to_degrees, stress.major * 1e-6, stress.minor * 1e-6,
+          stress.direction * to_degrees));
 }
 
 /// A snapshot's file is named by its step.
@@ -204,7 +207,7 @@ std::int64_t step_of(std::filesystem::path const& file) { return std::atoll(file
 Shown read_shown(RunResults const& run, std::size_t bytes) {
   std::vector<std::int64_t> steps;
   for (std::filesystem::path const& file : run.snapshots) steps.push_back(step_of(file));
-  auto const peak_step = static_cast<std::int64_t>(run.history["step"][test_numbers(run.history).peak]);
+  auto const peak_step = static_cast<std::int64_t>(run.history["step"][test_numbers(run.history.curves()).peak]);
   std::vector<std::size_t> const which = shown_snapshots(steps, peak_step);
   Shown shown{run, bytes, {}, which.size() > 1 ? std::size_t{1} : std::size_t{0}, {}};
   if (which.size() == 2 && std::abs(steps[which[0]] - peak_step) < std::abs(steps[which[1]] - peak_step)) shown.peak = 0;

@@ -14,7 +14,7 @@ namespace {
 constexpr double drawing_width = 480, left_margin = 62, right_margin = 14, top_margin = 12, bottom_margin = 48;
 constexpr std::size_t most_points = 1000;
 
-/// Places of numbers in a plot.
+/// IdIndex of numbers in a plot.
 struct Scale {
   Plot const& plot;
   PlotFrame frame = frame_of(plot);

@@ -7,10 +7,11 @@
 #include <map>
 #include <set>
 
+#include "domain/measurement/strength_fit.hpp"
+#include "domain/measurement/test_numbers.hpp"
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
-#include "io/report/test_numbers.hpp"
-#include "io/results/likeness.hpp"
+#include "io/results/tested_material.hpp"
 
 namespace clathra {
 namespace {
@@ -84,6 +85,19 @@ struct TestStresses {
   std::vector<std::string> rising;     ///< the names of the others
 };
 
+/// c and phi with their errors if these are known.
+std::string envelope_numbers(Envelope const& fit) {
+  auto const error = [](double value, char const* format) { return " ± " + fmt::format(fmt::runtime(format), value); };
+  constexpr double degrees = 180 / half_turn;
+  std::string cohesion = with_minus(fmt::format("{:.3g}", fit.cohesion * mega)),
+              angle = fmt::format("{:.1f}", fit.friction_angle * degrees);
+  if (fit.errors) {
+    cohesion += error(fit.errors->cohesion * mega, "{:.2g}");
+    angle += error(fit.errors->friction_angle * degrees, "{:.1f}");
+  }
+  return fmt::format("c = {} MPa and φ = {}°", cohesion, angle);
+}
+
 /// c and phi, or why there are none.
 std::string envelope_text(std::optional<Envelope> const& fit, TestStresses const& tests) {
   std::string text, why;
@@ -92,10 +106,10 @@ std::string envelope_text(std::optional<Envelope> const& fit, TestStresses const
         "he deviator stress of {} still rises where the test ends; the largest so far is drawn, which is no strength.",
         listed(tests.rising));
   if (fit) {
-    text = fmt::format("Line: Mohr-Coulomb envelope τ = c + σ tan φ with c = {} MPa and φ = {:.1f}°",
-                       with_minus(fmt::format("{:.3g}", fit->cohesion * mega)), fit->friction_angle * 180 / half_turn);
-    text +=
-        tests.reached.size() > 2 ? fmt::format(", fitted to {} tests.", tests.reached.size()) : ", which touches two circles.";
+    text = "Line: Mohr-Coulomb envelope τ = c + σ tan φ with " + envelope_numbers(*fit);
+    text += fit->errors
+                ? fmt::format(", fitted to {} tests (± standard error, R² {:.4f}).", tests.reached.size(), fit->errors->r_squared)
+                : ", which touches two circles.";
     return why.empty() ? text : text + " It leaves out what has no peak: t" + why;
   }
   return why.empty() ? "They have no common Mohr-Coulomb envelope." : "c and φ are not given: t" + why;
@@ -145,7 +159,7 @@ struct GroupStrength {
 GroupStrength strength_of(Group const& group, std::vector<RunResults> const& runs) {
   GroupStrength strength{group, {}, {}, {}, {}, {}, {}};
   for (std::size_t const i : group.members) {
-    TestNumbers const n = test_numbers(runs[i].history);
+    TestNumbers const n = test_numbers(runs[i].history.curves());
     auto const add = [&](FailureStress const& stress, TestStresses& tests, std::vector<Curve>& circles) {
       tests.all.push_back(stress);
       if (n.passed_peak)
@@ -275,21 +289,6 @@ std::string note_on_unlike_runs(std::vector<RunResults> const& runs, std::vector
 }
 
 }  // namespace
-
-std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests) {
-  double const count = static_cast<double>(tests.size());
-  double mean1 = 0, mean3 = 0, s33 = 0, s13 = 0;
-  for (FailureStress const& t : tests) mean1 += t.sigma1 / count, mean3 += t.sigma3 / count;
-  for (FailureStress const& t : tests) {
-    s33 += (t.sigma3 - mean3) * (t.sigma3 - mean3);
-    s13 += (t.sigma1 - mean1) * (t.sigma3 - mean3);
-  }
-  constexpr double same = 0.01;  // confining stresses that scatter by less are one
-  if (!(s33 > same * same * mean3 * mean3 * count)) return std::nullopt;
-  double const slope = s13 / s33;
-  if (!(slope > 0)) return std::nullopt;
-  return Envelope{(mean1 - slope * mean3) / (2 * std::sqrt(slope)), std::asin((slope - 1) / (slope + 1))};
-}
 
 std::string strength_figures(std::vector<RunResults> const& runs) {
   std::vector<Group> const groups = groups_of(runs);

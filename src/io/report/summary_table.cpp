@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
+#include "domain/measurement/test_numbers.hpp"
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
-#include "io/report/test_numbers.hpp"
 
 namespace clathra {
 namespace {
@@ -94,7 +94,7 @@ std::string range_text(std::vector<double> const& values, char const* unit, int 
 }
 
 std::string sentence_on_one(RunResults const& run) {
-  TestNumbers const n = test_numbers(run.history);
+  TestNumbers const n = test_numbers(run.history.curves());
   double const saturation = run.number("/scene/hydrate/saturation").value_or(0) * percent;
   std::string text = count(run.number("/stages/plan/discs")) + " discs of ";
   text += run.has_bonds() ? fmt::format("sand with {:.3g} % hydrate", saturation) : "clean sand";
@@ -114,7 +114,7 @@ std::string summary_sentence(std::vector<RunResults> const& runs) {
   if (runs.size() == 1) return sentence_on_one(runs.front());
   std::vector<double> saturations, stresses, peaks, strains;
   for (RunResults const& run : runs) {
-    TestNumbers const n = test_numbers(run.history);
+    TestNumbers const n = test_numbers(run.history.curves());
     saturations.push_back(run.number("/scene/hydrate/saturation").value_or(0) * percent);
     stresses.push_back(run.number("/scene/test/confining_stress").value_or(0) * mega);
     peaks.push_back(n.peak_q * mega);
@@ -136,7 +136,7 @@ std::string summary_table(std::vector<RunResults> const& runs) {
   std::vector<TestNumbers> numbers;
   std::string head = "<th>quantity</th>", rows;
   for (RunResults const& run : runs) {
-    numbers.push_back(test_numbers(run.history));
+    numbers.push_back(test_numbers(run.history.curves()));
     head += "<th>" + escaped(run.name) + "</th>";
   }
   for (auto const& group : {specimen_quantities(), result_quantities(), cost_quantities()})

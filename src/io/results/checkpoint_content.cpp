@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/formats/former_names.hpp"
 #include "io/results/checkpoint.hpp"
 #include "io/results/event_columns.hpp"
 #include "io/results/run_record.hpp"
@@ -204,6 +205,8 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   }
   read_records(file, state.simulation, ranks);
   read_events(file, state, ranks);
+  for (auto* names : {&state.simulation.disc_columns, &state.simulation.history_columns})
+    for (std::string& name : *names) name = present_name(name);
   return state;
 }
 

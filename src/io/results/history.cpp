@@ -2,56 +2,92 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 
 #include "domain/scene/csv_rows.hpp"
 #include "domain/scene/units.hpp"
 #include "io/errors/problems.hpp"
+#include "io/formats/former_names.hpp"
 
 namespace clathra {
 namespace {
 
-/// Appends values or names to a line, with commas between them.
-struct Cells {
-  std::string line;
-  template <class Value>
-  void operator()(char const*, Value const& value) {
-    if (!line.empty()) line += ',';
-    fmt::format_to(std::back_inserter(line), "{}", value);
-  }
-};
 struct Names {
-  std::string line;
+  std::vector<std::string> columns;
   template <class Value>
   void operator()(char const* name, Value const&) {
-    if (!line.empty()) line += ',';
-    line += name;
+    columns.emplace_back(name);
   }
 };
 
-/// Takes the cells of a row, one after the other.
-struct Parse {
-  std::vector<std::string_view> const& cells;
-  std::size_t at = 0;
-  void operator()(char const*, double& value) { value = parse_number(next()); }
-  void operator()(char const*, std::int64_t& value) { value = std::llround(parse_number(next())); }
-  std::string_view next() { return at < cells.size() ? cells[at++] : std::string_view(); }
+/// Writes values into the cells of the columns that have their names.
+struct Cells {
+  std::vector<std::string> const& columns;
+  std::vector<std::string> cells = std::vector<std::string>(columns.size());
+  template <class Value>
+  void operator()(char const* name, Value const& value) {
+    auto const column = std::find(columns.begin(), columns.end(), name);
+    if (column != columns.end()) cells[static_cast<std::size_t>(column - columns.begin())] = fmt::format("{}", value);
+  }
+  std::string line() const { return fmt::format("{}\n", fmt::join(cells, ",")); }
 };
+
+/// Takes values from the cells of the columns that have their names. Those that a file has not stay as they are.
+struct Parse {
+  std::vector<std::string> const& columns;
+  std::vector<std::string_view> const& cells;
+  void operator()(char const* name, double& value) {
+    if (auto const at = place(name); at < cells.size()) value = parse_number(cells[at]);
+  }
+  void operator()(char const* name, std::int64_t& value) {
+    if (auto const at = place(name); at < cells.size()) value = std::llround(parse_number(cells[at]));
+  }
+  std::size_t place(char const* name) const {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
+  }
+};
+
+std::vector<std::string> present_names(std::vector<std::string_view> const& header) {
+  std::vector<std::string> names;
+  for (std::string_view const name : header) names.push_back(present_name(name));
+  return names;
+}
+
+/// @throws FileProblem where a column is missing without which a run cannot go on: all but those that earlier versions did not
+/// write
+void require_columns(std::vector<std::string> const& columns, std::filesystem::path const& path) {
+  Names wanted;
+  HistoryRow const row;
+  for_each_column(row, wanted);
+  for (std::string const& name : wanted.columns)
+    if (name != "mechanical_coordination" && std::count(columns.begin(), columns.end(), name) == 0)
+      throw FileProblem(ExitCode::bad_input, path, fmt::format("line 1: there is no column {}", name));
+}
 
 }  // namespace
 
 std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::uintmax_t bytes) {
   std::string const text = read_text_file(path, bytes);
   std::vector<HistoryEntry> entries;
+  std::vector<std::string> columns;
+  bool ledger = false;
   for (CsvRows rows(text); rows.next();) {
-    if (rows.line() == 1) continue;  // the header
-    Parse parse{rows.cells()};
+    if (rows.line() == 1) {
+      columns = present_names(rows.cells());
+      require_columns(columns, path);
+      ledger = std::count(columns.begin(), columns.end(), "boundary_work_J") > 0;
+      continue;
+    }
+    if (rows.cells().size() != columns.size())
+      throw FileProblem(ExitCode::bad_input, path,
+                        fmt::format("line {}: {} cells, the header has {}", rows.line(), rows.cells().size(), columns.size()));
+    Parse parse{columns, rows.cells()};
     try {
       HistoryEntry& entry = entries.emplace_back();
       for_each_column(entry.row, parse);
-      if (parse.at < rows.cells().size()) for_each_energy_column(entry.energy.emplace(), parse);
+      if (ledger) for_each_energy_column(entry.energy.emplace(), parse);
     } catch (std::invalid_argument const& problem) {
       throw FileProblem(ExitCode::bad_input, path, fmt::format("line {}: {}", rows.line(), problem.what()));
     }
@@ -61,24 +97,32 @@ std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::u
 
 HistoryFile::HistoryFile(std::filesystem::path path, bool energy) : file_(std::move(path)) {
   Names names;
-  HistoryRow row;
-  EnergyRow ledger;
+  HistoryRow const row;
+  EnergyRow const ledger;
   for_each_column(row, names);
   if (energy) for_each_energy_column(ledger, names);
-  file_.write(names.line + '\n');
+  columns_ = names.columns;
+  file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
+}
+
+HistoryFile::HistoryFile(std::filesystem::path path, std::uintmax_t bytes) : file_(path, bytes) {
+  std::string const text = read_text_file(path, bytes);
+  CsvRows header(text);
+  if (!header.next()) throw FileProblem(ExitCode::bad_input, path, "line 1: there are no names of columns");
+  columns_ = present_names(header.cells());
 }
 
 void HistoryFile::write(HistoryRow const& row) {
-  Cells cells;
+  Cells cells{columns_};
   for_each_column(row, cells);
-  file_.write(cells.line + '\n');
+  file_.write(cells.line());
 }
 
 void HistoryFile::write(HistoryRow const& row, EnergyRow const& energy) {
-  Cells cells;
+  Cells cells{columns_};
   for_each_column(row, cells);
   for_each_energy_column(energy, cells);
-  file_.write(cells.line + '\n');
+  file_.write(cells.line());
 }
 
 }  // namespace clathra

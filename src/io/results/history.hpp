@@ -1,6 +1,7 @@
 #pragma once
 /// history.csv: one row a record, units in the column names, numbers that read back to the same bits.
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "domain/measurement/history_row.hpp"
@@ -13,8 +14,9 @@ class HistoryFile {
   /// Writes the header. @param energy  the columns of the energy ledger follow those of the record
   /// @throws FileProblem cannot_create or io_error
   HistoryFile(std::filesystem::path path, bool energy);
-  /// Goes on with the file behind its first `bytes`.
-  HistoryFile(std::filesystem::path path, std::uintmax_t bytes) : file_(std::move(path), bytes) {}
+  /// Goes on with the file behind its first `bytes`, with the columns that it has: a table that an earlier version began keeps
+  /// its names and has none of the columns that came later. @throws FileProblem
+  HistoryFile(std::filesystem::path path, std::uintmax_t bytes);
 
   /// One row, one write. @throws FileProblem io_error
   void write(HistoryRow const& row);
@@ -24,6 +26,7 @@ class HistoryFile {
 
  private:
   RowFile file_;
+  std::vector<std::string> columns_;  // by their names of today
 };
 
 /// A row and, with the ledger, its energies.

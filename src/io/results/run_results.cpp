@@ -9,6 +9,7 @@
 
 #include "domain/measurement/history_row.hpp"
 #include "domain/scene/csv_rows.hpp"
+#include "io/formats/former_names.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/snapshot_file.hpp"
 
@@ -102,7 +103,7 @@ HistoryTable::HistoryTable(std::filesystem::path const& path) {
   for (CsvRows rows(text); rows.next();) {
     std::vector<std::string_view> const& cells = rows.cells();
     if (rows.line() == 1) {
-      names.assign(cells.begin(), cells.end());
+      for (std::string_view const cell : cells) names.push_back(present_name(cell));
       known = known_columns(names, path);
       require_essentials(names, path);
       continue;

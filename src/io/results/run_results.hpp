@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/measurement/test_numbers.hpp"
 #include "io/errors/problems.hpp"
 
 namespace clathra {
@@ -24,6 +25,9 @@ class HistoryTable {
   bool has_all(std::vector<std::string> const& columns) const;
   /// A column; nan in each row where there is none of this name.
   std::vector<double> const& operator[](std::string const& column) const;
+  TestCurves curves() const {
+    return {(*this)["eps1"], (*this)["eps_v"], (*this)["q_Pa"], (*this)["sigma3_Pa"], (*this)["intact_initial_pct"]};
+  }
   /// The columns that this one has not and of which something would be drawn; those of the energy ledger only if it has some.
   std::vector<std::string> missing() const;
 

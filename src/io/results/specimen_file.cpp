@@ -11,6 +11,7 @@
 
 #include "domain/parallel/redistribution.hpp"
 #include "io/errors/rank_errors.hpp"
+#include "io/formats/former_names.hpp"
 #include "io/formats/hdf5_file.hpp"
 
 namespace clathra {
@@ -125,7 +126,8 @@ void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   part.contacts.resize(id_a.size());
   for (std::size_t i = 0; i < id_a.size(); ++i) part.contacts[i].id_a = id_a[i], part.contacts[i].id_b = id_b[i];
   for (ContactNumber const& number : contact_numbers) {
-    std::vector<double> const column = file.read<double>(std::string("contacts/") + number.name, rows);
+    std::string const name = std::string("contacts/") + number.name, before = "contacts/" + former_name(number.name);
+    std::vector<double> const column = file.read<double>(file.has(name) ? name : before, rows);
     for (std::size_t i = 0; i < column.size(); ++i) part.contacts[i].*number.of = column[i];
   }
 }

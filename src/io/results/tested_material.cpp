@@ -1,4 +1,4 @@
-#include "io/results/likeness.hpp"
+#include "io/results/tested_material.hpp"
 
 #include <fmt/format.h>
 

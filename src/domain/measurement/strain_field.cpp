@@ -1,5 +1,7 @@
-#include "io/report/strain_field.hpp"
+#include "domain/measurement/strain_field.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,40 +12,37 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// Sums over discs for the fit of u = u0 + G X.
+/// Sums over discs for the fit of u = u_0 + G X.
 struct Moments {
-  double count = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  double ux = 0, uy = 0, ux_x = 0, ux_y = 0, uy_x = 0, uy_y = 0;
+  double count = 0;
+  Eigen::Vector2d place = Eigen::Vector2d::Zero(), displacement = Eigen::Vector2d::Zero();  ///< sums of X and u
+  Eigen::Matrix2d places = Eigen::Matrix2d::Zero();                                         ///< sum of X X^T
+  Eigen::Matrix2d displacements = Eigen::Matrix2d::Zero();                                  ///< sum of u X^T
 
-  void add(double px, double py, double dx, double dy) {
-    count += 1, x += px, y += py, xx += px * px, xy += px * py, yy += py * py;
-    ux += dx, uy += dy, ux_x += dx * px, ux_y += dx * py, uy_x += dy * px, uy_y += dy * py;
+  void add(Eigen::Vector2d const& x, Eigen::Vector2d const& u) {
+    count += 1, place += x, displacement += u, places += x * x.transpose(), displacements += u * x.transpose();
   }
   void add(Moments const& m) {
-    count += m.count, x += m.x, y += m.y, xx += m.xx, xy += m.xy, yy += m.yy;
-    ux += m.ux, uy += m.uy, ux_x += m.ux_x, ux_y += m.ux_y, uy_x += m.uy_x, uy_y += m.uy_y;
+    count += m.count, place += m.place, displacement += m.displacement, places += m.places, displacements += m.displacements;
   }
 };
 
-/// ln(l1 / l2) of the deformation F = I + G.
-double shear_of(double fxx, double fxy, double fyx, double fyy) {
-  double const cxx = fxx * fxx + fyx * fyx, cyy = fxy * fxy + fyy * fyy, cxy = fxx * fxy + fyx * fyy;
-  double const mean = (cxx + cyy) / 2, radius = std::hypot((cxx - cyy) / 2, cxy);
-  return mean > radius ? std::log((mean + radius) / (mean - radius)) / 2 : not_known;
-}
-
+/// ln(l1 / l2) of the deformation F = I + G, G the least-squares gradient of the displacements. The singular values of F are the
+/// principal stretches l1 and l2; those of the places about their middle, the square roots of the eigenvalues of their scatter,
+/// say whether the discs fix a gradient at all: in a line they do not.
 double shear_of(Moments const& m) {
-  constexpr double fewest = 6, flattest = 1e-3;
+  constexpr double fewest = 6, flattest = 0.03;
   if (m.count < fewest) return not_known;
-  auto const centred = [&](double product, double a, double b) { return product - a * b / m.count; };
-  double const xx = centred(m.xx, m.x, m.x), xy = centred(m.xy, m.x, m.y), yy = centred(m.yy, m.y, m.y);
-  double const determinant = xx * yy - xy * xy;
-  if (!(determinant > flattest * (xx + yy) * (xx + yy))) return not_known;
-  auto const along_x = [&](double ux, double uy) { return (ux * yy - uy * xy) / determinant; };
-  auto const along_y = [&](double ux, double uy) { return (uy * xx - ux * xy) / determinant; };
-  double const a = centred(m.ux_x, m.ux, m.x), b = centred(m.ux_y, m.ux, m.y);
-  double const c = centred(m.uy_x, m.uy, m.x), d = centred(m.uy_y, m.uy, m.y);
-  return shear_of(1 + along_x(a, b), along_y(a, b), along_x(c, d), 1 + along_y(c, d));
+  Eigen::Matrix2d const scatter = m.places - m.place * m.place.transpose() / m.count;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> const axes(scatter);
+  Eigen::Vector2d const values = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (!(values(0) > flattest * values(1))) return not_known;
+  Eigen::Matrix2d const moved = m.displacements - m.displacement * m.place.transpose() / m.count;
+  Eigen::Matrix2d const gradient =
+      moved * axes.eigenvectors() * axes.eigenvalues().cwiseInverse().asDiagonal() * axes.eigenvectors().transpose();
+  Eigen::Vector2d const stretches =
+      Eigen::JacobiSVD<Eigen::Matrix2d>(Eigen::Matrix2d::Identity() + gradient).singularValues();  // the larger one first
+  return stretches(1) > 0 ? std::log(stretches(0) / stretches(1)) : not_known;
 }
 
 /// Square cells over the places where the discs were at first.
@@ -81,7 +80,8 @@ std::vector<double> cell_strains(Snapshot const& s, Cells const& cells) {
   std::vector<Moments> moments(cells.count());
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     double const x = Cells::first_x(s, i), y = Cells::first_y(s, i);
-    moments[cells.place(cells.column(x), cells.row(y))].add(x - cells.left, y - cells.bottom, double(s.ux[i]), double(s.uy[i]));
+    moments[cells.place(cells.column(x), cells.row(y))].add({x - cells.left, y - cells.bottom},
+                                                            {double(s.ux[i]), double(s.uy[i])});
   }
   std::vector<double> strains(cells.count());
   for (int row = 0; row < cells.rows; ++row)

@@ -2,7 +2,6 @@
 /// How the contacts and their forces are oriented.
 #include <array>
 #include <cstddef>
-#include <string>
 
 #include "domain/measurement/snapshot.hpp"
 
@@ -14,16 +13,12 @@ struct Rose {
   std::array<double, bins> normals{};  ///< pairs in the bin over the mean of all bins
   std::array<double, bins> forces{};   ///< mean normal force in the bin over the mean of all pairs, pulling ones negative
   std::size_t pairs = 0;               ///< those that press or hold each other
-  /// 1 + a cos 2(theta - direction): a and direction [rad, 0 to pi] of the normals (from the sums over all pairs) and of the mean
-  /// forces (from the bins).
+  /// 1 + a cos 2(theta - direction): a and direction [rad, 0 to pi] of the normals (from the principal axes of their fabric
+  /// tensor <n n>, a = 2 (F_1 - F_2)) and of the mean forces (from the bins).
   double normal_anisotropy = 0, normal_direction = 0, force_anisotropy = 0, force_direction = 0;
 };
 
 /// Of all pairs that press or hold each other, bonds among them, weak ones as well as strong ones.
 Rose rose_of(Snapshot const& snapshot);
-
-/// Two polar diagrams: of `now` as filled petals with the fitted cosine, of `before` as a dashed outline. SVGs.
-std::string normal_rose(Rose const& now, Rose const& before, std::string const& label);
-std::string force_rose(Rose const& now, Rose const& before, std::string const& label);
 
 }  // namespace clathra

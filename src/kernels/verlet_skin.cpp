@@ -1,4 +1,4 @@
-#include "kernels/leeway.hpp"
+#include "kernels/verlet_skin.hpp"
 
 namespace clathra {
 
@@ -23,11 +23,11 @@ struct Wandering {
 struct GiveLeeway {
   ParticleSoA p;
   Wandering wandering;
-  LeewayRange range;
+  SkinRange range;
   Real mean_speed;
   KOKKOS_FUNCTION void operator()(int i, Real& greatest) const {
-    p.leeway(i) = lane_min(range.least * (1 + share * wandering.speed(i) / mean_speed), range.most);
-    greatest = lane_max(greatest, p.leeway(i));
+    p.verlet_skin(i) = lane_min(range.least * (1 + share * wandering.speed(i) / mean_speed), range.most);
+    greatest = lane_max(greatest, p.verlet_skin(i));
   }
 };
 
@@ -39,8 +39,8 @@ struct Stray {
     auto const i = static_cast<std::size_t>(group) * lane_count;
     Lanes const dx = load(&p.x(i)) - (frame.centre_x + frame.stretch_x * (load(&p.reference_x(i)) - frame.reference_centre_x));
     Lanes const dy = load(&p.y(i)) - (frame.centre_y + frame.stretch_y * (load(&p.reference_y(i)) - frame.reference_centre_y));
-    Lanes const leeway = load(&p.leeway(i));
-    Lanes share2 = (dx * dx + dy * dy) / (leeway * leeway);
+    Lanes const skin = load(&p.verlet_skin(i));
+    Lanes share2 = (dx * dx + dy * dy) / (skin * skin);
     for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(share2, l, 0);  // ghosts share the last group
     greatest2 = lane_max(greatest2, largest(select(share2 > Lanes(0), share2, Lanes(0))));
   }
@@ -48,13 +48,14 @@ struct Stray {
 
 }  // namespace
 
-Real give_leeway(ParticleSoA const& particles, AffineFrame const& frame, LeewayRange const& range, Summation const& summation) {
+Real assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range,
+                         Summation const& summation) {
   Wandering const wandering{particles, frame};
   Real sums[2];
   exact_sums<2>("mean_wandering", particles.owned, wandering, {summation.unit.speed(), 1}, sums, summation.over_ranks);
   Real const mean_speed = lane_max(sums[0] / lane_max(sums[1], Real(1)), Real(1e-300));
   Real greatest = 0;
-  Kokkos::parallel_reduce("give_leeway", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+  Kokkos::parallel_reduce("assign_verlet_skins", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                           GiveLeeway{particles, wandering, range, mean_speed}, Kokkos::Max<Real>(greatest));
   return lane_max(greatest, range.least);
 }
@@ -64,9 +65,9 @@ void mark_reference(ParticleSoA const& particles) {
   Kokkos::deep_copy(particles.reference_y, particles.y);
 }
 
-Real largest_stray2(ParticleSoA const& particles, AffineFrame const& frame) {
+Real largest_nonaffine_displacement2(ParticleSoA const& particles, AffineFrame const& frame) {
   Real greatest2 = 0;
-  Kokkos::parallel_reduce("largest_stray", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
+  Kokkos::parallel_reduce("largest_nonaffine_displacement", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
                           Stray{particles, frame}, Kokkos::Max<Real>(greatest2));
   return greatest2;
 }

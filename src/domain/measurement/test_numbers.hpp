@@ -1,8 +1,9 @@
 #pragma once
 /// The numbers by which a biaxial test is known, from its history.
 #include <optional>
+#include <vector>
 
-#include "io/results/run_results.hpp"
+#include "domain/measurement/test_phases.hpp"
 
 namespace clathra {
 
@@ -21,6 +22,14 @@ struct TestNumbers {
   bool passed_peak = false;  ///< the largest q is not the last one
 };
 
-TestNumbers test_numbers(HistoryTable const& history);
+/// The columns of a history that they follow from, one value a record; two records at least. NaN where there is no number.
+struct TestCurves {
+  std::vector<double> const &eps1, &eps_v;  ///< natural strains
+  std::vector<double> const &q, &sigma3;    ///< [Pa]
+  std::vector<double> const& intact;        ///< of the bonds at installation [%]
+};
+
+/// What a test has come to by its last record, for its run.json, for reports and for tables alike.
+TestNumbers test_numbers(TestCurves const& curves);
 
 }  // namespace clathra

@@ -1,5 +1,5 @@
-/// How far discs may stray before neighbours are searched again.
-#include "kernels/leeway.hpp"
+/// Verlet skins of discs: how far they may move beside their box before neighbours are searched again.
+#include "kernels/verlet_skin.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -16,24 +16,24 @@ Specimen two_of_a_hundred_fly(double slow, double fast) {
   return s;
 }
 
-double leeway_of(Simulation const& sim, int id) {
+double skin_of(Simulation const& sim, int id) {
   for (int i = 0; i < sim.discs(); ++i) {
-    if (sim.particles().id(i) == id) return sim.particles().leeway(i);
+    if (sim.particles().id(i) == id) return sim.particles().verlet_skin(i);
   }
   ADD_FAILURE() << "no disc " << id;
   return 0;
 }
 
-TEST(Leeway, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
+TEST(VerletSkin, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
   Simulation const sim(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  EXPECT_DOUBLE_EQ(give_leeway(sim.particles(), {}, {h, 5 * h}, {}), 5 * h);
+  EXPECT_DOUBLE_EQ(assign_verlet_skins(sim.particles(), {}, {h, 5 * h}, {}), 5 * h);
   double const mean = (0.02 + 1) / 100;
-  EXPECT_EQ(leeway_of(sim, 0), h);
-  EXPECT_NEAR(leeway_of(sim, 10) / h, 1 + 0.2 * 0.02 / mean, 1e-12);
-  EXPECT_DOUBLE_EQ(leeway_of(sim, 20), 5 * h);
+  EXPECT_EQ(skin_of(sim, 0), h);
+  EXPECT_NEAR(skin_of(sim, 10) / h, 1 + 0.2 * 0.02 / mean, 1e-12);
+  EXPECT_DOUBLE_EQ(skin_of(sim, 20), 5 * h);
 }
 
-TEST(Leeway, IsThatOfTheMotionBesideTheBox) {
+TEST(VerletSkin, IsThatOfTheMotionBesideTheBox) {
   AffineFrame frame;
   frame.centre_x = 0.3;
   frame.centre_y = -0.2;
@@ -47,18 +47,18 @@ TEST(Leeway, IsThatOfTheMotionBesideTheBox) {
     s.vy[i] += frame.velocity_y(s.y[i]);
   }
   Simulation const moved(s, {}, 2 * h), still(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  give_leeway(moved.particles(), frame, {h, 5 * h}, {});
-  give_leeway(still.particles(), {}, {h, 5 * h}, {});
-  for (int id : {0, 10, 20, 99}) EXPECT_NEAR(leeway_of(moved, id) / leeway_of(still, id), 1, 1e-11) << id;
+  assign_verlet_skins(moved.particles(), frame, {h, 5 * h}, {});
+  assign_verlet_skins(still.particles(), {}, {h, 5 * h}, {});
+  for (int id : {0, 10, 20, 99}) EXPECT_NEAR(skin_of(moved, id) / skin_of(still, id), 1, 1e-11) << id;
 }
 
-TEST(Leeway, IsTheSameForAllAtRest) {
+TEST(VerletSkin, IsTheSameForAllAtRest) {
   Simulation const sim(two_of_a_hundred_fly(0, 0), {}, 2 * h);
-  EXPECT_EQ(give_leeway(sim.particles(), {}, {h, 5 * h}, {}), h);
-  for (int id : {0, 10, 99}) EXPECT_EQ(leeway_of(sim, id), h);
+  EXPECT_EQ(assign_verlet_skins(sim.particles(), {}, {h, 5 * h}, {}), h);
+  for (int id : {0, 10, 99}) EXPECT_EQ(skin_of(sim, id), h);
 }
 
-TEST(Leeway, OneDiscThatFliesSeldomCallsForASearch) {
+TEST(VerletSkin, OneDiscThatFliesSeldomCallsForASearch) {
   Specimen s = disordered_patch(10, 10);
   double const way = 10 * grain_d50, top = *std::max_element(s.y.begin(), s.y.end());
   add_disc(s, s.x[0], top + 4 * grain_d50, grain_radius, 1, 0);
@@ -69,7 +69,7 @@ TEST(Leeway, OneDiscThatFliesSeldomCallsForASearch) {
   std::int64_t const before = sim.rebuilds();
   auto const steps = static_cast<int>(way / sim.time_step);
   for (int n = 0; n < steps; ++n) sim.step();
-  // Without a leeway of its own it would be one for each h of the way.
+  // Without a skin of its own it would be one for each h of the way.
   EXPECT_LE(sim.rebuilds() - before, way / (4.5 * h) + 3);
   EXPECT_GE(sim.rebuilds() - before, way / (5.5 * h) - 3);
 }
@@ -92,18 +92,18 @@ void for_each_pair(Simulation const& sim, Visit const& visit) {
   }
 }
 
-TEST(Leeway, RowsReachAsFarAsBothLeewaysTogether) {
+TEST(VerletSkin, RowsReachAsFarAsBothSkinsTogether) {
   Simulation const sim(gas(), {}, 2 * h);
   int listed = 0;
   for_each_pair(sim, [&](int i, int j, double gap) {
-    bool const near = gap < sim.particles().leeway(i) + sim.particles().leeway(j);
+    bool const near = gap < sim.particles().verlet_skin(i) + sim.particles().verlet_skin(j);
     listed += near ? 1 : 0;
     EXPECT_EQ(in_row(sim, i, j), near) << i << " and " << j;
   });
   EXPECT_GT(listed, 30);
 }
 
-TEST(Leeway, RowsHoldEveryPairInTouchHoweverDiscsFly) {
+TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   Simulation sim(gas(), {}, 2 * h);
   sim.time_step = 0.3 * sim.stable_time_step();
   sim.loading.x = AxisDrive::at_rate(500);
@@ -122,14 +122,14 @@ TEST(Leeway, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   EXPECT_GT(sim.rebuilds(), 20);
 }
 
-// The first checkpoints have no column of leeways.
-TEST(Leeway, OfAStateWithoutItIsThatOfDiscsAtRest) {
+// The first checkpoints have no column of skins.
+TEST(VerletSkin, OfAStateWithoutItIsThatOfDiscsAtRest) {
   Simulation sim(gas(), {}, 2 * h);
   sim.time_step = 0.3 * sim.stable_time_step();
   for (int n = 0; n < 50; ++n) sim.step();
   SimulationState state = sim.state();
   std::size_t const at = state.disc_columns.size();  // of the last column in a record: the id comes first
-  ASSERT_EQ(state.disc_columns.back(), "leeway");
+  ASSERT_EQ(state.disc_columns.back(), "verlet_skin");
   state.disc_columns.pop_back();
   for (std::size_t k = state.discs.size(); k-- > 0;)
     state.discs.numbers.erase(state.discs.numbers.begin() + static_cast<std::ptrdiff_t>(state.discs.begin[k] + at));
@@ -137,18 +137,18 @@ TEST(Leeway, OfAStateWithoutItIsThatOfDiscsAtRest) {
   std::uint64_t const hash = sim.hash();
   Simulation resumed(std::move(state), {}, {});
   EXPECT_EQ(resumed.hash(), hash);
-  for (int i = 0; i < resumed.discs(); ++i) EXPECT_EQ(resumed.particles().leeway(i), h);
+  for (int i = 0; i < resumed.discs(); ++i) EXPECT_EQ(resumed.particles().verlet_skin(i), h);
 }
 
-TEST(Leeway, LeavesASmallPeriodicCellWideEnough) {
+TEST(VerletSkin, LeavesASmallPeriodicCellWideEnough) {
   Specimen s = disordered_patch(5, 5, 0.1);
   s.periodic = true;
   s.vx[5] = 3;  // all others are at rest
   Simulation sim(s, {}, 0.4 * grain_d50);
   double const side = std::min(sim.cell().width, sim.cell().height), largest = 1.1 * grain_radius;
-  EXPECT_LT(leeway_of(sim, 5), 5 * 0.2 * grain_d50);
-  EXPECT_GT(leeway_of(sim, 5), 0.2 * grain_d50);
-  EXPECT_LE(2 * (2 * largest + 2 * leeway_of(sim, 5)), side);
+  EXPECT_LT(skin_of(sim, 5), 5 * 0.2 * grain_d50);
+  EXPECT_GT(skin_of(sim, 5), 0.2 * grain_d50);
+  EXPECT_LE(2 * (2 * largest + 2 * skin_of(sim, 5)), side);
 }
 
 /// The homogeneous motion of a box whose walls stood at `before`.
@@ -163,18 +163,18 @@ AffineFrame motion_since(Walls const& before, Walls const& now) {
   return frame;
 }
 
-/// The greatest share of its leeway that a disc has strayed off that motion.
-double greatest_stray(ParticleSoA const& p, AffineFrame const& f) {
+/// The greatest non-affine displacement of a disc as a share of its skin.
+double greatest_displacement(ParticleSoA const& p, AffineFrame const& f) {
   double greatest = 0;
   for (int i = 0; i < p.owned; ++i) {
     double const x = f.centre_x + f.stretch_x * (p.reference_x(i) - f.reference_centre_x);
     double const y = f.centre_y + f.stretch_y * (p.reference_y(i) - f.reference_centre_y);
-    greatest = std::max(greatest, std::hypot(p.x(i) - x, p.y(i) - y) / p.leeway(i));
+    greatest = std::max(greatest, std::hypot(p.x(i) - x, p.y(i) - y) / p.verlet_skin(i));
   }
   return greatest;
 }
 
-/// Steps, and expects that no disc ever strays beyond its leeway, and that some disc comes near it.
+/// Steps, and expects that no non-affine displacement ever exceeds its skin, and that some disc comes near it.
 void expect_searches_in_time(Simulation& sim, int steps) {
   Walls at_search = sim.walls();
   std::int64_t const before = sim.rebuilds();
@@ -184,16 +184,16 @@ void expect_searches_in_time(Simulation& sim, int steps) {
     sim.step();
     if (sim.rebuilds() > searches) at_search = sim.walls();
     AffineFrame const motion = motion_since(at_search, sim.walls());
-    double const stray = greatest_stray(sim.particles(), motion);
-    EXPECT_NEAR(std::sqrt(largest_stray2(sim.particles(), motion)), stray, 1e-9);
-    EXPECT_LT(stray, 1) << n;
-    largest = std::max(largest, stray);
+    double const displacement = greatest_displacement(sim.particles(), motion);
+    EXPECT_NEAR(std::sqrt(largest_nonaffine_displacement2(sim.particles(), motion)), displacement, 1e-9);
+    EXPECT_LT(displacement, 1) << n;
+    largest = std::max(largest, displacement);
   }
   EXPECT_GT(largest, 0.8);
   EXPECT_GE(sim.rebuilds() - before, 3);
 }
 
-TEST(Leeway, SearchesComeInTimeForDiscsThatFly) {
+TEST(VerletSkin, SearchesComeInTimeForDiscsThatFly) {
   Specimen s = two_of_a_hundred_fly(0.3, -0.2);
   s.left = s.bottom = -1;
   s.right = s.top = 3;
@@ -202,7 +202,7 @@ TEST(Leeway, SearchesComeInTimeForDiscsThatFly) {
   expect_searches_in_time(sim, 8000);
 }
 
-TEST(Leeway, SearchesComeInTimeForDiscsThatAnArrivingWallLeavesBehind) {
+TEST(VerletSkin, SearchesComeInTimeForDiscsThatAnArrivingWallLeavesBehind) {
   Specimen s = two_of_a_hundred_fly(0, 0);
   s.left = s.bottom = -1;
   s.right = s.top = 3;

@@ -1,0 +1,123 @@
+/// Strain, fabric and stress of snapshots, against closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/measurement/fabric.hpp"
+#include "domain/measurement/principal_axes.hpp"
+#include "domain/measurement/strain_field.hpp"
+#include "made_up_lattice.hpp"
+
+namespace clathra {
+namespace {
+
+/// Displaces a lattice by x' = F x.
+Snapshot deformed(double fxx, double fxy, double fyx, double fyy) {
+  Snapshot s = made_up_lattice(40, 60);
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    double const x = fxx * s.x[i] + fxy * s.y[i], y = fyx * s.x[i] + fyy * s.y[i];
+    s.ux[i] = static_cast<float>(x - s.x[i]), s.uy[i] = static_cast<float>(y - s.y[i]);
+    s.x[i] = x, s.y[i] = y;
+  }
+  return s;
+}
+
+TEST(StrainField, IsTheDifferenceOfThePrincipalNaturalStrains) {
+  for (float const strain : shear_strain(deformed(1.1, 0, 0, 0.85))) ASSERT_NEAR(strain, std::log(1.1 / 0.85), 1e-4);
+  double const shear = 0.5;  // simple shear: l1 / l2 = (g / 2 + sqrt(1 + g^2 / 4))^2
+  for (float const strain : shear_strain(deformed(1, shear, 0, 1)))
+    ASSERT_NEAR(strain, 2 * std::log(shear / 2 + std::sqrt(1 + shear * shear / 4)), 1e-4);
+}
+
+TEST(StrainField, IsNotMadeByTurningOrSwelling) {
+  for (float const strain : shear_strain(deformed(std::cos(0.7), -std::sin(0.7), std::sin(0.7), std::cos(0.7))))
+    ASSERT_NEAR(strain, 0, 1e-4);
+  for (float const strain : shear_strain(deformed(1.2, 0, 0, 1.2))) ASSERT_NEAR(strain, 0, 1e-4);
+}
+
+TEST(StrainField, FindsTheBandAndSurvivesADiscThatFlewAway) {
+  Snapshot s = made_up_lattice(40, 60);
+  double const middle = s.top / 2, half = 0.1 * s.top;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    s.ux[i] = static_cast<float>(std::clamp(s.y[i] - middle, -half, half));
+    s.x[i] += double(s.ux[i]);
+  }
+  std::vector<float> const strain = shear_strain(s);
+  EXPECT_NEAR(strain[20 + 40 * 30], 2 * std::log(0.5 + std::sqrt(1.25)), 0.05);
+  EXPECT_NEAR(strain[20 + 40 * 3], 0, 1e-4);
+  s.x[0] = 1e6, s.y[0] = -1e6;
+  EXPECT_EQ(shear_strain(s).size(), s.x.size());
+  EXPECT_TRUE(std::isnan(shear_strain(made_up_lattice(1, 1)).at(0))) << "one disc has no strain";
+}
+
+TEST(StrainField, IsNotKnownWhereDiscsLieInALine) {
+  Snapshot s = made_up_lattice(60, 1);
+  for (float const strain : shear_strain(s)) ASSERT_TRUE(std::isnan(strain));
+  for (std::size_t i = 0; i < s.x.size(); ++i) s.y[i] += (i % 2 == 0 ? 0.5 : -0.5) * s.d50;  // two lines are a plane
+  for (float const strain : shear_strain(s)) ASSERT_NEAR(strain, 0, 1e-6);
+}
+
+TEST(PrincipalAxes, AreThoseOfATurnedTensor) {
+  for (double const angle : {0.0, 0.3, 1.2, 1.5707963, 2.5, 3.1}) {
+    double const c = std::cos(angle), s = std::sin(angle);
+    PrincipalAxes const axes = principal_axes(5 * c * c + 2 * s * s, 5 * s * s + 2 * c * c, 3 * c * s);
+    EXPECT_NEAR(axes.major, 5, 1e-12);
+    EXPECT_NEAR(axes.minor, 2, 1e-12);
+    EXPECT_NEAR(axes.direction, angle, 1e-7);
+  }
+  EXPECT_EQ(principal_axes(-1, -1, 0).major, -1);
+}
+
+TEST(PrincipalStress, IsTheStressOfTheDiscsOverTheWholeBox) {
+  Snapshot s = made_up_lattice(20, 30);
+  s.stress_xx.assign(s.x.size(), 1e6f), s.stress_yy.assign(s.x.size(), 3e6f), s.stress_xy.assign(s.x.size(), 0.0f);
+  double const solid = std::acos(-1.0) / 4;  // of a square lattice
+  PrincipalAxes const stress = principal_stress(s);
+  EXPECT_NEAR(stress.major / 3e6, solid, 1e-6);
+  EXPECT_NEAR(stress.minor / 1e6, solid, 1e-6);
+  EXPECT_NEAR(stress.direction, std::acos(-1.0) / 2, 1e-9);
+  EXPECT_EQ(principal_stress(Snapshot()).major, 0);
+}
+
+TEST(Rose, FindsTheFabricThatItWasGiven) {
+  Snapshot s;
+  double const a = 0.6, direction = 1.0, pi = std::acos(-1.0);
+  for (int n = 0; n < 20000; ++n) {  // normals whose density is 1 + a cos 2 (angle - direction), by its quantiles
+    double angle = pi * (n + 0.5) / 20000, from = 0, to = pi;
+    for (int k = 0; k < 50; ++k) {
+      double const middle = (from + to) / 2;
+      double const share = (middle + a / 2 * (std::sin(2 * (middle - direction)) + std::sin(2 * direction))) / pi;
+      (share < (n + 0.5) / 20000 ? from : to) = middle;
+    }
+    angle = from;
+    s.a.push_back(2 * n), s.b.push_back(2 * n + 1);
+    s.x.insert(s.x.end(), {0.0, std::cos(angle)}), s.y.insert(s.y.end(), {0.0, std::sin(angle)});
+  }
+  s.state.assign(s.a.size(), static_cast<std::uint8_t>(ContactState::contact));
+  s.normal_force.assign(s.a.size(), 1.0), s.gap.assign(s.a.size(), -1e-9);
+  Rose const rose = rose_of(s);
+  EXPECT_NEAR(rose.normal_anisotropy, a, 1e-4);
+  EXPECT_NEAR(rose.normal_direction, direction, 1e-4);
+}
+
+TEST(Rose, CountsContactsAndForcesByDirection) {
+  Snapshot s = made_up_lattice(30, 30);
+  for (std::size_t k = 0; k < s.a.size(); ++k)
+    if (s.b[k] != s.a[k] + 1) s.normal_force[k] = 3;  // upright
+  Rose const rose = rose_of(s);
+  EXPECT_EQ(rose.pairs, s.a.size());
+  EXPECT_NEAR(rose.normals[0], 9, 1e-9) << "half of the pairs in one of 18 bins";
+  EXPECT_NEAR(rose.normals[9], 9, 1e-9);
+  EXPECT_NEAR(rose.normal_anisotropy, 0, 1e-9);
+  EXPECT_NEAR(rose.forces[0], 0.5, 1e-6);
+  EXPECT_NEAR(rose.forces[9], 1.5, 1e-6);
+  EXPECT_GT(rose.force_anisotropy, 0.5);
+  EXPECT_NEAR(rose.force_direction, std::acos(-1.0) / 2, 0.1);
+  s.state.assign(s.a.size(), static_cast<std::uint8_t>(broken_in(BreakMode::shear)));
+  s.normal_force.assign(s.a.size(), 0.0), s.gap.assign(s.a.size(), 1e-9);
+  EXPECT_EQ(rose_of(s).pairs, 0u) << "bonds that are gone";
+}
+
+}  // namespace
+}  // namespace clathra
