@@ -55,7 +55,8 @@ TEST(StrainField, IsNotKnownWhereDiscsLieInALine) {
   Snapshot s = made_up_lattice(60, 1);
   for (float const strain : shear_strain(s)) ASSERT_TRUE(std::isnan(strain));
   for (std::size_t i = 0; i < s.x.size(); ++i) s.y[i] += (i % 2 == 0 ? 0.5 : -0.5) * s.d50;  // two lines are a plane
-  for (float const strain : shear_strain(s)) ASSERT_NEAR(strain, 0, 1e-6);
+  std::vector<float> const strain = shear_strain(s);
+  for (std::size_t i = 10; i < 50; ++i) ASSERT_NEAR(strain[i], 0, 1e-6) << i;  // at the ends there are too few
 }
 
 TEST(PrincipalAxes, AreThoseOfATurnedTensor) {

@@ -55,7 +55,7 @@ template <class Visit>
 void for_each_number(BondCard const& card, Visit&& visit) {
   visit("h_max", card.h_max, "m", "critical thickness (Eq. 3)");
   visit("common_radius", card.common_radius, "m", "2 r1 r2 / (r1 + r2)");
-  visit("h_cr", card.thickness, "m", "bond thickness: the gap, 0 for an overlap");
+  visit("gap", card.thickness, "m", "bond thickness h_cr: the gap, 0 for an overlap");
   visit("B", card.B, "m", "bond width (Eq. 2)");
   visit("h0", card.h0, "m", "effective thickness");
   visit("area", card.area, "m^2", "of the bond in the plane (Eq. 5)");
