@@ -27,6 +27,7 @@ StageRecord Summary::numbers() const {
   numbers["peak_eps1"] = n.peak_eps1;
   numbers["peak_eps_v"] = n.eps_v_peak;
   numbers["residual_q_Pa"] = n.residual_q;
+  if (n.secant_modulus) numbers["secant_modulus_Pa"] = *n.secant_modulus;
   numbers["residual_from_eps1"] = n.residual_from;
   numbers["end_eps1"] = n.end_eps1;
   numbers["end_eps_v"] = n.eps_v_end;

@@ -181,7 +181,7 @@ class TestRun::Running {
   void record_shear(BiaxialTest const& test) {
     record_.stages["prepare"] = test.preparation();
     record_.stages["shear"] = summary_->numbers();
-    record_.stages["shear"].merge(test.shear_looks());
+    record_.stages["shear"].merge(test.shear_checks());
   }
 
   Specimen sheared_specimen(BiaxialTest const& test) const {

@@ -109,7 +109,7 @@ std::string thread_warning(int wanted) {
          (cores == 1 ? "" : "s") + ": it takes " + std::to_string(cores) + ", since more would only wait for each other";
 }
 
-void settle_threads(int wanted) {
+void set_up_threads(int wanted) {
   int const threads = thread_count(wanted);
   keep_for_the_new_start();
   bool changed = compress_to_void_ratio("OMP_NUM_THREADS", std::to_string(threads));

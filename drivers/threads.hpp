@@ -16,7 +16,7 @@ std::string thread_warning(int wanted);
 /// where something had to be changed the program is started anew, once, with the same arguments. Threads are bound to cores only
 /// if they take all cores: two runs that share a machine would else be bound to the same ones. A thread that waits gives its core
 /// away soon, since another program may keep from running what it waits for.
-void settle_threads(int wanted);
+void set_up_threads(int wanted);
 
 /// Kokkos from here to the end of the scope, for the verbs that compute.
 class KokkosSession {

@@ -42,25 +42,28 @@ for other in quick sand literal-s55-1mpa full-size; do [ ! -f "$other/final.h5" 
 {
   "$root/build/release/perf/paper_table" "${tests[@]}"
   echo
-  "$root/build/release/perf/paper_table" "${others[@]}"
+  [ ${#others[@]} = 0 ] || "$root/build/release/perf/paper_table" "${others[@]}"
 } >examples.md
 
-# Pictures: each run beside the others of its confining stress.
+# draw RUN STRAIN OTHER...: a picture of a run at an axial strain, beside other runs.
 draw() {
-  python3 "$root/share/python/specimen_and_curve.py" "$1" -o "pictures/$1.png" --beside "${@:2}"
+  local run=$1 strain=$2
+  shift 2
+  python3 "$root/share/python/specimen_and_curve.py" "$run" -o "pictures/$run.png" --strain "$strain" --beside "$@"
 }
 if python3 -c 'import matplotlib, h5py' 2>/dev/null; then
   for stress in 1mpa 2mpa 3mpa; do
     for saturation in sand s26 s41 s55; do
       beside=()
       for other in sand s26 s41 s55; do [ "$other" = "$saturation" ] || beside+=("$other-$stress"); done
-      draw "$saturation-$stress" "${beside[@]}"
+      draw "$saturation-$stress" 0.05 "${beside[@]}"
     done
   done
   for other in "${others[@]}"; do
     case $other in
-      literal-s55-1mpa) draw "$other" s55-1mpa sand-1mpa ;;
-      *) draw "$other" s55-1mpa ;;
+      literal-s55-1mpa) draw "$other" 0.1 s55-1mpa sand-1mpa ;;
+      quick) draw "$other" 0.02 s55-1mpa ;;
+      *) draw "$other" 0.05 s55-1mpa ;;
     esac
   done
 fi

@@ -95,11 +95,16 @@ void print_control(std::vector<RunResults> const& runs, std::string& notes) {
       if (h.has("residual_J") && h["boundary_work_J"][i] > 0 && i > last / 20)
         energy = std::max(energy, std::abs(h["residual_J"][i] / h["boundary_work_J"][i]));
     }
+    std::string residual = "-";
+    if (h.has("residual_J")) {
+      char text[16];
+      std::snprintf(text, sizeof text, "%.3f", 100 * energy);
+      residual = text;
+    }
     std::vector<std::string> const missed = misses(h, target_stress(run));
     std::printf("| %s | %.1f | %.2f | %s | %s |\n", run.name.c_str(),
                 100.0 * (1 - static_cast<double>(missed.size()) / static_cast<double>(last)), 100 * wall_contact,
-                h.has("residual_J") ? std::to_string(100 * energy).substr(0, 5).c_str() : "-",
-                shares_after_peak(run, h["step"][test_numbers(h.curves()).peak]).c_str());
+                residual.c_str(), shares_after_peak(run, h["step"][test_numbers(h.curves()).peak]).c_str());
     for (std::string const& line : missed) notes += "- " + run.name + ": " + line + "\n";
   }
 }

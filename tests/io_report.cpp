@@ -225,7 +225,8 @@ TEST_F(Report, BearsARecordAndAHistoryWithHolesInThem) {
   std::ofstream(run / "run.json") << R"({"scene": {"hydrate": {"saturation": "much"}}, "warnings": [3], "exit": 7})";
   std::string const history = content_of(run / "history.csv");
   std::size_t const row = history.find("\n300,");
-  std::ofstream(run / "history.csv") << history.substr(0, row) << "\n300,0,nan,inf,nan,nan,nan,nan,0,0,0,1,1,1,1,1,1,1,1,1,1,1,nan"
+  std::ofstream(run / "history.csv") << history.substr(0, row)
+                                     << "\n300,0,nan,inf,nan,nan,nan,nan,0,0,0,1,1,1,1,1,1,1,1,1,1,1,nan"
                                      << history.substr(history.find('\n', row + 1));
   std::string const page = page_on({run});
   EXPECT_EQ(curves_of(page, "Deviator stress").size(), 2u) << "the curve has a gap";

@@ -43,15 +43,15 @@ TEST(Consolidation, ThatDoesNotComeToRestIsRefused) {
 
 /// The verdict on a shear and what it rests on.
 struct Verdict {
-  double quasi_static, looks, unbalanced, largest;
+  double quasi_static, checks, unbalanced, largest;
   std::vector<std::string> warnings;
 };
 Verdict verdict_on(Scene const& scene) {
   BiaxialTest test(scene, small_specimen(), {});
   EXPECT_EQ(test.preparation().at("quasi_static"), 1);
   while (!test.finished()) (void)test.advance(1000);
-  StageRecord const looks = test.shear_looks();
-  return {test.preparation().at("quasi_static"), looks.at("looks"), looks.at("looks_unbalanced"), looks.at("largest_unbalanced"),
+  StageRecord const checks = test.shear_checks();
+  return {test.preparation().at("quasi_static"), checks.at("checks"), checks.at("checks_unbalanced"), checks.at("largest_unbalanced"),
           test.shear_warnings()};
 }
 
@@ -62,7 +62,7 @@ TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
   scene.test.inertial_number = 2e-5;
   Verdict const slow = verdict_on(scene);
   EXPECT_EQ(slow.quasi_static, 1);
-  EXPECT_EQ(slow.looks, 50);
+  EXPECT_EQ(slow.checks, 50);
   EXPECT_TRUE(slow.warnings.empty()) << slow.warnings[0];
   scene.hydrate.saturation = 0.55;
   scene.test.axial_strain = 0.02;
@@ -71,10 +71,10 @@ TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
     scene.output.records = records;
     Verdict const fast = verdict_on(scene);
     EXPECT_EQ(fast.quasi_static, 0);
-    EXPECT_EQ(fast.looks, 100);
+    EXPECT_EQ(fast.checks, 100);
     EXPECT_GT(fast.unbalanced, 1);
     ASSERT_EQ(fast.warnings.size(), 1u);
-    EXPECT_NE(fast.warnings[0].find("of 100 looks"), std::string::npos) << fast.warnings[0];
+    EXPECT_NE(fast.warnings[0].find("of 100 checks"), std::string::npos) << fast.warnings[0];
   }
 }
 
@@ -86,10 +86,10 @@ TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
   scene.grains.ks = 1.6e7;
   BiaxialTest test(scene, small_specimen(), {});
   while (!test.finished()) (void)test.advance(1000);
-  StageRecord const looks = test.shear_looks();
-  EXPECT_GT(looks.at("deep_overlap_share"), 0.01);
-  EXPECT_GT(looks.at("deepest_overlap"), 0.1);
-  EXPECT_LT(looks.at("deepest_overlap"), 1);
+  StageRecord const checks = test.shear_checks();
+  EXPECT_GT(checks.at("deep_overlap_share"), 0.01);
+  EXPECT_GT(checks.at("deepest_overlap"), 0.1);
+  EXPECT_LT(checks.at("deepest_overlap"), 1);
   bool said = false;
   for (std::string const& text : test.shear_warnings())
     said = said || text.find("overlapped by more than 10 % of the smaller radius") != std::string::npos;

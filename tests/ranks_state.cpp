@@ -97,9 +97,9 @@ TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
   Simulation sim = ready(whole, Composite::parallel, world(), &part);
   int fewest = sim.discs();
   for (int n = 0; n < 3000; ++n) {
-    if (n == 400 || n == 2000) sim.cut_anew(lopsided(whole));
+    if (n == 400 || n == 2000) sim.set_decomposition(lopsided(whole));
     // The first rank claims to be slower than the others: it gets fewer discs.
-    if (n == 1200) sim.cut_anew(Decomposition::bisect(world(), sim.particles(), world().root() ? 5 : 1));
+    if (n == 1200) sim.set_decomposition(Decomposition::bisect(world(), sim.particles(), world().root() ? 5 : 1));
     sim.step();
     fewest = std::min(fewest, sim.particles().owned);
   }
@@ -172,7 +172,7 @@ TEST(Ranks, OwnEqualPartsOfTheWork) {
   if (ranks == 1) return;
   // Discs of the first rank take three times as long: the parts that they lie in become smaller.
   int const before = sim.particles().owned;
-  sim.cut_anew(Decomposition::bisect(world(), sim.particles(), world().root() ? 3 : 1));
+  sim.set_decomposition(Decomposition::bisect(world(), sim.particles(), world().root() ? 3 : 1));
   sim.step();
   if (world().root()) {
     EXPECT_LT(sim.particles().owned, before);

@@ -67,7 +67,7 @@ std::string card_text(nlohmann::ordered_json const& c) {
 }
 
 ExitCode bench(BenchOptions options) {
-  settle_threads(options.threads);
+  set_up_threads(options.threads);
   auto const named = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), options.what);
   options.setup.what = static_cast<ThroughputCase>(named - std::begin(throughput_case_names));
   KokkosSession const kokkos;

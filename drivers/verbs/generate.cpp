@@ -62,7 +62,7 @@ ExitCode generate(GenerateOptions const& options) {
   Scene const& scene = record.input.scene;
   if (scene.sample.generator == Generator::file)
     throw Refused("the scene reads its specimen from a file: there is nothing to generate");
-  settle_threads(scene.run.threads);
+  set_up_threads(scene.run.threads);
   RankSession const session;
   return guarded_on_all_ranks(session.ranks(), [&] { return generate_on(session.ranks(), options.output, record); });
 }

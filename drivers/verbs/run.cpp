@@ -62,7 +62,7 @@ ExitCode run(RunOptions const& options) {
   std::vector<std::string> more;
   if (!options.output.empty()) more.push_back("output.folder=" + options.output);
   LoadedScene input = options.scene.load(more);
-  if (!options.dry_run) settle_threads(input.scene.run.threads);
+  if (!options.dry_run) set_up_threads(input.scene.run.threads);
   RankSession const session;
   Ranks const& ranks = session.ranks();
   return guarded_on_all_ranks(ranks, [&] { return run_on(ranks, options, limits, std::move(input)); });

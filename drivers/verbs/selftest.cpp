@@ -52,7 +52,7 @@ bool report(char const* name, Check&& check) {
 }
 
 ExitCode do_only(SelftestOptions const& options) {
-  settle_threads(options.threads);
+  set_up_threads(options.threads);
   KokkosSession const kokkos;
   try {
     return print_result((options.only == "collision" ? check_collision() : hash_text(bonded_state_hash())) + "\n");

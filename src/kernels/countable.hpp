@@ -1,5 +1,8 @@
 #pragma once
 /// How many neighbours a disc can have, and how many discs and row entries a rank.
+///
+/// 32 bits for indices halve what the hot kernel reads of them; more than 2^31 entries on one rank would need 40 GB of rows and
+/// more.
 #include <cstdint>
 #include <stdexcept>
 

@@ -72,7 +72,7 @@ struct BiaxialTest::State {
   void require_rest(std::int64_t steps);
   void begin_shear();
   double eps1() const { return std::log(height0 / simulation->walls().height()); }
-  void look();
+  void check();
   double skin() const { return scene.run.skin > 0 ? scene.run.skin : chosen_skin * d50; }
   template <class Visit>
   void for_each_number(Visit&& visit);
@@ -117,19 +117,19 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   constexpr double inertial_number = 2e-4;
   Simulation& s = *simulation;
   prepare_servo(s, stress, inertial_number, d50, scene.run.dt_safety);
-  double const squeeze = strain_rate_of(inertial_number, stress, s.density(), d50);
+  double const closing_rate = strain_rate_of(inertial_number, stress, s.density(), d50);
   AxisDrive const servo_x = s.loading.x, servo_y = s.loading.y;
   std::int64_t const budget = scene.test.consolidation_steps,
-                     most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (squeeze * s.time_step)));
+                     most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (closing_rate * s.time_step)));
   if (mean_stress(s) < 0.95 * stress) {
-    s.loading.x = s.loading.y = AxisDrive::at_rate(squeeze);
-    s.add_uniform_strain_rate(squeeze, squeeze);
+    s.loading.x = s.loading.y = AxisDrive::at_rate(closing_rate);
+    s.add_uniform_strain_rate(closing_rate, closing_rate);
     while (mean_stress(s) < 0.98 * stress && s.steps() < most_steps) {
       for (int n = 0; n < 20 && s.steps() < most_steps; ++n) s.step();
       if (s.steps() % 2000 == 0)
         report(progress, {"consolidate", 0.5 * mean_stress(s) / stress, "compressing", s.steps() * s.discs()});
     }
-    s.add_uniform_strain_rate(-squeeze, -squeeze);
+    s.add_uniform_strain_rate(-closing_rate, -closing_rate);
   }
   s.loading.x = servo_x;
   s.loading.y = servo_y;
@@ -231,7 +231,7 @@ bool BiaxialTest::advance(std::int64_t most_steps) {
   Simulation& s = *state_->simulation;
   for (std::int64_t n = 0; n < most_steps; ++n) {
     s.step();
-    if (state_->watch.due(state_->eps1())) state_->look();
+    if (state_->watch.due(state_->eps1())) state_->check();
     bool const due = ++state_->steps_since_record >= state_->steps_per_record || finished();
     if (!due) continue;
     state_->steps_since_record = 0;
@@ -241,17 +241,17 @@ bool BiaxialTest::advance(std::int64_t most_steps) {
   return false;
 }
 
-void BiaxialTest::State::look() {
-  watch.look(*simulation, eps1());
+void BiaxialTest::State::check() {
+  watch.check(*simulation, eps1());
   if (!watch.balanced()) preparation["quasi_static"] = 0;
 }
 
 std::vector<std::string> BiaxialTest::shear_warnings() const { return state_->watch.warnings(); }
 
-StageRecord BiaxialTest::shear_looks() const {
-  StageRecord looks;
-  state_->watch.for_each_number([&](char const* name, auto const& value) { looks[name] = static_cast<double>(value); });
-  return looks;
+StageRecord BiaxialTest::shear_checks() const {
+  StageRecord checks;
+  state_->watch.for_each_number([&](char const* name, auto const& value) { checks[name] = static_cast<double>(value); });
+  return checks;
 }
 
 HistoryRow BiaxialTest::record() {
@@ -357,7 +357,7 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   State& t = *state_;
   t.scene = scene;
   t.ranks = ranks;
-  // Checkpoints from before there were looks hold none.
+  // Checkpoints from before there were checks hold none.
   t.watch.for_each_number(
       [&](std::string const& name, auto const& value) { state.numbers.emplace(name, static_cast<double>(value)); });
   t.for_each_number(

@@ -41,10 +41,10 @@ class BiaxialTest {
   std::vector<BreakEvent> take_events();  ///< broken bonds since the last call (none without output.events and snapshots), sorted
                                           ///< by (step, id_a, id_b); on rank 0 only
   double strain_fraction() const;         ///< eps_1 / target
-  /// What was not quasi-static or overlapped too far in the shear so far, in words and in numbers (shear_watch.hpp). The looks
+  /// What was not quasi-static or overlapped too far in the shear so far, in words and in numbers (shear_watch.hpp). The checks
   /// have an interval of their own; preparation() holds the verdict `quasi_static`, 1 or 0, which they may take back.
   std::vector<std::string> shear_warnings() const;
-  StageRecord shear_looks() const;
+  StageRecord shear_checks() const;
   std::vector<BreakEvent> events_after(std::int64_t step) const;  ///< those already taken that came later; on rank 0 only
   std::int64_t disc_steps() const;
   double search_seconds() const;  ///< wall time of the neighbour searches since the bonds were installed, or since resuming

@@ -1,5 +1,8 @@
 #pragma once
 /// Whether a loading deserves to be called quasi-static: its rate, and how stiff the grains are under its stress.
+///
+/// Users buy speed with the strain rate before anything else, so the price is computed and said before the run, refused where
+/// nobody could want it, and looked at again while the specimen shears (shear_watch.hpp).
 #include <string>
 #include <vector>
 

@@ -17,11 +17,11 @@ std::string text_of(char const* format, Numbers... numbers) {
 
 }  // namespace
 
-void ShearWatch::look(Simulation const& simulation, double eps1) {
+void ShearWatch::check(Simulation const& simulation, double eps1) {
   Measures const m = simulation.measures();
   double const unbalanced = m.unbalanced_ratio(simulation.discs());
-  ++looks_;
-  restless_ += unbalanced > unbalanced_limit ? 1 : 0;
+  ++checks_;
+  unbalanced_checks_ += unbalanced > unbalanced_limit ? 1 : 0;
   largest_unbalanced_ = std::max(largest_unbalanced_, unbalanced);
   if (m.deep == 0) return;
   deepest_ = std::max(deepest_, simulation.deepest_overlap());
@@ -33,10 +33,10 @@ void ShearWatch::look(Simulation const& simulation, double eps1) {
 std::vector<std::string> ShearWatch::warnings() const {
   std::vector<std::string> texts;
   if (!balanced()) {
-    texts.push_back(
-        text_of("the unbalanced ratio was above %g in %lld of %lld looks (%.3g at most): the shear is not quasi-static, "
-                "lower the inertial number",
-                unbalanced_limit, static_cast<long long>(restless_), static_cast<long long>(looks_), largest_unbalanced_));
+    texts.push_back(text_of(
+        "the unbalanced ratio was above %g in %lld of %lld checks (%.3g at most): the shear is not quasi-static, "
+        "lower the inertial number",
+        unbalanced_limit, static_cast<long long>(unbalanced_checks_), static_cast<long long>(checks_), largest_unbalanced_));
   }
   if (deep_share_ > deep_overlap_share) {
     texts.push_back(

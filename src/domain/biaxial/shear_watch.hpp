@@ -7,30 +7,30 @@
 
 namespace clathra {
 
-inline constexpr double look_interval = 2e-4;       ///< of axial strain
+inline constexpr double check_interval = 2e-4;      ///< of axial strain
 inline constexpr double unbalanced_at_rest = 1e-3;  ///< mean unbalanced force over mean contact force, before the shear
 inline constexpr double unbalanced_limit = 1e-2;    ///< while it is sheared
-inline constexpr double restless_share = 0.01;      ///< of the looks that may be above it
+inline constexpr double unbalanced_share = 0.01;    ///< of the checks that may be above it
 inline constexpr double deep_overlap_share =
     1e-2;  ///< of the touching pairs that may overlap by more than a tenth of the smaller radius
 
 class ShearWatch {
  public:
-  /// Whether the next look is due at this axial strain.
-  bool due(double eps1) const { return eps1 >= (static_cast<double>(looks_) + 1) * look_interval; }
+  /// Whether the next check is due at this axial strain.
+  bool due(double eps1) const { return eps1 >= (static_cast<double>(checks_) + 1) * check_interval; }
   /// Collective; changes nothing of the simulation.
-  void look(Simulation const& simulation, double eps1);
+  void check(Simulation const& simulation, double eps1);
 
-  /// False where the unbalanced ratio was above its limit in more than 1 % of the looks.
-  bool balanced() const { return static_cast<double>(restless_) <= restless_share * static_cast<double>(looks_); }
+  /// False where the unbalanced ratio was above its limit in more than 1 % of the checks.
+  bool balanced() const { return static_cast<double>(unbalanced_checks_) <= unbalanced_share * static_cast<double>(checks_); }
   /// In words: what was not as it should be.
   std::vector<std::string> warnings() const;
 
   /// Visits (name, number), for the record of a run and for checkpoints.
   template <class Visit>
   void for_each_number(Visit&& visit) {
-    visit("looks", looks_);
-    visit("looks_unbalanced", restless_);
+    visit("checks", checks_);
+    visit("checks_unbalanced", unbalanced_checks_);
     visit("largest_unbalanced", largest_unbalanced_);
     visit("deep_overlap_share", deep_share_);
     visit("deep_overlap_eps1", deep_eps1_);
@@ -38,7 +38,7 @@ class ShearWatch {
   }
 
  private:
-  std::int64_t looks_ = 0, restless_ = 0;
+  std::int64_t checks_ = 0, unbalanced_checks_ = 0;
   double largest_unbalanced_ = 0;
   double deep_share_ = 0, deep_eps1_ = 0;  // the largest share, and when
   double deepest_ = 0;                     // overlap over the smaller radius

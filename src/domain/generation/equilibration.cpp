@@ -9,7 +9,7 @@ namespace clathra {
 
 namespace {
 
-constexpr int chunk = 200;  // steps between looks at the assembly
+constexpr int chunk = 200;  // steps between checks of the assembly
 
 std::string percent_text(double value, int digits) {
   std::string text = std::to_string(value);
@@ -47,7 +47,7 @@ void close_homogeneously(Simulation& simulation, double rate, double present_rat
 /// @return the lowest share of the friction that was needed
 double compress_until_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction& friction,
                                  CompressionTarget const& target, ProgressCallback const& progress) {
-  constexpr int look = 10;                 // steps between looks at the stress
+  constexpr int interval = 10;             // steps between checks of the stress
   constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
   constexpr double slowing_range = 0.004;  // in void ratio
   double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.density(), target.d50);
@@ -58,7 +58,7 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
     double const slowed = full_rate * rate_factor * std::clamp(above / slowing_range, 0.05, 1.0);
     close_homogeneously(simulation, slowed, rate);
     rate = slowed;
-    for (int n = 0; n < look; ++n) simulation.step();
+    for (int n = 0; n < interval; ++n) simulation.step();
     double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
     friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
     lowest = std::min(lowest, friction.share);
@@ -122,20 +122,21 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
                  char const* stage) {
   std::int64_t const first = simulation.steps();
   double const largest_rate = 0.02 / (1000 * simulation.time_step);
-  int calm = 0;
-  while (simulation.steps() - first < most_steps && calm < 3) {
+  int checks_at_rest = 0;
+  while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
     if (simulation.periodic()) steer_cell(simulation, stress, largest_rate);
     std::int64_t const steps = std::min<std::int64_t>(chunk, first + most_steps - simulation.steps());
     for (std::int64_t n = 0; n < steps; ++n) simulation.step();
     Measures const m = simulation.measures();
-    calm = holds_stress(simulation, m, stress) && m.unbalanced_ratio(simulation.discs()) < rest ? calm + 1 : 0;
+    checks_at_rest =
+        holds_stress(simulation, m, stress) && m.unbalanced_ratio(simulation.discs()) < rest ? checks_at_rest + 1 : 0;
     report(progress,
            {stage, static_cast<double>(simulation.steps() - first) / static_cast<double>(most_steps),
             "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),
             simulation.steps() * simulation.discs()});
   }
   simulation.stretch_cell(0);
-  return calm >= 3;
+  return checks_at_rest >= 3;
 }
 
 double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,

@@ -1,5 +1,8 @@
 #pragma once
 /// Bringing an assembly to rest under an isotropic stress, at a wanted void ratio.
+///
+/// The void ratio is reached by closing the box at a rate with the friction as a knob, not by waiting for a servo: a servo at
+/// constant friction stops wherever the grains jam, and says so only after the whole compression.
 #include "domain/scene/scene.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/simulation.hpp"

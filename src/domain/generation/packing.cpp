@@ -79,12 +79,12 @@ void compact(Simulation& simulation, double void_ratio, double stress, double sp
   while (simulation.void_ratio() > void_ratio && mean_stress < 20 * stress) {
     double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.03, 1.0);
     simulation.loading.y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
-    constexpr int look = 200;
+    constexpr int interval = 200;
     simulation.time_step = simulation.stable_time_step(0.8);
     mean_stress = 0;
-    for (int n = 0; n < look && simulation.void_ratio() > void_ratio; ++n) {
+    for (int n = 0; n < interval && simulation.void_ratio() > void_ratio; ++n) {
       simulation.step();
-      mean_stress += simulation.stress().y / look;
+      mean_stress += simulation.stress().y / interval;
     }
     report(progress, {stage.stage, stage.fraction, stage.detail + ", e " + std::to_string(simulation.void_ratio()).substr(0, 5),
                       simulation.steps() * simulation.discs()});
@@ -135,9 +135,9 @@ std::vector<double> random_radii(Grading const& grading, std::int64_t particles,
 PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
                                         Ranks const& ranks) {
   double const d50 = design.grading.d50();
-  GenerationFriction knob;
-  knob.shape_factor = design.void_ratio > 0.28 ? 2 : 1;  // friction alone packs to about 0.25, with impacts to 0.24
-  SimulationLaws const laws = generation_laws(scene, knob);
+  GenerationFriction friction;
+  friction.shape_factor = design.void_ratio > 0.28 ? 2 : 1;  // friction alone packs to about 0.25, with impacts to 0.24
+  SimulationLaws const laws = generation_laws(scene, friction);
   PackedSpecimen packed;
   ProgressCallback const counted = [&](Progress p) {
     p.disc_steps += packed.disc_steps;  // of the layers before
@@ -150,12 +150,12 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   target.stress = scene.bond.stress;
   target.void_ratio = design.void_ratio;
   target.d50 = d50;
-  double const share = compress_to_void_ratio(simulation, scene, knob, target, counted);
+  double const share = compress_to_void_ratio(simulation, scene, friction, target, counted);
   packed.disc_steps += simulation.steps() * simulation.discs();
   packed.specimen = simulation.specimen();
   packed.specimen.stress = scene.bond.stress;
-  packed.friction = knob.friction * share;
-  packed.shape_factor = knob.shape_factor * share;
+  packed.friction = friction.friction * share;
+  packed.shape_factor = friction.shape_factor * share;
   packed.unbalanced = simulation.measures().unbalanced_ratio(simulation.discs());
   packed.stress_x = simulation.stress().x;
   packed.stress_y = simulation.stress().y;

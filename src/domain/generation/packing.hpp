@@ -14,7 +14,7 @@ double under_compaction_void_ratio(double target, int layer, int layers, double 
 /// A packed specimen (this rank's share), resting under the stress of the design, with its generation friction.
 struct PackedSpecimen {
   Specimen specimen;
-  double friction = 0, shape_factor = 0;  ///< of the knob at the end
+  double friction = 0, shape_factor = 0;  ///< in generation, at its end
   double unbalanced = 0;
   double stress_x = 0, stress_y = 0;  ///< on the walls [Pa]
   std::int64_t disc_steps = 0;

@@ -107,8 +107,8 @@ class Tiling {
 PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design, std::int64_t particles,
                                   ProgressCallback const& progress) {
   double const d50 = design.grading.d50();
-  GenerationFriction knob;
-  if (design.void_ratio > 0.25) knob.shape_factor = 2;
+  GenerationFriction friction;
+  if (design.void_ratio > 0.25) friction.shape_factor = 2;
   Specimen specimen;
   specimen.periodic = true;
   specimen.density = scene.grains.density;
@@ -122,17 +122,17 @@ PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design
   specimen.x = placed.x;
   specimen.y = placed.y;
   for (std::int64_t i = 0; i < particles; ++i) specimen.id.push_back(static_cast<int>(i));
-  Simulation simulation(specimen, generation_laws(scene, knob), 0.2 * d50);
+  Simulation simulation(specimen, generation_laws(scene, friction), 0.2 * d50);
   CompressionTarget target;
   target.stress = scene.bond.stress;
   target.void_ratio = design.void_ratio;
   target.d50 = d50;
   PackedSpecimen packed;
-  double const share = compress_to_void_ratio(simulation, scene, knob, target, progress);
+  double const share = compress_to_void_ratio(simulation, scene, friction, target, progress);
   packed.specimen = simulation.specimen();
   packed.specimen.stress = scene.bond.stress;
-  packed.friction = knob.friction * share;
-  packed.shape_factor = knob.shape_factor * share;
+  packed.friction = friction.friction * share;
+  packed.shape_factor = friction.shape_factor * share;
   packed.disc_steps = simulation.steps() * simulation.discs();
   return packed;
 }
@@ -159,9 +159,9 @@ PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, Pr
   std::int64_t const tile = std::min(scene.sample.tile_particles, design.particles);
   PackedSpecimen packed = pack_periodic_cell(scene, design, tile, progress);
   Specimen const whole = replicate(packed.specimen, design.width, design.height, ranks);
-  GenerationFriction knob;
-  if (design.void_ratio > 0.25) knob.shape_factor = 2;
-  Simulation simulation(whole, generation_laws(scene, knob), 0.05 * d50, ranks);
+  GenerationFriction friction;
+  if (design.void_ratio > 0.25) friction.shape_factor = 2;
+  Simulation simulation(whole, generation_laws(scene, friction), 0.05 * d50, ranks);
   // The cell's equilibrium is kept inside; the walls close the cut discs' gaps at a speed whose wave stays below the stress.
   prepare_servo(simulation, scene.bond.stress, 1e-3, d50, 0.8);
   double const quiet = 0.5 * scene.bond.stress / (simulation.density() / (1 + design.void_ratio) * wave_speed(simulation));

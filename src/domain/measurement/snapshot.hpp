@@ -1,5 +1,8 @@
 #pragma once
 /// What can be seen of a specimen at one instant: discs with their stress and motion, contacts and bonds with their forces.
+///
+/// A snapshot is a plain copy on the host, so that whoever writes, draws or measures needs neither the simulation nor Kokkos, and
+/// a picture made from a file is the picture that would have been made in the run.
 #include <array>
 #include <cstdint>
 #include <vector>

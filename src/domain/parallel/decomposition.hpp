@@ -1,5 +1,9 @@
 #pragma once
 /// Which rank owns which part of the plane: rectangles by recursive bisection.
+///
+/// Bisection cuts a bonded specimen that shears in bands by the time that its parts take, which a fixed grid of cells could not;
+/// and cuts that follow the strain of the box keep most discs where they are. Rectangles, unlike cell lists, need no table that
+/// grows with the specimen: any rank can say who owns a place.
 #include <array>
 #include <vector>
 

@@ -1,5 +1,7 @@
 #pragma once
 /// Numbers of discs that other ranks own, found by id: each rank keeps those of one block of ids.
+///
+/// A list of all ids on every rank would be simpler, and the first thing that does not fit when the specimen grows.
 #include <vector>
 
 #include "domain/parallel/ranks.hpp"

@@ -1,6 +1,9 @@
 #pragma once
 /// Discs by value, each with its auxiliary fields and its row, as a string of numbers: how they travel to other ranks and to
 /// checkpoints.
+///
+/// One form for both, so that a field that travels is also a field that is saved: what a migration forgot a restart would forget
+/// too, and the test of ranks finds it. A row goes with its disc because history belongs to it, not to a place in memory.
 #include <string>
 #include <vector>
 

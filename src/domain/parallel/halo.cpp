@@ -37,21 +37,21 @@ struct UnpackColumn {
   KOKKOS_FUNCTION void operator()(int k) const { to(first + k) = static_cast<T>(numbers(k * columns + column)); }
 };
 
-std::vector<Stretch> times(std::vector<Stretch> stretches, std::size_t columns) {
-  for (Stretch& s : stretches) {
+std::vector<BufferRange> times(std::vector<BufferRange> stretches, std::size_t columns) {
+  for (BufferRange& s : stretches) {
     s.begin *= columns;
     s.size *= columns;
   }
   return stretches;
 }
 
-std::size_t total(std::vector<Stretch> const& stretches) {
+std::size_t total(std::vector<BufferRange> const& stretches) {
   return stretches.empty() ? 0 : stretches.back().begin + stretches.back().size;
 }
 
 /// The stretches of a buffer that holds sizes[r] numbers for each rank r.
-std::vector<Stretch> stretches_of(std::vector<std::size_t> const& sizes) {
-  std::vector<Stretch> stretches;
+std::vector<BufferRange> stretches_of(std::vector<std::size_t> const& sizes) {
+  std::vector<BufferRange> stretches;
   std::size_t begin = 0;
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     if (sizes[r] > 0) stretches.push_back({static_cast<int>(r), begin, sizes[r]});
@@ -80,7 +80,7 @@ void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, Parti
   }
   sent_ = stretches_of(sizes);
   source_ = uninitialised<int>("halo.source", total(sent_));
-  for (Stretch const& s : sent_) {
+  for (BufferRange const& s : sent_) {
     Kokkos::deep_copy(Kokkos::subview(source_, std::pair(s.begin, s.begin + s.size)),
                       Kokkos::subview(near[static_cast<std::size_t>(s.rank)], std::pair<std::size_t, std::size_t>(0, s.size)));
   }
@@ -93,7 +93,7 @@ void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, Parti
   fill_padding(particles);
   std::vector<AnyField> all;
   for_each_field(particles, [&](DiscField const&, auto const& field) { all.push_back(field); });
-  trade(ranks, particles, all);
+  exchange_known(ranks, particles, all);
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
@@ -101,15 +101,15 @@ void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
   for_each_field(particles, [&](DiscField const& about, auto const& field) {
     if (about.moves) moving.push_back(field);
   });
-  trade(ranks, particles, moving);
+  exchange_known(ranks, particles, moving);
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles, AnyField const& field) const {
-  trade(ranks, particles, {field});
+  exchange_known(ranks, particles, {field});
 }
 
 /// Doubles hold every value of every kind of field.
-void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<AnyField> const& columns) const {
+void Halo::exchange_known(Ranks const& ranks, ParticleSoA const& particles, std::vector<AnyField> const& columns) const {
   auto const width = static_cast<int>(columns.size());
   Field<double> const out = uninitialised<double>("halo.out", source_.extent(0) * columns.size()),
                       in = uninitialised<double>("halo.in", static_cast<std::size_t>(particles.ghosts) * columns.size());
@@ -123,7 +123,7 @@ void Halo::trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<A
   auto host_in = Kokkos::create_mirror_view(in);
   Kokkos::fence();
   Kokkos::Profiling::pushRegion("halo_trade");
-  ranks.trade(host_out.data(), times(sent_, columns.size()), host_in.data(), times(received_, columns.size()));
+  ranks.exchange_known(host_out.data(), times(sent_, columns.size()), host_in.data(), times(received_, columns.size()));
   Kokkos::Profiling::popRegion();
   Kokkos::deep_copy(in, host_in);
   at = 0;

@@ -1,5 +1,8 @@
 #pragma once
 /// Copies of the discs that other ranks own near this rank's rectangle, kept as ghosts behind the owned discs.
+///
+/// Ghosts get the place and velocity of their discs each step and compute nothing. Both owners of a pair evaluate it from the
+/// same numbers, so there is no second message with forces, and a pair across a cut has the bits of one inside.
 #include <vector>
 
 #include "domain/parallel/decomposition.hpp"
@@ -19,10 +22,10 @@ class Halo {
   std::size_t bytes() const;
 
  private:
-  void trade(Ranks const& ranks, ParticleSoA const& particles, std::vector<AnyField> const& columns) const;
+  void exchange_known(Ranks const& ranks, ParticleSoA const& particles, std::vector<AnyField> const& columns) const;
 
-  Field<int> source_;                     ///< [sent] index of each disc that goes to another rank
-  std::vector<Stretch> sent_, received_;  ///< discs, by rank
+  Field<int> source_;                         ///< [sent] index of each disc that goes to another rank
+  std::vector<BufferRange> sent_, received_;  ///< discs, by rank
 };
 
 }  // namespace clathra

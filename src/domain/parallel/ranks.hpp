@@ -11,8 +11,8 @@
 
 namespace clathra {
 
-/// A stretch of a buffer that goes to a rank or comes from it.
-struct Stretch {
+/// A part of a buffer that goes to a rank or comes from it.
+struct BufferRange {
   int rank = 0;
   std::size_t begin = 0, size = 0;  ///< in numbers
 };
@@ -27,8 +27,8 @@ class Communicator {
   virtual void max(double* values, int size) const = 0;
   virtual void broadcast(void* bytes, std::size_t size, int from) const = 0;
   virtual std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> to) const = 0;
-  virtual void trade(double const* send, std::vector<Stretch> const& to, double* receive,
-                     std::vector<Stretch> const& from) const = 0;
+  virtual void exchange_known(double const* send, std::vector<BufferRange> const& to, double* receive,
+                              std::vector<BufferRange> const& from) const = 0;
   [[noreturn]] virtual void abort(int code) const = 0;
 };
 
@@ -68,8 +68,9 @@ class Ranks {
   /// to[r] goes to rank r; @return what came from each rank
   std::vector<std::vector<double>> exchange(std::vector<std::vector<double>> to) const;
   /// Numbers of agreed sizes between neighbours.
-  void trade(double const* send, std::vector<Stretch> const& to, double* receive, std::vector<Stretch> const& from) const {
-    if (communicator_) communicator_->trade(send, to, receive, from);
+  void exchange_known(double const* send, std::vector<BufferRange> const& to, double* receive,
+                      std::vector<BufferRange> const& from) const {
+    if (communicator_) communicator_->exchange_known(send, to, receive, from);
   }
   /// All ranks' values on rank 0, in the order of the ranks; nothing elsewhere.
   std::vector<double> gather(std::vector<double> const& values) const;

@@ -1,5 +1,8 @@
 #pragma once
 /// A specimen at rest on the host: what generation hands to a test, and what a specimen file holds.
+///
+/// The one form in which discs pass between generator, file, bonding and simulation. It has no order that matters: ids say who is
+/// who, so that a file, a permutation and the shares of ranks mean the same.
 #include <cstdint>
 #include <iterator>
 #include <optional>

@@ -1,5 +1,9 @@
 #pragma once
 /// Broken bonds: kernels log them, here they are collected on the host.
+///
+/// Bonds break in the middle of the hot kernel, a few in a million steps of a disc. It appends to a log of fixed size instead of
+/// asking the host, and the host empties the log when somebody asks or rows are made anew. A log as long as the number of intact
+/// bonds cannot overflow, so there is no check and no loss.
 #include <vector>
 
 #include "domain/parallel/ranks.hpp"

@@ -10,7 +10,7 @@ namespace clathra {
 
 namespace {
 
-constexpr int check_every = 64;         // steps between looks at the fault flags
+constexpr int check_every = 64;         // steps between checks of the fault flags
 constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
 
 Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
@@ -28,7 +28,7 @@ auto Simulation::in_range(Work const& sum) const {
   }
 }
 
-WallReactions Simulation::push_walls(Real dt) {
+WallReactions Simulation::apply_wall_forces(Real dt) {
   return in_range([&] { return add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, dt, losses_, faults_, sums_); });
 }
 
@@ -48,7 +48,7 @@ void Simulation::step() {
   compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, broken_bonds_.log(), losses_, faults_);
   busy_seconds_ += pushing.seconds();
   if (!periodic()) {
-    reactions_ = push_walls(time_step);
+    reactions_ = apply_wall_forces(time_step);
     account_boundary_work(before);
     loading.steer(walls_, reactions_, time_step);
   }
@@ -102,7 +102,7 @@ bool Simulation::sorting_is_due() {
   return due;
 }
 
-/// Cuts anew when the time that ranks have waited for the slowest, since the last look, is well above what cutting costs.
+/// Cuts anew when the time that ranks have waited for the slowest, since the last check, is well above what cutting costs.
 void Simulation::rebalance_if_it_pays() {
   constexpr double worth = 4, least_imbalance = 1.05;
   double slowest[2] = {busy_seconds_, rebuild_seconds_ / static_cast<double>(std::max<std::int64_t>(rebuilds_, 1))};
@@ -193,7 +193,7 @@ void Simulation::account_boundary_work(WallReactions const& before) {
 void Simulation::evaluate_forces() {
   if (rebuild_pending_) rebuild();
   compute_forces(particles_, rows_, laws_.contact, 0, step_, broken_bonds_.log(), losses_, faults_);
-  if (!periodic()) reactions_ = push_walls(0);
+  if (!periodic()) reactions_ = apply_wall_forces(0);
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
@@ -221,7 +221,7 @@ void Simulation::mark_start() {
   Kokkos::deep_copy(start_y_, particles_.y);
 }
 
-void Simulation::cut_anew(Decomposition const& cuts) {
+void Simulation::set_decomposition(Decomposition const& cuts) {
   decomposition_ = cuts;
   rebuild_pending_ = true;
 }
@@ -280,7 +280,7 @@ Real Simulation::largest_frequency(int iterations) const {
 
 Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, across()); }
 
-/// Where no rank sends or gets discs, intact bonds only become fewer after inject().
+/// Where no rank sends or gets discs, intact bonds only become fewer after restore_history().
 void Simulation::make_room_for_breaks() {
   if (laws_.contact.bond_kind == BondKind::none || (ranks_.alone() && broken_bonds_.has_log())) return;
   broken_bonds_.make_room(broken_bonds_.keeps_events ? static_cast<std::size_t>(count_own_bonds(particles_, rows_)) : 0);

@@ -80,9 +80,9 @@ class Simulation {
   void add_uniform_strain_rate(Real rate_x,
                                Real rate_y);  ///< sets the discs, not only the walls, in motion; closing positive [1/s]
   void request_rebuild() { rebuild_pending_ = true; }
-  void mark_start();                         ///< displacements count from here
-  void cut_anew(Decomposition const& cuts);  ///< from the next search on
-  void evaluate_forces();                    ///< forces of the present state without advancing it
+  void mark_start();                                  ///< displacements count from here
+  void set_decomposition(Decomposition const& cuts);  ///< from the next search on
+  void evaluate_forces();                             ///< forces of the present state without advancing it
 
   // Reading.
   std::int64_t steps() const { return step_; }
@@ -137,8 +137,8 @@ class Simulation {
  private:
   void refresh_ghosts() const;  // all of their state
   void rebuild(bool skin_by_speed = true, AuxiliaryFields const& also = {});
-  void adopt_discs(Specimen const& specimen);
-  void inject(Specimen const& specimen);
+  void upload_discs(Specimen const& specimen);
+  void restore_history(Specimen const& specimen);
   AffineFrame frame() const;
   SkinRange skin_range(bool by_speed) const;
   bool outdated(Real largest_displacement);
@@ -153,8 +153,8 @@ class Simulation {
   AcrossRanks across() const;
   template <class Work>
   auto in_range(Work const& sum) const;
-  WallReactions push_walls(Real dt);
-  std::vector<double> brought_home(DiscRecords discs);
+  WallReactions apply_wall_forces(Real dt);
+  std::vector<double> records_of_own_discs(DiscRecords discs);
   void find_listed_neighbours();
   template <class Visit>
   void for_each_number(Visit&& visit);

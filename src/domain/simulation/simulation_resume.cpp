@@ -123,7 +123,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   if (one_skin) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
   state.discs = with_columns(std::move(state.discs), {state.disc_columns, state.history_columns},
                              record_columns(with_discs, laws_.features()));
-  rows_ = unpack_discs(brought_home(std::move(state.discs)), laws_.features(), particles_, with_discs);
+  rows_ = unpack_discs(records_of_own_discs(std::move(state.discs)), laws_.features(), particles_, with_discs);
   if (one_skin) Kokkos::deep_copy(particles_.verlet_skin, skin_ / 2);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their skins.
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * (reach_ - 2 * largest_radius_));
@@ -135,7 +135,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
 }
 
 /// The records of the discs that belong to this rank, from wherever they were read.
-std::vector<double> Simulation::brought_home(DiscRecords discs) {
+std::vector<double> Simulation::records_of_own_discs(DiscRecords discs) {
   if (ranks_.alone()) return std::move(discs.numbers);
   // Behind the id come x and y.
   std::vector<double> x, y;

@@ -160,7 +160,7 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin,
   if (s.periodic && !ranks_.alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
   require_finite(ranks_, s);
   discs_ = static_cast<int>(total);
-  adopt_discs(s);
+  upload_discs(s);
   set_sums();
   rows_.features = laws_.features();
   decomposition_ = Decomposition::bisect(ranks_, particles_, 1);
@@ -170,11 +170,11 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin,
   rebuild(/*skin_by_speed=*/false);
   skin_ = own_skin;
   rebuild_pending_ = true;
-  inject(s);
+  restore_history(s);
   evaluate_forces();
 }
 
-void Simulation::adopt_discs(Specimen const& s) {
+void Simulation::upload_discs(Specimen const& s) {
   std::size_t const n = s.size();
   particles_ = allocate_particles(static_cast<int>(n));
   std::vector<double> inverse_mass(n), inverse_inertia(n);
@@ -202,7 +202,7 @@ void Simulation::adopt_discs(Specimen const& s) {
 }
 
 /// Writes the history of the specimen's contacts into the rows, on both sides.
-void Simulation::inject(Specimen const& s) {
+void Simulation::restore_history(Specimen const& s) {
   auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
              neighbour = download(rows_.neighbour);
   IdIndex const at(id, particles_.owned);

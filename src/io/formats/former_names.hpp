@@ -1,5 +1,5 @@
 #pragma once
-/// Columns and datasets that had another name once. Files keep theirs; readers take both.
+/// Columns, datasets and numbers that had another name once. Files keep theirs; readers take both.
 #include <string>
 #include <string_view>
 
@@ -9,7 +9,9 @@ struct FormerName {
   std::string_view now, before;
 };
 inline constexpr FormerName former_names[] = {
-    {"formation_overlap", "equilibrium"}, {"verlet_skin", "leeway"}, {"intact_interacting_pct", "intact_mechanical_pct"}};
+    {"formation_overlap", "equilibrium"}, {"verlet_skin", "leeway"}, {"intact_interacting_pct", "intact_mechanical_pct"},
+                                              {"checks", "looks"},
+                                              {"checks_unbalanced", "looks_unbalanced"}};
 
 /// The name that a column has today.
 inline std::string present_name(std::string_view name) {

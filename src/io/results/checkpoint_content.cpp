@@ -207,6 +207,7 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   read_events(file, state, ranks);
   for (auto* names : {&state.simulation.disc_columns, &state.simulation.history_columns})
     for (std::string& name : *names) name = present_name(name);
+  for (auto const& [name, value] : std::map(state.numbers)) state.numbers.emplace(present_name(name), value);
   return state;
 }
 

@@ -60,6 +60,7 @@ Json program_json(RunRecord const& record) {
 /// What the keys do not say of themselves.
 Json meaning_json() {
   return {{"stages.shear.residual_q_Pa", "mean of q over the records from residual_from_eps1 on"},
+          {"stages.shear.secant_modulus_Pa", "E50: half the peak of q over the axial strain where q first gets there"},
           {"wall_seconds.generate", "making the specimen"},
           {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; of a resumed run reading its checkpoint"},
           {"wall_seconds.shear",

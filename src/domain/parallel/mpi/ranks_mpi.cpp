@@ -58,13 +58,13 @@ class World : public Communicator {
     return from;
   }
 
-  void trade(double const* send, std::vector<Stretch> const& to, double* receive,
-             std::vector<Stretch> const& from) const override {
+  void exchange_known(double const* send, std::vector<BufferRange> const& to, double* receive,
+             std::vector<BufferRange> const& from) const override {
     std::vector<MPI_Request> requests;
     requests.reserve(to.size() + from.size());
-    for (Stretch const& s : from)
+    for (BufferRange const& s : from)
       MPI_Irecv(receive + s.begin, as_count(s.size), MPI_DOUBLE, s.rank, 2, MPI_COMM_WORLD, &requests.emplace_back());
-    for (Stretch const& s : to)
+    for (BufferRange const& s : to)
       MPI_Isend(send + s.begin, as_count(s.size), MPI_DOUBLE, s.rank, 2, MPI_COMM_WORLD, &requests.emplace_back());
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   }
