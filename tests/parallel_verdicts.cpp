@@ -51,8 +51,8 @@ Verdict verdict_on(Scene const& scene) {
   EXPECT_EQ(test.preparation().at("quasi_static"), 1);
   while (!test.finished()) (void)test.advance(1000);
   StageRecord const checks = test.shear_checks();
-  return {test.preparation().at("quasi_static"), checks.at("checks"), checks.at("checks_unbalanced"), checks.at("largest_unbalanced"),
-          test.shear_warnings()};
+  return {test.preparation().at("quasi_static"), checks.at("checks"), checks.at("checks_unbalanced"),
+          checks.at("largest_unbalanced"), test.shear_warnings()};
 }
 
 TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {

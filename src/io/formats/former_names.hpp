@@ -8,8 +8,9 @@ namespace clathra {
 struct FormerName {
   std::string_view now, before;
 };
-inline constexpr FormerName former_names[] = {
-    {"formation_overlap", "equilibrium"}, {"verlet_skin", "leeway"}, {"intact_interacting_pct", "intact_mechanical_pct"},
+inline constexpr FormerName former_names[] = {{"formation_overlap", "equilibrium"},
+                                              {"verlet_skin", "leeway"},
+                                              {"intact_interacting_pct", "intact_mechanical_pct"},
                                               {"checks", "looks"},
                                               {"checks_unbalanced", "looks_unbalanced"}};
 

@@ -59,7 +59,7 @@ class World : public Communicator {
   }
 
   void exchange_known(double const* send, std::vector<BufferRange> const& to, double* receive,
-             std::vector<BufferRange> const& from) const override {
+                      std::vector<BufferRange> const& from) const override {
     std::vector<MPI_Request> requests;
     requests.reserve(to.size() + from.size());
     for (BufferRange const& s : from)
