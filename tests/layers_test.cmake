@@ -15,6 +15,16 @@ function(read_lines file result)
   set(${result} "${lines}" PARENT_SCOPE)
 endfunction()
 
+# Our sources in C++, from the project's folder on.
+function(list_sources result)
+  set(sources "")
+  foreach(folder src drivers tests perf)
+    file(GLOB_RECURSE found RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.hpp ${SOURCE}/${folder}/*.cpp)
+    list(APPEND sources ${found})
+  endforeach()
+  set(${result} "${sources}" PARENT_SCOPE)
+endfunction()
+
 # layers: includes point down only. A layer may include its own folder and the folders below it by "folder/file.hpp",
 # and the libraries and headers of the standard library (names without a dot) that its pattern allows.
 set(standard "(experimental/)?[a-z0-9_]+")
@@ -158,18 +168,13 @@ endfunction()
 
 # file_size: no source file over 400 lines.
 function(check_file_size)
-  set(sources "")
-  foreach(folder src drivers tests perf)
-    file(GLOB_RECURSE found ${SOURCE}/${folder}/*.hpp ${SOURCE}/${folder}/*.cpp)
-    list(APPEND sources ${found})
-  endforeach()
+  list_sources(sources)
   foreach(source ${sources})
-    file(READ ${source} text)
+    file(READ ${SOURCE}/${source} text)
     string(REGEX MATCHALL "\n" newlines "${text}")
     list(LENGTH newlines length)
     if(length GREATER 400)
-      file(RELATIVE_PATH name ${SOURCE} ${source})
-      fault(${name} ${length} "has ${length} lines, more than 400")
+      fault(${source} ${length} "has ${length} lines, more than 400")
     endif()
   endforeach()
   set(faults "${faults}" PARENT_SCOPE)
@@ -180,11 +185,7 @@ set(long_functions
     "src/kernels/contact_kernel.hpp: add_block") # eight pairs at once: apart, its parts would hand each other a dozen vectors
 
 function(check_function_length)
-  set(sources "")
-  foreach(folder src drivers tests perf)
-    file(GLOB_RECURSE found RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.hpp ${SOURCE}/${folder}/*.cpp)
-    list(APPEND sources ${found})
-  endforeach()
+  list_sources(sources)
   foreach(source ${sources})
     read_lines(${SOURCE}/${source} lines)
     set(number 0)
