@@ -21,17 +21,9 @@ void Summary::add(HistoryRow const& row) {
 StageRecord Summary::numbers() const {
   StageRecord numbers;
   if (count_ == 0) return numbers;
-  TestNumbers const n = test();
+  numbers = record_of(test());
   numbers["records"] = count_;
-  numbers["peak_q_Pa"] = n.peak_q;
-  numbers["peak_eps1"] = n.peak_eps1;
-  numbers["peak_eps_v"] = n.eps_v_peak;
-  numbers["residual_q_Pa"] = n.residual_q;
-  if (n.secant_modulus) numbers["secant_modulus_Pa"] = *n.secant_modulus;
-  numbers["residual_from_eps1"] = n.residual_from;
-  numbers["end_eps1"] = n.end_eps1;
-  numbers["end_eps_v"] = n.eps_v_end;
-  numbers["end_intact_initial_pct"] = n.intact_end;
+  for (BreakModeNames const& m : break_modes) numbers[m.broken] = static_cast<double>(last_.broken[m.mode]);
   numbers["sigma3_held"] = static_cast<double>(held_) / count_;
   numbers["stress_mismatch"] = mismatch_;
   if (has_energy_ && energy_.boundary_work != 0) numbers["energy_residual"] = std::fabs(energy_residual());

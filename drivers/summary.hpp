@@ -17,9 +17,8 @@ class Summary {
   void add(EnergyRow const& row) { energy_ = row, has_energy_ = true; }
 
   int records() const { return count_; }
-  /// peak_q_Pa at peak_eps1 with peak_eps_v; residual_q_Pa (mean from residual_from_eps1 on), secant_modulus_Pa (E50),
-  /// end_eps_v, end_intact_initial_pct; sigma3_held (part of the records with sigma3 within 1 %), stress_mismatch (largest
-  /// difference of wall and contact q over p); energy_residual (part of the boundary work) where there is a ledger.
+  /// Those of record_of(), the bonds broken by mode; sigma3_held (part of the records with sigma3 within 1 %), stress_mismatch
+  /// (largest difference of wall and contact q over p); energy_residual (part of the boundary work) where there is a ledger.
   StageRecord numbers() const;
   /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work, sigma3 held in under 90 % of the
   /// records).

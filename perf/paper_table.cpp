@@ -9,17 +9,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "domain/measurement/shear_band.hpp"
-#include "domain/measurement/strength_fit.hpp"
 #include "domain/measurement/test_numbers.hpp"
 #include "io/results/events.hpp"
 #include "io/results/run_results.hpp"
+#include "io/results/strength_groups.hpp"
 
 namespace clathra {
 namespace {
@@ -126,18 +124,11 @@ std::string envelope_cells(std::vector<FailureStress> const& tests) {
 }
 
 void print_strength(std::vector<RunResults> const& runs) {
-  std::map<double, std::pair<std::vector<FailureStress>, std::vector<FailureStress>>> by_saturation;
-  for (RunResults const& run : runs) {
-    TestNumbers const n = test_numbers(run.history.curves());
-    auto& [peak, residual] = by_saturation[run.number("/scene/hydrate/saturation").value_or(0)];
-    peak.push_back({n.peak_sigma3 + n.peak_q, n.peak_sigma3});
-    residual.push_back({n.residual_sigma3 + n.residual_q, n.residual_sigma3});
-  }
   std::string rows;
-  for (auto const& [saturation, tests] : by_saturation)
-    if (fitted_envelope(tests.first))
-      rows += "| " + std::to_string(std::lround(100 * saturation)) + " % | " + std::to_string(tests.first.size()) + " | " +
-              envelope_cells(tests.first) + " | " + envelope_cells(tests.second) + " |\n";
+  for (StrengthGroup const& group : strength_groups(runs))
+    if (group.at_several_stresses())
+      rows += "| " + std::to_string(std::lround(group.saturation)) + " % | " + std::to_string(group.members.size()) + " | " +
+              envelope_cells(group.peaks.reached) + " | " + envelope_cells(group.residuals.reached) + " |\n";
   if (rows.empty()) return;
   std::printf(
       "\n| hydrate | tests | peak: c [MPa] | phi [degrees] | largest misfit of sigma_1 [MPa] | residual: c [MPa] | phi [degrees] "

@@ -1,4 +1,5 @@
 /// The report: which tests it takes for one material, and what it says of their strength.
+#include "command.hpp"
 #include "io/report/strength.hpp"
 #include "report_page.hpp"
 
@@ -49,6 +50,35 @@ TEST_F(ReportStrength, DrawsCohesionAndFrictionAngleAgainstTheSaturation) {
   ASSERT_EQ(curves[0].size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(curves[0][i].second, 2 * curves[0][i].first / 100, 0.01) << i;
   EXPECT_NEAR(curves[0][2].first, 55, 0.2);
+}
+
+TEST_F(ReportStrength, GivesItsNumbersToOtherPrograms) {
+  std::string folders;
+  for (double const sigma3 : {1e6, 2e6, 3e6}) {
+    MadeUpTest test;
+    test.sigma3 = sigma3;
+    test.peak_q = failure_stress(0.8e6, 0.5, sigma3) - sigma3;
+    test.residual_q = failure_stress(0.1e6, 0.4, sigma3) - sigma3;
+    folders += made("s" + std::to_string(static_cast<int>(sigma3 / 1e6)), test).string() + " ";
+  }
+  std::string const file = (folder / "numbers.json").string(), html = (folder / "page.html").string();
+  EXPECT_EQ(run_clathra("report " + folders + " --json " + file + " -o " + html).output, file + "\n" + html + "\n");
+  auto const json = nlohmann::json::parse(content_of(file));
+  ASSERT_EQ(json["runs"].size(), 3u);
+  EXPECT_EQ(json["runs"][1]["name"], "s2");
+  EXPECT_EQ(json["runs"][1]["confining_stress_Pa"], 2e6);
+  EXPECT_EQ(json["runs"][1]["saturation"], 0.55);
+  ASSERT_EQ(json["strength"].size(), 1u);
+  auto const strength = json["strength"][0];
+  EXPECT_EQ(strength["tests"], (nlohmann::json{"s1", "s2", "s3"}));
+  EXPECT_NEAR(strength["peak"]["cohesion_Pa"].get<double>(), 0.8e6, 1);
+  EXPECT_NEAR(strength["peak"]["friction_angle_deg"].get<double>(), 0.5 * 180 / std::acos(-1.0), 1e-6);
+  EXPECT_NEAR(strength["residual"]["cohesion_Pa"].get<double>(), 0.1e6, 1);
+  EXPECT_NEAR(strength["peak"]["r_squared"].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(strength["peak"]["curvature_per_Pa"].get<double>() * 1e6, 0, 1e-6);
+  EXPECT_TRUE(strength["peak"]["still_rising"].empty());
+  CommandResult const refused = run_clathra("report " + folders + " --json " + (folder / "none" / "n.json").string());
+  EXPECT_EQ(refused.code, 73) << refused.output;
 }
 
 /// Two tests at 1 and 3 MPa whose envelopes are known; the second one, and with `both` the first one too, is of another scene.

@@ -73,6 +73,12 @@ TEST_F(RunCommand, SaysOverWhatItsResidualIsTakenAndWhatItsSecondsCount) {
   EXPECT_NE(json["meaning"]["stages.shear.residual_q_Pa"].get<std::string>().find("residual_from_eps1"), std::string::npos);
   for (char const* const stage : {"generate", "prepare", "shear"})
     EXPECT_TRUE(json["meaning"].contains("wall_seconds." + std::string(stage))) << stage;
+  // The numbers of a report are those of the run.
+  std::string const numbers = (folder / "numbers.json").string();
+  EXPECT_EQ(run_clathra("report " + (folder / "out").string() + " --json " + numbers).output, numbers + "\n");
+  auto const reported = nlohmann::json::parse(content(numbers))["runs"][0]["numbers"];
+  EXPECT_GE(reported.size(), 11u);
+  for (auto const& [name, value] : reported.items()) EXPECT_EQ(json["stages"]["shear"][name], value) << name;
   // 300 discs are made in ten times the time in which they are bonded and consolidated.
   EXPECT_LT(json["wall_seconds"]["prepare"].get<double>(), json["wall_seconds"]["generate"].get<double>());
 }

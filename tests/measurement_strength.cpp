@@ -43,6 +43,8 @@ TEST(Envelope, HasTheErrorsOfTheLine) {
   EXPECT_NEAR(fit->errors->covariance / 1e6, dphi_dn * (dc_da * cov + dc_dn * var_n), 1e-12);
   EXPECT_NEAR(fit->errors->r_squared, 1 - (1.0 / 6) / (14.0 / 3), 1e-12);
   EXPECT_FALSE(fitted_envelope({{3e6, 1e6}, {5e6, 2e6}})->errors) << "two tests have no scatter";
+  EXPECT_NEAR(fit->curvature.value() * 1e6, -1, 1e-9) << "the parabola through them: slopes 2 and 1";
+  EXPECT_FALSE(fitted_envelope({{3e6, 1e6}, {3.1e6, 1e6}, {5e6, 2e6}})->curvature) << "two stresses have none";
 }
 
 /// 2,000 sets of six tests about a known envelope: the spread of the fits is what their errors say.

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "io/results/numbers_file.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
@@ -13,14 +14,16 @@ namespace {
 
 struct ReportOptions {
   std::vector<std::filesystem::path> runs;
-  std::filesystem::path html;
+  std::filesystem::path html, json;
 };
 
 ExitCode report(ReportOptions const& options) {
+  if (!options.json.empty()) write_numbers(read_runs(options.runs), options.json);
+  if (!options.json.empty() && options.html.empty()) return print_result(options.json.string() + "\n");
   std::filesystem::path html = options.html;
   if (html.empty()) html = options.runs.size() == 1 ? options.runs.front() / "report.html" : "report.html";
   write_report(options.runs, html);
-  return print_result(html.string() + "\n");
+  return print_result((options.json.empty() ? "" : options.json.string() + "\n") + html.string() + "\n");
 }
 
 }  // namespace
@@ -31,6 +34,10 @@ void add_report(CLI::App& program, Verb& chosen) {
   verb->add_option("runs", options->runs, "folders of runs")->required()->type_name("DIR");
   verb->add_option("-o,--output", options->html,
                    "page to write (default: report.html in the folder of the run; for several runs in the current folder)")
+      ->type_name("FILE")
+      ->check(CLI::Validator(name_problem, ""));
+  verb->add_option("--json", options->json,
+                   "write the numbers of the runs and of their envelopes to this file; the page only with -o")
       ->type_name("FILE")
       ->check(CLI::Validator(name_problem, ""));
   verb->footer("Example: clathra report out/s26 out/s41 out/s55 -o out/compared.html");

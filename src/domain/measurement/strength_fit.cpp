@@ -21,6 +21,20 @@ EnvelopeErrors errors_of(Design const& design, Eigen::VectorXd const& sigma1, Ei
   return {std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), covariance(0, 1), all > 0 ? 1 - squares / all : 1};
 }
 
+/// Twice the last coefficient of a_0 + a_1 s + a_2 s^2, s the confining stress in units of its mean.
+std::optional<double> curvature_of(Design const& design, Eigen::VectorXd const& sigma1, double mean) {
+  Eigen::Matrix<double, Eigen::Dynamic, 3> powers(design.rows(), 3);
+  powers.leftCols<1>().setOnes();
+  powers.col(1) = design.col(1) / mean;
+  powers.col(2) = powers.col(1).cwiseAbs2();
+  constexpr double distinct = 1e-3;  // three stresses are fewer where they are nearer than that
+  Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> factors(powers);
+  factors.setThreshold(distinct);
+  if (factors.rank() < 3) return std::nullopt;
+  Eigen::Vector3d const parabola = factors.solve(sigma1);
+  return 2 * parabola(2) / (mean * mean);
+}
+
 }  // namespace
 
 std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests) {
@@ -39,8 +53,8 @@ std::optional<Envelope> fitted_envelope(std::vector<FailureStress> const& tests)
   Eigen::Vector2d const line = design.colPivHouseholderQr().solve(sigma1);
   double const slope = line(1);
   if (!(slope > 0)) return std::nullopt;
-  Envelope envelope{line(0) / (2 * std::sqrt(slope)), std::asin((slope - 1) / (slope + 1)), {}};
-  if (count > 2) envelope.errors = errors_of(design, sigma1, line);
+  Envelope envelope{line(0) / (2 * std::sqrt(slope)), std::asin((slope - 1) / (slope + 1)), {}, {}};
+  if (count > 2) envelope.errors = errors_of(design, sigma1, line), envelope.curvature = curvature_of(design, sigma1, mean);
   return envelope;
 }
 

@@ -22,6 +22,8 @@ struct Envelope {
   double cohesion = 0;        ///< [Pa]
   double friction_angle = 0;  ///< [rad]
   std::optional<EnvelopeErrors> errors;
+  std::optional<double> curvature;  ///< of sigma_1 over sigma_3 [1/Pa]: 2 a_2 of the least-squares parabola, negative where the
+                                    ///< envelope flattens; only for three confining stresses or more
 };
 
 /// The straight line sigma_1 = 2 c sqrt(N) + N sigma_3 with N = (1 + sin phi) / (1 - sin phi) through the tests, by least

@@ -1,6 +1,9 @@
 #include "domain/measurement/test_numbers.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace clathra {
 namespace {
@@ -27,6 +30,17 @@ std::optional<double> secant_modulus(std::vector<double> const& eps1, std::vecto
 
 }  // namespace
 
+std::optional<double> dilation_angle(std::vector<double> const& eps1, std::vector<double> const& eps_v) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (std::size_t from = 0, to = 0; to < eps1.size(); ++to) {
+    while (from < to && eps1[to] - eps1[from + 1] >= dilation_window) ++from;  // the shortest stretch that is long enough
+    if (!(eps1[to] - eps1[from] >= dilation_window)) continue;
+    double const volume = eps_v[to] - eps_v[from], shear = 2 * (eps1[to] - eps1[from]) - volume;
+    if (shear > 0) largest = std::fmax(largest, -volume / shear);
+  }
+  return std::isfinite(largest) ? std::optional(std::asin(std::clamp(largest, -1.0, 1.0))) : std::nullopt;
+}
+
 TestNumbers test_numbers(TestCurves const& curves) {
   TestNumbers n;
   std::size_t const last = curves.q.size() - 1;
@@ -41,9 +55,32 @@ TestNumbers test_numbers(TestCurves const& curves) {
   n.secant_modulus = secant_modulus(curves.eps1, curves.q, n.peak_q);
   n.eps_v_peak = curves.eps_v[n.peak];
   n.eps_v_end = curves.eps_v[last];
+  std::size_t const densest = peak_row(curves.eps_v);
+  n.largest_eps_v = curves.eps_v[densest];
+  n.largest_eps_v_eps1 = curves.eps1[densest];
+  n.dilation_angle = dilation_angle(curves.eps1, curves.eps_v);
+  n.intact_peak = curves.intact[n.peak];
   n.intact_end = curves.intact[last];
   n.passed_peak = n.peak < last;
   return n;
+}
+
+StageRecord record_of(TestNumbers const& n) {
+  StageRecord record{{"peak_q_Pa", n.peak_q},
+                     {"peak_eps1", n.peak_eps1},
+                     {"peak_eps_v", n.eps_v_peak},
+                     {"peak_intact_initial_pct", n.intact_peak},
+                     {"residual_q_Pa", n.residual_q},
+                     {"residual_from_eps1", n.residual_from},
+                     {"largest_eps_v", n.largest_eps_v},
+                     {"largest_eps_v_eps1", n.largest_eps_v_eps1},
+                     {"end_eps1", n.end_eps1},
+                     {"end_eps_v", n.eps_v_end},
+                     {"end_intact_initial_pct", n.intact_end}};
+  if (n.secant_modulus) record["secant_modulus_Pa"] = *n.secant_modulus;
+  if (n.dilation_angle) record["dilation_angle_deg"] = *n.dilation_angle * 180 / std::numbers::pi;
+  std::erase_if(record, [](auto const& entry) { return !std::isfinite(entry.second); });
+  return record;
 }
 
 }  // namespace clathra

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "domain/measurement/test_phases.hpp"
+#include "domain/scene/stage.hpp"
 
 namespace clathra {
 
@@ -17,9 +18,11 @@ struct TestNumbers {
   double residual_from = 0;              ///< axial strain, see residual_from()
   std::optional<double> secant_modulus;  ///< E50 = (q_peak / 2) / (eps_1 where q first gets there) [Pa]
   double eps_v_peak = 0, eps_v_end = 0;
+  double largest_eps_v = 0, largest_eps_v_eps1 = 0;  ///< where contraction ends, and the axial strain there
+  std::optional<double> dilation_angle;              ///< psi [rad], see dilation_angle()
   double end_eps1 = 0;
-  double intact_end = 0;     ///< of the bonds at installation [%]
-  bool passed_peak = false;  ///< the largest q is not the last one
+  double intact_peak = 0, intact_end = 0;  ///< of the bonds at installation [%]
+  bool passed_peak = false;                ///< the largest q is not the last one
 };
 
 /// The columns of a history that they follow from, one value a record; two records at least. NaN where there is no number.
@@ -29,7 +32,17 @@ struct TestCurves {
   std::vector<double> const& intact;        ///< of the bonds at installation [%]
 };
 
+inline constexpr double dilation_window = 0.01;  ///< of axial strain
+
+/// The largest psi of a test [rad]: sin(psi) = -d eps_v / d gamma with gamma = eps_1 - eps_3 = 2 eps_1 - eps_v, over stretches of
+/// dilation_window, so that single bursts do not make it. Negative where a test contracts throughout; nothing for a shorter test.
+std::optional<double> dilation_angle(std::vector<double> const& eps1, std::vector<double> const& eps_v);
+
 /// What a test has come to by its last record, for its run.json, for reports and for tables alike.
 TestNumbers test_numbers(TestCurves const& curves);
+
+/// The same by the names under which run.json and `clathra report --json` have them; angles in degrees. Without what there is
+/// not.
+StageRecord record_of(TestNumbers const& numbers);
 
 }  // namespace clathra

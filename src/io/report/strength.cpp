@@ -7,10 +7,9 @@
 #include <map>
 #include <set>
 
-#include "domain/measurement/strength_fit.hpp"
-#include "domain/measurement/test_numbers.hpp"
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
+#include "io/results/strength_groups.hpp"
 #include "io/results/tested_material.hpp"
 
 namespace clathra {
@@ -18,32 +17,7 @@ namespace {
 
 constexpr double mega = 1e-6, half_turn = 3.14159265358979323846;
 
-constexpr char stress_key[] = "test.confining_stress", saturation_key[] = "hydrate.saturation";
-
-/// Tests of one material, which differ in confining stress and seed only.
-struct Group {
-  SceneValues material;              ///< without the confining stress
-  std::vector<std::size_t> members;  ///< places in the list of runs
-  double saturation = 0;             ///< [%]
-};
-
-/// By saturation, then in the order of the runs. Runs whose history has no lateral stress are in none.
-std::vector<Group> groups_of(std::vector<RunResults> const& runs) {
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (!runs[i].history.has("sigma3_Pa")) continue;
-    SceneValues material = material_of(runs[i]);
-    material.erase(stress_key);
-    auto const same = std::find_if(groups.begin(), groups.end(), [&](Group const& group) { return group.material == material; });
-    double const saturation = runs[i].has_bonds() ? runs[i].number("/scene/hydrate/saturation").value_or(0) : 0;
-    if (same == groups.end())
-      groups.push_back({std::move(material), {i}, static_cast<double>(std::lround(saturation * 1e6)) * 1e-4});
-    else
-      same->members.push_back(i);
-  }
-  std::stable_sort(groups.begin(), groups.end(), [](Group const& a, Group const& b) { return a.saturation < b.saturation; });
-  return groups;
-}
+constexpr char saturation_key[] = "hydrate.saturation";
 
 /// "a" or "a, b and c"
 std::string listed(std::vector<std::string> const& names) {
@@ -77,13 +51,6 @@ double end_of_line(std::vector<FailureStress> const& tests) {
   for (FailureStress const& t : tests) end = std::max(end, (0.7 * t.sigma1 + 0.3 * t.sigma3) * mega);
   return end;
 }
-
-/// Principal stresses of the tests of a group in one state, the peak or the residual one.
-struct TestStresses {
-  std::vector<FailureStress> all;      ///< each a circle
-  std::vector<FailureStress> reached;  ///< of those whose q has passed its peak: only they say what the strength is
-  std::vector<std::string> rising;     ///< the names of the others
-};
 
 /// c and phi with their errors if these are known.
 std::string envelope_numbers(Envelope const& fit) {
@@ -141,57 +108,33 @@ std::string mohr_figure(std::vector<Curve> circles, TestStresses const& tests, s
   return figure(plot.title, svg(plot) + legend(plot.curves), caption);
 }
 
-/// Peak or residual stresses of a test.
-FailureStress peak_stress(TestNumbers const& n) { return {n.peak_sigma3 + n.peak_q, n.peak_sigma3}; }
-FailureStress residual_stress(TestNumbers const& n) { return {n.residual_sigma3 + n.residual_q, n.residual_sigma3}; }
-
-/// What the tests of a group say.
-struct GroupStrength {
-  Group group;
-  TestStresses peaks, residuals;
-  std::vector<Curve> peak_circles, residual_circles;
-  std::optional<Envelope> at_peak, residual;
-
-  /// Whether there is something to draw: tests at several confining stresses.
-  bool drawn() const { return fitted_envelope(peaks.all) || fitted_envelope(residuals.all); }
-};
-
-GroupStrength strength_of(Group const& group, std::vector<RunResults> const& runs) {
-  GroupStrength strength{group, {}, {}, {}, {}, {}, {}};
-  for (std::size_t const i : group.members) {
-    TestNumbers const n = test_numbers(runs[i].history.curves());
-    auto const add = [&](FailureStress const& stress, TestStresses& tests, std::vector<Curve>& circles) {
-      tests.all.push_back(stress);
-      if (n.passed_peak)
-        tests.reached.push_back(stress);
-      else
-        tests.rising.push_back(runs[i].name);
-      circles.push_back(circle(stress, run_label(runs[i]), run_stroke(i)));
-    };
-    add(peak_stress(n), strength.peaks, strength.peak_circles);
-    add(residual_stress(n), strength.residuals, strength.residual_circles);
+/// The Mohr circles of the tests of a group.
+std::vector<Curve> circles_of(TestStresses const& tests, StrengthGroup const& group, std::vector<RunResults> const& runs) {
+  std::vector<Curve> circles;
+  for (std::size_t k = 0; k < tests.all.size(); ++k) {
+    std::size_t const run = group.members[k];
+    circles.push_back(circle(tests.all[k], run_label(runs[run]), run_stroke(run)));
   }
-  strength.at_peak = fitted_envelope(strength.peaks.reached);
-  strength.residual = fitted_envelope(strength.residuals.reached);
-  return strength;
+  return circles;
 }
 
 /// The circles of a group. Where others have the same saturation the heading says what it differs in from them.
-std::string circle_figures(GroupStrength const& strength, std::vector<GroupStrength> const& all) {
-  double const saturation = strength.group.saturation;
+std::string circle_figures(StrengthGroup const& strength, std::vector<StrengthGroup> const& all,
+                           std::vector<RunResults> const& runs) {
+  double const saturation = strength.saturation;
   std::vector<SceneValues> same;
-  for (GroupStrength const& other : all)
-    if (other.group.saturation == saturation) same.push_back(other.group.material);
+  for (StrengthGroup const& other : all)
+    if (other.saturation == saturation) same.push_back(other.material);
   std::string heading = saturation > 0 ? fmt::format("Strength at {:g} % hydrate", saturation) : "Strength of clean sand";
-  if (std::string const words = in_words(strength.group.material, differing_keys(same)); !words.empty()) heading += ", " + words;
-  return mohr_figure(strength.peak_circles, strength.peaks, heading, "at the peak") +
-         mohr_figure(strength.residual_circles, strength.residuals, heading, "in the residual state");
+  if (std::string const words = in_words(strength.material, differing_keys(same)); !words.empty()) heading += ", " + words;
+  return mohr_figure(circles_of(strength.peaks, strength, runs), strength.peaks, heading, "at the peak") +
+         mohr_figure(circles_of(strength.residuals, strength, runs), strength.residuals, heading, "in the residual state");
 }
 
 /// Groups that differ in nothing but the saturation, in its order.
 struct Series {
   SceneValues material;  ///< without the saturation
-  std::vector<GroupStrength const*> points;
+  std::vector<StrengthGroup const*> points;
 };
 
 /// Whether clean sand is the sand between the bonds of the other.
@@ -202,20 +145,19 @@ bool is_sand_of(SceneValues const& clean, SceneValues const& bonded) {
   });
 }
 
-std::vector<Series> series_of(std::vector<GroupStrength> const& groups) {
+std::vector<Series> series_of(std::vector<StrengthGroup> const& groups) {
   std::vector<Series> all;
-  for (GroupStrength const& strength : groups) {
-    if (strength.group.saturation == 0 || !(strength.at_peak || strength.residual)) continue;
-    SceneValues material = strength.group.material;
+  for (StrengthGroup const& strength : groups) {
+    if (strength.saturation == 0 || !(strength.at_peak || strength.residual)) continue;
+    SceneValues material = strength.material;
     material.erase(saturation_key);
     auto same = std::find_if(all.begin(), all.end(), [&](Series const& series) { return series.material == material; });
     if (same == all.end()) same = all.insert(all.end(), {std::move(material), {}});
     same->points.push_back(&strength);
   }
   for (Series& series : all)
-    for (GroupStrength const& strength : groups)
-      if (strength.group.saturation == 0 && (strength.at_peak || strength.residual) &&
-          is_sand_of(strength.group.material, series.material))
+    for (StrengthGroup const& strength : groups)
+      if (strength.saturation == 0 && (strength.at_peak || strength.residual) && is_sand_of(strength.material, series.material))
         series.points.insert(series.points.begin(), &strength);
   std::erase_if(all, [](Series const& series) { return series.points.size() < 2; });
   return all;
@@ -237,10 +179,10 @@ std::string saturation_figure(std::vector<Series> const& all, std::string const&
     std::string const words = in_words(series.material, different);
     Curve curve{
         (words.empty() ? "" : words + ", ") + (peak ? "at the peak" : "residual"), {}, {}, {colour, peak ? "" : "8 3"}, true};
-    for (GroupStrength const* const point : series.points) {
+    for (StrengthGroup const* const point : series.points) {
       std::optional<Envelope> const& envelope = peak ? point->at_peak : point->residual;
       if (!envelope) continue;
-      curve.x.push_back(point->group.saturation);
+      curve.x.push_back(point->saturation);
       curve.y.push_back(number(*envelope));
       plot.description += fmt::format("{} % hydrate, {}: {:.3g}. ", curve.x.back(), curve.name, curve.y.back());
     }
@@ -256,7 +198,7 @@ std::string saturation_figure(std::vector<Series> const& all, std::string const&
       "the saturation.");
 }
 
-std::string strength_against_saturation(std::vector<GroupStrength> const& groups) {
+std::string strength_against_saturation(std::vector<StrengthGroup> const& groups) {
   std::vector<Series> const all = series_of(groups);
   if (all.empty()) return "";
   return saturation_figure(all, "Cohesion", "cohesion c [MPa]", [](Envelope const& e) { return e.cohesion * mega; }) +
@@ -265,21 +207,21 @@ std::string strength_against_saturation(std::vector<GroupStrength> const& groups
 }
 
 /// Says why runs of one saturation at several confining stresses are not all in one figure.
-std::string note_on_unlike_runs(std::vector<RunResults> const& runs, std::vector<Group> const& groups) {
-  std::map<double, std::vector<Group const*>> by_saturation;
-  for (Group const& group : groups) by_saturation[group.saturation].push_back(&group);
+std::string note_on_unlike_runs(std::vector<RunResults> const& runs, std::vector<StrengthGroup> const& groups) {
+  std::map<double, std::vector<StrengthGroup const*>> by_saturation;
+  for (StrengthGroup const& group : groups) by_saturation[group.saturation].push_back(&group);
   std::string note;
   for (auto const& [saturation, unlike] : by_saturation) {
     std::set<double> stresses;
     std::vector<SceneValues> materials;
-    for (Group const* const group : unlike) {
+    for (StrengthGroup const* const group : unlike) {
       materials.push_back(group->material);
       for (std::size_t const i : group->members) stresses.insert(runs[i].number("/scene/test/confining_stress").value_or(0));
     }
     if (unlike.size() < 2 || stresses.size() < 2) continue;
     std::vector<std::string> const different = differing_keys(materials);
     std::string parts;
-    for (Group const* const group : unlike)
+    for (StrengthGroup const* const group : unlike)
       parts += (parts.empty() ? "" : "; ") + listed(names_of(runs, group->members)) + " (" +
                in_words(group->material, different) + ")";
     note += fmt::format("The tests {} differ in more than confining stress and seed and have no common envelope: {}. ",
@@ -291,12 +233,12 @@ std::string note_on_unlike_runs(std::vector<RunResults> const& runs, std::vector
 }  // namespace
 
 std::string strength_figures(std::vector<RunResults> const& runs) {
-  std::vector<Group> const groups = groups_of(runs);
-  std::vector<GroupStrength> drawn;
-  for (Group const& group : groups)
-    if (GroupStrength strength = strength_of(group, runs); strength.drawn()) drawn.push_back(std::move(strength));
+  std::vector<StrengthGroup> const groups = strength_groups(runs);
+  std::vector<StrengthGroup> drawn;
+  for (StrengthGroup const& group : groups)
+    if (group.at_several_stresses()) drawn.push_back(group);
   std::string figures;
-  for (GroupStrength const& strength : drawn) figures += circle_figures(strength, drawn);
+  for (StrengthGroup const& strength : drawn) figures += circle_figures(strength, drawn, runs);
   return figures + strength_against_saturation(drawn) + note_on_unlike_runs(runs, groups);
 }
 

@@ -1,0 +1,57 @@
+#include "io/results/numbers_file.hpp"
+
+#include <numbers>
+
+#include "io/formats/text_file.hpp"
+#include "io/results/strength_groups.hpp"
+
+namespace clathra {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(std::optional<double> const& value, double factor = 1) { return value ? Json(*value * factor) : Json(); }
+
+Json json_of(std::optional<Envelope> const& fit, TestStresses const& tests) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  std::optional<EnvelopeErrors> const errors = fit ? fit->errors : std::nullopt;
+  auto const of_errors = [&](double EnvelopeErrors::*number) { return errors ? std::optional((*errors).*number) : std::nullopt; };
+  return {{"cohesion_Pa", json_of(fit ? std::optional(fit->cohesion) : std::nullopt)},
+          {"cohesion_error_Pa", json_of(of_errors(&EnvelopeErrors::cohesion))},
+          {"friction_angle_deg", json_of(fit ? std::optional(fit->friction_angle) : std::nullopt, degrees)},
+          {"friction_angle_error_deg", json_of(of_errors(&EnvelopeErrors::friction_angle), degrees)},
+          {"r_squared", json_of(of_errors(&EnvelopeErrors::r_squared))},
+          {"curvature_per_Pa", json_of(fit ? fit->curvature : std::nullopt)},
+          {"still_rising", tests.rising}};
+}
+
+Json json_of(StrengthGroup const& group, std::vector<RunResults> const& runs) {
+  Json tests = Json::array();
+  for (std::size_t const run : group.members) tests.push_back(runs[run].name);
+  return {{"saturation", group.saturation / 100},
+          {"tests", std::move(tests)},
+          {"peak", json_of(group.at_peak, group.peaks)},
+          {"residual", json_of(group.residual, group.residuals)}};
+}
+
+}  // namespace
+
+Json numbers_of(std::vector<RunResults> const& runs) {
+  Json of_runs = Json::array(), strength = Json::array();
+  for (RunResults const& run : runs)
+    of_runs.push_back({{"name", run.name},
+                       {"folder", run.folder.string()},
+                       {"saturation", json_of(run.number("/scene/hydrate/saturation"))},
+                       {"confining_stress_Pa", json_of(run.number("/scene/test/confining_stress"))},
+                       {"seed", json_of(run.number("/scene/run/seed"))},
+                       {"numbers", record_of(test_numbers(run.history.curves()))}});
+  for (StrengthGroup const& group : strength_groups(runs))
+    if (group.at_several_stresses()) strength.push_back(json_of(group, runs));
+  return {{"runs", std::move(of_runs)}, {"strength", std::move(strength)}};
+}
+
+void write_numbers(std::vector<RunResults> const& runs, std::filesystem::path const& path) {
+  replace_text_file(path, numbers_of(runs).dump(2) + '\n');
+}
+
+}  // namespace clathra
