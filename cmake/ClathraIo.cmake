@@ -1,9 +1,10 @@
-# Looks for the libraries of src/io and drivers, and for Eigen, with which domain measures what they show. CLATHRA_IO says whether all are here; without it kernels, domain, their
-# tests and the benches are still built.
+# Looks for the libraries of src/io and drivers, and for Eigen and Boost.Math, with which domain measures what they show. CLATHRA_IO
+# says whether all are here; without it kernels, domain, their tests and the benches are still built.
 find_package(PkgConfig QUIET)
 find_package(HDF5 QUIET COMPONENTS C)
 find_package(PNG QUIET)
 find_package(Eigen3 3.3 QUIET CONFIG)
+find_package(Boost 1.66 QUIET)
 find_package(fmt CONFIG QUIET)
 find_package(CLI11 CONFIG QUIET)
 find_package(nlohmann_json CONFIG QUIET)
@@ -13,7 +14,7 @@ if(PkgConfig_FOUND)
 endif()
 
 set(missing "")
-foreach(library HDF5 PNG Eigen3 fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHASH)
+foreach(library HDF5 PNG Eigen3 Boost fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHASH)
   if(NOT ${library}_FOUND)
     list(APPEND missing ${library})
   endif()
@@ -26,13 +27,16 @@ else()
   set(CLATHRA_IO ON)
 endif()
 
-# For the small linear algebra of domain/measurement. No header shows it, so what is installed does not need it; without vectors of
-# its own its results are the same on all processors.
-set(clathra_eigen_sources "fabric|principal_axes|strain_field|strength_fit")
-if(Eigen3_FOUND)
-  add_library(clathra_eigen INTERFACE)
-  target_link_libraries(clathra_eigen INTERFACE $<BUILD_INTERFACE:Eigen3::Eigen>)
-  target_compile_definitions(clathra_eigen INTERFACE EIGEN_DONT_VECTORIZE)
+# For the small linear algebra and the statistics of domain/measurement. No header shows them, so what is installed does not need
+# them; without vectors of its own Eigen's results are the same on all processors. Boost.Math is headers only.
+set(clathra_measurement_sources "fabric|principal_axes|strain_field|strength_fit|confidence")
+if(Eigen3_FOUND AND Boost_FOUND)
+  set(CLATHRA_MEASUREMENT ON)
+  add_library(clathra_measurement_libraries INTERFACE)
+  target_link_libraries(clathra_measurement_libraries INTERFACE $<BUILD_INTERFACE:Eigen3::Eigen> $<BUILD_INTERFACE:Boost::headers>)
+  target_compile_definitions(clathra_measurement_libraries INTERFACE EIGEN_DONT_VECTORIZE)
+else()
+  set(CLATHRA_MEASUREMENT OFF)
 endif()
 
 if(CLATHRA_IO)

@@ -75,6 +75,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_schema(program, chosen);
   add_check(program, chosen);
   add_run(program, chosen);
+  add_study(program, chosen);
   add_generate(program, chosen);
   add_bond(program, chosen);
   add_info(program, chosen);

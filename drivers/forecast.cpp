@@ -1,12 +1,11 @@
 #include "forecast.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
+#include "available_memory.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/hydrate.hpp"
@@ -17,18 +16,7 @@
 namespace clathra {
 namespace {
 
-constexpr double assumed_rate = 15e6;     // disc-steps a second and thread
 constexpr double paper_rate = 0.05 / 60;  // "5 %/min" [1/s]
-constexpr double usable_memory = 0.9;     // of what is free
-
-/// What can be had without swapping [bytes]: the kernel's own estimate, else the pages that nobody uses.
-double free_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string name, unit;
-  for (double kilobytes = 0; file >> name >> kilobytes; std::getline(file, unit))
-    if (name == "MemAvailable:") return kilobytes * 1024;
-  return static_cast<double>(::sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
 
 std::string bytes_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.3g} MB", bytes * 1e-6) : fmt::format("{:.3g} GB", bytes * 1e-9);
@@ -43,11 +31,9 @@ std::string bonds_text(HydrateScene const& hydrate) {
 
 }  // namespace
 
-Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks) {
+Forecast forecast(Scene const& scene, int ranks) {
   Forecast result;
   result.numbers = predict(scene, ranks);
-  result.disc_steps_per_second =
-      disc_steps_per_second > 0 ? disc_steps_per_second : assumed_rate * thread_count(scene.run.threads) * ranks;
   RateNumbers const rate{result.numbers["strain_rate_per_s"], result.numbers["inertial_number"], result.numbers["wave_number"]};
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
@@ -65,7 +51,7 @@ void check_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks
 
 std::string memory_refusal(StageRecord const& numbers) {
   double const memory = numbers.at("memory_bytes") * launched_ranks_here() / launched_ranks(),
-               available = usable_memory * free_memory();
+               available = usable_memory * available_memory();
   if (memory <= available) return {};
   return fmt::format("it needs about {} of memory, {} are free", bytes_text(memory), bytes_text(available));
 }
@@ -84,9 +70,9 @@ std::string warnings_text(LoadedScene const& input, Forecast const& forecast) {
   return text;
 }
 
-std::string forecast_text(Scene const& scene, Forecast const& forecast) {
+std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineSpeed const& speed) {
   StageRecord const& n = forecast.numbers;
-  auto const hours = [&](double disc_steps) { return duration_text(disc_steps / forecast.disc_steps_per_second); };
+  auto const hours = [&](double disc_steps) { return duration_text(disc_steps / speed.disc_steps_per_second); };
   std::string text;
   text += row("discs", fmt::format("{:.0f}", n.at("particles")));
   text += row("box", fmt::format("{:.4g} mm x {:.4g} mm, void ratio {:.4g}", n.at("width_m") * 1e3, n.at("height_m") * 1e3,
@@ -100,8 +86,11 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast) {
   text += row("inertial number I", fmt::format("{:.3g} (quasi-static below {:g})", n.at("inertial_number"), inertial_warning));
   text += row("wave number W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("wave_number"), wave_limit));
   text += row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
-  text += row("time", fmt::format("{} at {} disc-steps/s, generation and consolidation not counted", hours(n.at("disc_steps")),
-                                  short_count(forecast.disc_steps_per_second)));
+  double const generation = n.at("generation_disc_steps") / (generation_speedup * speed.disc_steps_per_second);
+  if (generation > 0)
+    text += row("generation", fmt::format("{} (about: it takes as many steps as it needs)", duration_text(generation)));
+  text += row("shear", fmt::format("{} at {} disc-steps/s ({})", hours(n.at("disc_steps")),
+                                   short_count(speed.disc_steps_per_second), speed.origin));
   double const literal = scene.test.axial_strain / (paper_rate * n.at("time_step_s"));
   text += row("at a lab's 5 %/min", fmt::format("{} steps, {}", short_count(literal), hours(literal * n.at("particles"))));
   text += row("memory", bytes_text(n.at("memory_bytes")));

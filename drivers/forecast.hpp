@@ -9,23 +9,24 @@
 #include "domain/scene/specimen.hpp"
 #include "domain/scene/stage.hpp"
 #include "io/scene/scene_file.hpp"
+#include "machine_speed.hpp"
 
 namespace clathra {
 
 struct Forecast {
-  StageRecord numbers;               ///< of predict()
-  double disc_steps_per_second = 0;  ///< assumed
+  StageRecord numbers;  ///< of predict()
   std::vector<std::string> warnings;
   std::vector<std::string> refusals;  ///< what only --force overrides
 };
 
-/// @param disc_steps_per_second  0 = 15 million a thread, the floor that the program is held to
 /// @param ranks  that will share the run
-Forecast forecast(Scene const& scene, double disc_steps_per_second, int ranks);
+Forecast forecast(Scene const& scene, int ranks);
 
 /// Adds that a specimen from a file is too narrow, if it is: the checks of the scene know only those that are generated.
 /// @param specimen  this rank's part
 void check_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks = {});
+
+inline constexpr double usable_memory = 0.9;  ///< of what is free
 
 /// Why there is not enough memory for a scene of these numbers, or nothing.
 std::string memory_refusal(StageRecord const& numbers);
@@ -36,8 +37,11 @@ std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& f
 /// The same as lines.
 std::string warnings_text(LoadedScene const& input, Forecast const& forecast);
 
+/// Discs that are packed have few contacts and no bonds: so many times as many disc-steps a second as in the shear.
+inline constexpr double generation_speedup = 1.8;
+
 /// The table that `check` and `--dry-run` print.
-std::string forecast_text(Scene const& scene, Forecast const& forecast);
+std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineSpeed const& speed);
 
 /// @throws Refused with all refusals, unless the scene is forced
 void refuse_if_needed(Scene const& scene, Forecast const& forecast);

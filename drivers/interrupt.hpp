@@ -3,7 +3,8 @@
 
 namespace clathra {
 
-/// From now on the first SIGINT, SIGTERM or SIGUSR1 only sets a flag; a second one ends the program at once.
+/// From now on SIGINT, SIGTERM, SIGUSR1 (which batch systems send before the end, and which mpirun passes on in peace) and SIGHUP
+/// (unless it is ignored, by nohup) only set a flag. A second SIGINT ends the program at once.
 void watch_for_interrupt();
 bool interrupted();
 

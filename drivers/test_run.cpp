@@ -56,6 +56,9 @@ class TestRun::Running {
     record_.ranks = ranks.count();
     on_root(ranks_, [&] {
       lock_.emplace(scene_.output.folder);
+      if (!lock_->held())
+        warn(fmt::format("{}: its file system knows no locks, nothing keeps a second run from writing into it",
+                         scene_.output.folder));
       if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
     });
     folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "domain/parallel/ranks.hpp"
+#include "job_cores.hpp"
 
 namespace clathra {
 namespace {
@@ -99,7 +100,8 @@ void start_anew() {
 
 int thread_count(int wanted) {
   int const asked = wanted > 0 ? wanted : found().asked;
-  return std::min(found().cores, asked > 0 ? asked : std::max(1, found().cores / launched_ranks_here()));
+  int const share = std::max(1, job_cores(found().cores) / launched_ranks_here());  // a launcher may have bound this rank already
+  return std::min(found().cores, asked > 0 ? asked : share);
 }
 
 std::string thread_warning(int wanted) {

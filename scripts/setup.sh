@@ -4,7 +4,7 @@ set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 log=$project/build/setup.log
 build_packages=(g++ cmake ninja-build pkg-config git xz-utils libtomlplusplus-dev libcli11-dev libfmt-dev libxxhash-dev
-  nlohmann-json3-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libpng-dev libeigen3-dev)
+  nlohmann-json3-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libpng-dev libeigen3-dev libboost-dev)
 
 say() { echo "clathra: $*" >&2; }
 

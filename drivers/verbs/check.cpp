@@ -30,10 +30,12 @@ ExitCode check(CheckOptions const& options) {
     input.warnings.insert(input.warnings.end(), found.begin(), found.end());
     scene = sized_by(scene, *specimen, static_cast<std::int64_t>(specimen->size()));
   }
-  Forecast result = forecast(scene, options.rate, options.ranks);
+  Forecast result = forecast(scene, options.ranks);
   if (specimen) check_size(result, *specimen);
+  MachineSpeed const speed =
+      options.rate > 0 ? MachineSpeed{options.rate, "as given"} : machine_speed(scene, options.ranks, true);
   ExitCode const printed = print_result(fmt::format("{}: the scene is right\n{}{}", options.scene.file,
-                                                    forecast_text(scene, result), warnings_text(input, result)));
+                                                    forecast_text(scene, result, speed), warnings_text(input, result)));
   refuse_if_needed(scene, result);
   return printed;
 }
@@ -44,7 +46,7 @@ void add_check(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<CheckOptions>();
   CLI::App* const verb = program.add_subcommand("check", "Check a scene and say what its run will cost");
   options->scene.add_to(*verb);
-  verb->add_option("--disc-steps-per-second", options->rate, "speed to assume (default: 15 million a thread)")
+  verb->add_option("--disc-steps-per-second", options->rate, "speed to assume (default: as measured on this machine, once)")
       ->check(CLI::PositiveNumber);
   verb->add_option("--ranks", options->ranks, "ranks that will share the run on this machine (mpirun -n N)")
       ->check(CLI::Range(1, 1000000));

@@ -9,6 +9,7 @@
 #include "interrupt.hpp"
 #include "io/results/specimen_file.hpp"
 #include "io/results/specimen_label.hpp"
+#include "machine_speed.hpp"
 #include "print.hpp"
 #include "rank_checks.hpp"
 #include "scene_options.hpp"
@@ -38,11 +39,12 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, RunLimits const& 
     input.warnings.insert(input.warnings.end(), found.begin(), found.end());
     sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
   }
-  Forecast cost = forecast(sized, 0, launched_ranks());
+  Forecast cost = forecast(sized, launched_ranks());
   if (specimen) check_size(cost, *specimen, ranks);
   share_refusals(ranks, cost.refusals);
   if (options.dry_run) {
-    ExitCode const printed = print_result(forecast_text(sized, cost) + warnings_text(input, cost));
+    MachineSpeed const speed = machine_speed(sized, ranks.count(), ranks.alone());
+    ExitCode const printed = print_result(forecast_text(sized, cost, speed) + warnings_text(input, cost));
     refuse_if_needed(sized, cost);
     return printed;
   }

@@ -1,6 +1,7 @@
 #include "domain/parallel/ranks.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <initializer_list>
 #include <utility>
@@ -97,9 +98,26 @@ int from_environment(std::initializer_list<char const*> names, int without) {
 }  // namespace
 
 int launched_ranks() { return std::max(1, from_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1)); }
+int ranks_on_node(std::string_view list, int node) {
+  for (int begin = 0; !list.empty();) {
+    int ranks = 0, nodes = 1;
+    char const* const end = list.data() + list.size();
+    auto at = std::from_chars(list.data(), end, ranks);
+    if (at.ec != std::errc()) return 0;
+    if (end - at.ptr > 2 && at.ptr[0] == '(' && at.ptr[1] == 'x') at = std::from_chars(at.ptr + 2, end, nodes);
+    begin += nodes;
+    if (node < begin) return ranks;
+    std::size_t const comma = list.find(',');
+    list.remove_prefix(comma == list.npos ? list.size() : comma + 1);
+  }
+  return 0;
+}
+
 int launched_ranks_here() {
-  return std::max(1,
-                  from_environment({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_NTASKS_PER_NODE"}, launched_ranks()));
+  int here = from_environment({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"}, 0);
+  if (char const* const tasks = std::getenv("SLURM_STEP_TASKS_PER_NODE"); here == 0 && tasks)
+    here = ranks_on_node(tasks, from_environment({"SLURM_NODEID"}, 0));
+  return here > 0 ? here : launched_ranks();
 }
 int launched_rank() { return from_environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"}, 0); }
 

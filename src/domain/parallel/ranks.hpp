@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernels/sum_over_ranks.hpp"
@@ -108,6 +109,8 @@ class RankSession {
 int launched_ranks();
 int launched_ranks_here();
 int launched_rank();
+/// The ranks on a node, of a list as Slurm writes it: "2(x3),1" is 2, 2, 2, 1. 0 where it cannot be read.
+int ranks_on_node(std::string_view list, int node);
 /// "Open MPI 4.1.4", or "none".
 std::string message_passing_name();
 

@@ -45,6 +45,7 @@ figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-w
 .bar{max-width:26em;margin:.6rem 0 0;font-size:.9rem}
 .bar i{display:block;height:.8rem;border-radius:2px}
 .bar span{display:flex;justify-content:space-between}
+.multiples{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,270px),1fr));gap:.8rem}
 .strip{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,210px),1fr));gap:.9rem}
 .strip>div{min-width:0}
 .stack{display:grid;gap:.9rem;align-content:start}

@@ -91,8 +91,9 @@ std::string polylines(Scale const& scale, Curve const& curve) {
 std::string polygon(Scale const& scale, Area const& area) {
   std::vector<std::size_t> there = thinned(area.high), back = there;
   std::reverse(back.begin(), back.end());
-  return fmt::format("<polygon data-name=\"{}\" points=\"{} {}\" fill=\"{}\" stroke=\"none\"/>\n", escaped(area.name),
-                     points(scale, area.x, area.high, there), points(scale, area.x, area.low, back), hex(area.colour));
+  return fmt::format("<polygon data-name=\"{}\" points=\"{} {}\" fill=\"{}\"{} stroke=\"none\"/>\n", escaped(area.name),
+                     points(scale, area.x, area.high, there), points(scale, area.x, area.low, back), hex(area.colour),
+                     area.opacity < 1 ? fmt::format(" fill-opacity=\"{:g}\"", area.opacity) : "");
 }
 
 std::vector<double> axis_ticks(Axis const& axis, int count) {

@@ -19,6 +19,7 @@ struct Area {
   std::string name;
   std::vector<double> x, low, high;
   Rgb colour;
+  double opacity = 1;
 };
 
 struct Axis {

@@ -42,16 +42,18 @@ void make_folder(std::filesystem::path const& folder) {
     throw FileProblem(ExitCode::refused, folder, "is not empty and not of an earlier run; choose another (--output)");
 }
 
-int lock_folder(std::filesystem::path const& folder) {
-  std::filesystem::path const name = folder / lock_name;
-  int const descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
-  if (descriptor < 0)
-    throw FileProblem(ExitCode::cannot_create, folder, "cannot be written: " + std::generic_category().message(errno));
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    ::close(descriptor);
-    throw FileProblem(ExitCode::cannot_create, folder, "another run is writing into this folder; choose another (--output)");
-  }
-  return descriptor;
+/// Tries to hold a file. @return 0, or the error: EWOULDBLOCK where another process holds it
+int hold(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return 0;
+  if (errno == EWOULDBLOCK) return errno;
+#ifdef F_OFD_SETLK
+  struct flock whole = {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (::fcntl(descriptor, F_OFD_SETLK, &whole) == 0) return 0;
+  if (errno == EAGAIN || errno == EACCES) return EWOULDBLOCK;
+#endif
+  return errno;
 }
 
 }  // namespace
@@ -61,7 +63,23 @@ std::span<std::string_view const> result_files() { return results; }
 OutputFolder::OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/": a link would not be seen behind the slash
   make_folder(folder_);
-  lock_ = lock_folder(folder_);
+  lock_ = ::open((folder_ / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
+  if (lock_ < 0)
+    throw FileProblem(ExitCode::cannot_create, folder_, "cannot be written: " + std::generic_category().message(errno));
+  int const error = hold(lock_);
+  if (error == EWOULDBLOCK) {
+    ::close(lock_);
+    throw FileProblem(ExitCode::cannot_create, folder_, "another run is writing into this folder; choose another (--output)");
+  }
+  held_ = error == 0;
+}
+
+bool folder_in_use(std::filesystem::path const& folder) {
+  int const descriptor = ::open((folder / lock_name).c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  bool const in_use = hold(descriptor) == EWOULDBLOCK;
+  ::close(descriptor);
+  return in_use;
 }
 
 void OutputFolder::clear(std::filesystem::path const& keep) const {

@@ -24,10 +24,16 @@ class OutputFolder {
   void clear(std::filesystem::path const& keep) const;
   std::filesystem::path operator/(std::string const& name) const { return folder_ / name; }
   std::filesystem::path const& path() const { return folder_; }
+  /// Whether the lock holds: some file systems of clusters know no locks, and then nothing keeps a second run out.
+  bool held() const { return held_; }
 
  private:
   std::filesystem::path folder_;
   int lock_ = -1;
+  bool held_ = false;
 };
+
+/// Whether a run is writing into a folder now, as far as locks can tell.
+bool folder_in_use(std::filesystem::path const& folder);
 
 }  // namespace clathra

@@ -1,14 +1,14 @@
 #include "io/scene/scene_file.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "io/formats/text_file.hpp"
+#include "io/scene/guarded_toml.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_guard.hpp"
 #include "io/scene/scene_value.hpp"
@@ -24,28 +24,6 @@ struct Place {
   int line = 0, column = 0;
 };
 
-int as_int(toml::source_index index) { return static_cast<int>(index); }
-
-/// A line of a text, counted from 1, up to a comment sign and without blanks at its end.
-std::string_view line_of(std::string_view text, int number) {
-  for (; number > 1; --number) text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
-  text = text.substr(0, text.find_first_of("\n#"));
-  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
-}
-
-/// What the parser says of a line, in the words of somebody who writes scenes: most often quotes are missing.
-std::string syntax_text(std::string_view description, std::string_view line) {
-  if (std::count(line.begin(), line.end(), '"') % 2 != 0) return "a quotation mark (\") is missing in this line";
-  std::string_view const value = line.substr(std::min(line.size(), line.find('=') + 1));
-  std::string_view const from_number = value.substr(std::min(value.size(), value.find_first_not_of(" \t")));
-  std::size_t const after = from_number.find_first_not_of("0123456789+-._eE \t");
-  bool const number = !from_number.empty() && from_number.find_first_of("0123456789+-.") == 0;
-  if (number && after != from_number.npos &&
-      (std::isalpha(static_cast<unsigned char>(from_number[after])) || from_number[after] == '%'))
-    return fmt::format("a number with its unit goes in quotes: \"{}\"", from_number.substr(0, 40));
-  return "cannot be understood: " + std::string(description);
-}
-
 /// One side alone fixes the other by the aspect ratio, unless the number of discs does.
 void complete_box(SampleScene& sample) {
   if (sample.particles > 0) return;
@@ -59,19 +37,10 @@ class SceneReader {
   SceneReader(std::string file, std::filesystem::path folder) : file_(std::move(file)), folder_(std::move(folder)) {}
 
   void read_file(std::string const& source) {
-    GuardedText const guarded = guard_scene_text(source, file_);
-    problems_.insert(problems_.end(), guarded.problems.begin(), guarded.problems.end());
-    readable_ = guarded.problems.empty();
-    if (!readable_) return;
-    try {
-      toml::table const root = toml::parse(guarded.text);
-      read_table(root, "");
-    } catch (toml::parse_error const& error) {
-      auto const at = error.source().begin;
-      int const line = as_int(at.line);
-      problems_.push_back({file_, line, as_int(at.column), syntax_text(error.description(), line_of(source, line))});
-      readable_ = false;
-    }
+    std::size_t const before = problems_.size();
+    std::optional<toml::table> const root = parse_guarded(source, file_, problems_);
+    readable_ = problems_.size() == before;
+    if (root) read_table(*root, "");
   }
 
   void read_override(std::string const& text) {
@@ -168,7 +137,7 @@ class SceneReader {
     for (auto const& [name, node] : table) {
       std::string const dotted = prefix.empty() ? std::string(name.str()) : prefix + "." + std::string(name.str());
       auto const at = name.source().begin;
-      Place const key_place{file_, as_int(at.line), as_int(at.column)};
+      Place const key_place{file_, static_cast<int>(at.line), static_cast<int>(at.column)};
       bool const is_section = prefix.empty() && std::any_of(schema().begin(), schema().end(),
                                                             [&](Key const& key) { return key.section() == dotted; });
       if (is_section && node.is_table())
@@ -202,7 +171,7 @@ class SceneReader {
 
   void read_value(Key const& key, toml::node const& node) {
     auto const at = node.source().begin;
-    Place const place{file_, as_int(at.line), as_int(at.column)};
+    Place const place{file_, static_cast<int>(at.line), static_cast<int>(at.column)};
     set(key, place, false, [&] {
       if (auto const* const text = node.as_string())
         set_from_text(key, scene_, text->get());

@@ -1,0 +1,28 @@
+#pragma once
+/// A study as arrays of Slurm.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "study_plan.hpp"
+
+namespace clathra {
+
+/// What the jobs of the arrays are told.
+struct SlurmJobs {
+  std::filesystem::path script;  ///< to be written
+  std::string study;             ///< file, as given
+  std::string launcher;          ///< of each member, inside its job; empty = srun
+  std::vector<std::string> overrides;
+  std::string output;     ///< folder, as given; empty = that of the study
+  int threads = 0;        ///< cores of a job; 0 = 1
+  std::string most_time;  ///< of a job, "3h50m"; empty = 24 hours
+};
+
+/// Writes a script for bash that submits an array of specimens, an array of members that begins when they are there, and a job
+/// that collects them. A job that is told to stop (USR1, two minutes before its time is over) or whose node is set down is queued
+/// again and goes on from its checkpoint. @throws FileProblem;  Refused for a study with a goal, whose members nobody knows
+/// before
+void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs);
+
+}  // namespace clathra

@@ -1,0 +1,55 @@
+#pragma once
+/// What has to be run for a study: specimens first, then the members that are sheared of them.
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "domain/scene/specimen.hpp"
+#include "io/results/study_results.hpp"
+#include "io/scene/study_file.hpp"
+
+namespace clathra {
+
+/// One call of the program.
+struct StudyTask {
+  std::string name;                     ///< of the member, or of the specimen's file
+  std::vector<std::string> arguments;   ///< "run", "scene.toml", "--set", ...
+  std::filesystem::path result;         ///< folder of the run, or the specimen's file
+  std::filesystem::path log;            ///< where its messages go
+  double disc_steps = 0;                ///< predicted
+  double memory = 0, disk = 0;          ///< predicted [bytes]
+  std::optional<std::size_t> specimen;  ///< place of the task that makes what this one reads
+};
+
+/// What the cost of a test depends on, of a specimen in a file.
+struct SpecimenSize {
+  Specimen outline;  ///< without discs
+  std::int64_t discs = 0;
+};
+
+/// Members by group and seed, and the tasks of each.
+struct StudyPlan {
+  Study study;
+  std::vector<std::string> overrides;  ///< of all members, below those of the study
+  std::vector<MemberResult> members;
+  std::vector<StudyTask> runs;       ///< of members[i]
+  std::vector<StudyTask> specimens;  ///< each for all members of the same scene of generation and seed
+  std::map<std::string, SpecimenSize> sizes;  ///< of the specimens that scenes read from files of their own
+
+  /// The scene of a run, once its specimen is there. @throws SceneProblems, FileProblem
+  LoadedScene scene_of_run(std::size_t member) const;
+};
+
+/// A plan without members. Makes sure that groups differ and that their scenes are right. @throws SceneProblems
+StudyPlan plan_study(Study study, std::vector<std::string> overrides);
+
+/// Adds a member. @throws SceneProblems
+void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed);
+
+/// Reads what is there already: members that are finished, by their scene and specimen, have their numbers then.
+/// @throws FileProblem refused where the folder of a member holds a finished run of another scene
+void find_finished(StudyPlan& plan, std::size_t member);
+
+}  // namespace clathra

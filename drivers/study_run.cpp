@@ -1,0 +1,265 @@
+#include "study_run.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "interrupt.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/results/output_folder.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+std::uintmax_t size_of(fs::path const& file) {
+  std::error_code error;
+  std::uintmax_t const size = fs::file_size(file, error);
+  return error ? 0 : size;
+}
+
+/// A log from a place on, at most its last few kilobytes.
+std::string end_of_log(fs::path const& log, std::uintmax_t from) {
+  constexpr std::uintmax_t most = 4096;
+  std::uintmax_t const size = size_of(log);
+  if (size <= from) return {};
+  std::ifstream file(log, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(std::max(from, size > most ? size - most : 0)));
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+/// What a program said last: "clathra: ..." if it said so, else its last line.
+std::string last_words(std::string const& log) {
+  std::string last, ours;
+  for (std::size_t begin = 0; begin < log.size();) {
+    std::size_t const end = std::min(log.find('\n', begin), log.size());
+    std::string const line = log.substr(begin, end - begin);
+    if (!line.empty()) last = line;
+    if (line.starts_with("clathra: ")) ours = line.substr(9);
+    if (line.find(": error: ") != std::string::npos) ours = line;
+    begin = end + 1;
+  }
+  return ours.empty() ? last : ours;
+}
+
+/// How far a run says that its shear is; it says so every 5 %.
+double fraction_in(std::string const& log) {
+  constexpr std::string_view stage = "shear ";
+  std::size_t const at = log.rfind(stage);
+  return at == std::string::npos ? 0 : std::clamp(std::atof(log.c_str() + at + stage.size()) / 100, 0.0, 1.0);
+}
+
+}  // namespace
+
+StudyRun::StudyRun(StudyPlan& plan, StudyLimits limits)
+    : plan_(plan), limits_(std::move(limits)), slot_taken_(static_cast<std::size_t>(limits_.parallel)), cores_(own_cores()) {
+  std::error_code ignored;
+  for (char const* const folder : {"specimens", "members", "logs"}) fs::create_directories(plan_.study.folder / folder, ignored);
+}
+
+void StudyRun::look_at_what_is_there() {
+  std::error_code ignored;
+  specimen_states_.assign(plan_.specimens.size(), TaskState::waiting);
+  run_states_.assign(plan_.runs.size(), TaskState::waiting);
+  std::vector<bool> needed(plan_.specimens.size());
+  work_ = done_ = 0;
+  for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+    if (plan_.members[i].state == MemberState::waiting) try {
+        find_finished(plan_, i);
+      } catch (FileProblem const& problem) {
+        fail_member(i, problem.what());
+      } catch (SceneProblems const& problems) {
+        fail_member(i, problems.what());
+      }
+    MemberState const state = plan_.members[i].state;
+    run_states_[i] = state == MemberState::finished ? TaskState::done
+                     : state == MemberState::failed ? TaskState::failed
+                                                    : TaskState::waiting;
+    work_ += plan_.runs[i].disc_steps;
+    if (run_states_[i] != TaskState::waiting) done_ += plan_.runs[i].disc_steps;
+    if (run_states_[i] == TaskState::waiting && plan_.runs[i].specimen) needed[*plan_.runs[i].specimen] = true;
+  }
+  for (std::size_t i = 0; i < plan_.specimens.size(); ++i) {
+    if (!needed[i] || fs::exists(plan_.specimens[i].result, ignored)) specimen_states_[i] = TaskState::done;
+    work_ += plan_.specimens[i].disc_steps;
+    if (specimen_states_[i] == TaskState::done) done_ += plan_.specimens[i].disc_steps;
+  }
+  done_before_ = done_;
+}
+
+ExitCode StudyRun::run() {
+  double const begin = now();
+  if (first_begin_ == 0) first_begin_ = begin;
+  begin_ = begin;
+  look_at_what_is_there();
+  write_table();
+  constexpr auto pause = std::chrono::milliseconds(20);
+  while (true) {
+    while (std::optional<ProcessEnd> const end = ended_process()) take(*end);
+    if (!stopping_ && (interrupted() || time_is_over())) {
+      stopping_ = true;
+      for (auto const& [process, running] : running_) ::kill(process, stop_signal);
+      line_.note(
+          fmt::format("clathra: stopping {} member{} with a checkpoint", running_.size(), running_.size() == 1 ? "" : "s"));
+    }
+    while (!stopping_ && start_next()) {
+    }
+    bool const waits = std::count(run_states_.begin(), run_states_.end(), TaskState::waiting) > 0;  // for a folder in use
+    if (running_.empty() && (stopping_ || !waits)) break;
+    show();
+    std::this_thread::sleep_for(pause);
+  }
+  write_table();
+  return stopping_ ? ExitCode::to_be_resumed : ExitCode::done;
+}
+
+bool StudyRun::time_is_over() const { return limits_.most_seconds > 0 && now() - first_begin_ > limits_.most_seconds; }
+
+/// Specimens first: others wait for them.
+bool StudyRun::start_next() {
+  if (std::count(slot_taken_.begin(), slot_taken_.end(), false) == 0) return false;
+  if (std::optional<std::size_t> const specimen = next_specimen()) return start(true, *specimen);
+  if (std::optional<std::size_t> const member = next_run()) return start(false, *member);
+  return false;
+}
+
+std::optional<std::size_t> StudyRun::next_specimen() const {
+  for (std::size_t i = 0; i < specimen_states_.size(); ++i)
+    if (specimen_states_[i] == TaskState::waiting) return i;
+  return {};
+}
+
+/// The longest of those that can start: a long one that starts last would keep the others' cores idle.
+std::optional<std::size_t> StudyRun::next_run() {
+  std::optional<std::size_t> next;
+  for (std::size_t i = 0; i < run_states_.size(); ++i) {
+    if (run_states_[i] != TaskState::waiting) continue;
+    if (std::optional<std::size_t> const specimen = plan_.runs[i].specimen) {
+      if (specimen_states_[*specimen] == TaskState::failed)
+        fail_member(i, "its specimen could not be made (" + plan_.specimens[*specimen].name + ")"),
+            run_states_[i] = TaskState::failed;
+      if (specimen_states_[*specimen] != TaskState::done) continue;
+    }
+    if (folder_in_use(plan_.runs[i].result)) continue;  // a member of a study that was killed still writes its checkpoint
+    if (!next || plan_.runs[i].disc_steps > plan_.runs[*next].disc_steps) next = i;
+  }
+  return next;
+}
+
+bool StudyRun::start(bool specimen, std::size_t task) {
+  Running running;
+  running.specimen = specimen;
+  running.task = task;
+  running.slot = static_cast<std::size_t>(std::find(slot_taken_.begin(), slot_taken_.end(), false) - slot_taken_.begin());
+  StudyTask const& what = task_of(running);
+  std::vector<std::string> command = limits_.launcher;
+  command.push_back(own_path());
+  command.insert(command.end(), what.arguments.begin(), what.arguments.end());
+  std::vector<int> cores;
+  if (limits_.launcher.empty()) {
+    command.insert(command.end(), {"--threads", fmt::format("{}", limits_.threads)});
+    auto const threads = static_cast<std::size_t>(limits_.threads), first = running.slot * threads;
+    if (first + threads <= cores_.size())
+      cores.assign(cores_.begin() + static_cast<std::ptrdiff_t>(first),
+                   cores_.begin() + static_cast<std::ptrdiff_t>(first + threads));
+  }
+  if (!specimen) command.insert(command.end(), limits_.options.begin(), limits_.options.end());
+  running.log_begin = size_of(what.log);
+  (specimen ? specimen_states_ : run_states_)[task] = TaskState::running;
+  try {
+    running_[start_process(command, what.log, cores)] = running;
+    slot_taken_[running.slot] = true;
+  } catch (std::runtime_error const& problem) {
+    fail(running, problem.what());
+  }
+  return true;
+}
+
+void StudyRun::take(ProcessEnd const& end) {
+  auto const found = running_.find(end.process);
+  if (found == running_.end()) return;
+  Running const was = found->second;
+  running_.erase(found);
+  slot_taken_[was.slot] = false;
+  take_end(was, end);
+}
+
+void StudyRun::take_end(Running const& was, ProcessEnd const& end) {
+  StudyTask const& task = task_of(was);
+  TaskState& state = (was.specimen ? specimen_states_ : run_states_)[was.task];
+  bool const stopped = end.signal != 0 || end.code == static_cast<int>(ExitCode::to_be_resumed) ||
+                       end.code == static_cast<int>(ExitCode::interrupted) || end.code >= 128;  // a launcher's way to say signal
+  if (stopped && stopping_) {
+    state = TaskState::waiting;
+  } else if (stopped && tried_again_.insert(task.name).second) {
+    state = TaskState::waiting;
+    line_.note(fmt::format("clathra: {} was stopped{}, it goes on from its checkpoint", task.name,
+                           end.signal != 0 ? fmt::format(" by signal {}", end.signal) : ""));
+  } else if (end.signal != 0) {
+    fail(was, fmt::format("killed by signal {}, again when it was tried once more", end.signal));
+  } else if (end.code != 0) {
+    std::string const words = last_words(end_of_log(task.log, was.log_begin));
+    fail(was, words.empty() ? fmt::format("ended with exit code {} and said nothing", end.code) : words);
+  } else {
+    take_result(was);
+  }
+}
+
+void StudyRun::take_result(Running const& was) {
+  StudyTask const& task = task_of(was);
+  if (!was.specimen) try {
+      read_member(plan_.members[was.task], task.result);
+    } catch (FileProblem const& problem) {
+      return fail(was, problem.what());
+    }
+  (was.specimen ? specimen_states_ : run_states_)[was.task] = TaskState::done;
+  done_ += task.disc_steps;
+  if (!was.specimen) write_table();
+}
+
+void StudyRun::fail(Running const& was, std::string const& message) {
+  (was.specimen ? specimen_states_ : run_states_)[was.task] = TaskState::failed;
+  done_ += task_of(was).disc_steps;
+  if (was.specimen) return line_.warn(fmt::format("{}: {}", task_of(was).name, message));
+  fail_member(was.task, message);
+  write_table();
+}
+
+void StudyRun::fail_member(std::size_t member, std::string const& message) {
+  plan_.members[member].state = MemberState::failed;
+  plan_.members[member].message = message;
+  line_.note(fmt::format("clathra: {} failed: {}", plan_.runs[member].name, message));
+}
+
+void StudyRun::write_table() const { replace_text_file(plan_.study.folder / "study.csv", study_csv(plan_.study, plan_.members)); }
+
+void StudyRun::show() {
+  constexpr double interval = 0.5;  // [s]
+  double const time = now();
+  if (time - last_shown_ < interval) return;
+  last_shown_ = time;
+  double done = done_;
+  for (auto& [process, running] : running_) {
+    if (!running.specimen)
+      running.fraction = std::max(running.fraction, fraction_in(end_of_log(task_of(running).log, running.log_begin)));
+    done += running.fraction * task_of(running).disc_steps;
+  }
+  auto const finished = std::count(run_states_.begin(), run_states_.end(), TaskState::done),
+             failed = std::count(run_states_.begin(), run_states_.end(), TaskState::failed);
+  double const rate = (done - done_before_) / (time - begin_);
+  std::string text = fmt::format("{}/{} members", finished, run_states_.size());
+  if (failed > 0) text += fmt::format(", {} failed", failed);
+  if (running_.size() == 1) text += " | " + task_of(running_.begin()->second).name;
+  if (running_.size() > 1) text += fmt::format(" | {} running", running_.size());
+  if (rate > 0 && done - done_before_ > 0.01 * work_) text += " | ETA " + duration_text((work_ - done) / rate);
+  line_.show("study", work_ > 0 ? done / work_ : 1, text);
+}
+
+}  // namespace clathra

@@ -1,0 +1,73 @@
+#pragma once
+/// The members of a study, side by side on the cores there are.
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/errors/problems.hpp"
+#include "member_processes.hpp"
+#include "progress_line.hpp"
+#include "study_plan.hpp"
+
+namespace clathra {
+
+struct StudyLimits {
+  int parallel = 1;                   ///< programs at a time
+  int threads = 1;                    ///< of each
+  std::vector<std::string> launcher;  ///< "mpirun", "-n", "4": before each program; the cores are its affair then
+  std::vector<std::string> options;   ///< of `clathra run` for all members
+  double most_seconds = 0;            ///< stop then, members with a checkpoint; 0 = never
+};
+
+class StudyRun {
+ public:
+  StudyRun(StudyPlan& plan, StudyLimits limits);
+  /// Runs all tasks that have not been done, as far as that is possible. A member that fails is named and left, the others go on;
+  /// one that a signal killed is tried once more, from its checkpoint. Writes study.csv after each.
+  /// @return done, also where members failed; to_be_resumed where a signal or the wall time stopped it
+  /// @throws FileProblem where study.csv cannot be written
+  ExitCode run();
+  /// Lines on stderr.
+  ProgressLine& line() { return line_; }
+
+ private:
+  struct Running {
+    std::size_t slot = 0, task = 0;
+    bool specimen = false;
+    std::uintmax_t log_begin = 0;
+    double fraction = 0;  ///< done
+  };
+  enum class TaskState { waiting, running, done, failed };
+
+  StudyTask const& task_of(Running const& running) const {
+    return running.specimen ? plan_.specimens[running.task] : plan_.runs[running.task];
+  }
+  void look_at_what_is_there();
+  bool start_next();
+  bool start(bool specimen, std::size_t task);
+  std::optional<std::size_t> next_specimen() const;
+  std::optional<std::size_t> next_run();
+  void take(ProcessEnd const& end);
+  void take_end(Running const& was, ProcessEnd const& end);
+  void take_result(Running const& was);
+  void fail(Running const& was, std::string const& message);
+  void fail_member(std::size_t member, std::string const& message);
+  void write_table() const;
+  void show();
+  bool time_is_over() const;
+
+  StudyPlan& plan_;
+  StudyLimits limits_;
+  ProgressLine line_;
+  std::vector<TaskState> specimen_states_, run_states_;
+  std::map<pid_t, Running> running_;
+  std::set<std::string> tried_again_;
+  std::vector<bool> slot_taken_;
+  std::vector<int> cores_;
+  double work_ = 0, done_ = 0, done_before_ = 0;         ///< predicted disc-steps
+  double first_begin_ = 0, begin_ = 0, last_shown_ = 0;  ///< [s]
+  bool stopping_ = false;
+};
+
+}  // namespace clathra

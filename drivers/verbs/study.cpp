@@ -1,0 +1,199 @@
+/// `clathra study`: a matrix of runs, their means and intervals.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+
+#include "domain/scene/stage.hpp"
+#include "duration.hpp"
+#include "interrupt.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/report/study_report.hpp"
+#include "io/results/output_folder.hpp"
+#include "print.hpp"
+#include "scene_options.hpp"
+#include "slurm_script.hpp"
+#include "study_forecast.hpp"
+#include "study_goal.hpp"
+#include "study_plan.hpp"
+#include "study_run.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+struct StudyOptions {
+  std::string file, output, until, launcher, slurm;
+  std::vector<std::string> overrides;
+  int seeds = 0, most_seeds = 0, parallel = 0, threads = 0, member = 0, specimen = 0;
+  bool dry_run = false, collect = false, force = false;
+  std::string most_time, checkpoint_every = "10m";
+};
+
+Study study_of(StudyOptions const& options) {
+  Study study = load_study(options.file);
+  if (!options.output.empty()) study.folder = options.output;
+  if (options.seeds > 0) {
+    study.seeds.clear();
+    for (int seed = 1; seed <= options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
+  }
+  if (!options.until.empty()) study.until = study_goal(options.until);
+  if (options.most_seeds > 0) study.most_seeds = options.most_seeds;
+  return study;
+}
+
+/// Programs at a time and threads of each: by default one thread for each member, which is the most work that cores can do, and
+/// more threads only where there are fewer members than cores.
+StudyLimits limits_of(StudyOptions const& options, StudyPlan const& plan) {
+  StudyLimits limits;
+  limits.launcher = words_of(options.launcher);
+  int const cores = static_cast<int>(own_cores().size()), members = static_cast<int>(plan.members.size());
+  limits.threads = options.threads > 0 ? options.threads : std::max(1, cores / std::max(1, members));
+  int const most = limits.launcher.empty() ? std::max(1, cores / limits.threads) : 1;
+  limits.parallel = options.parallel > 0 ? options.parallel : std::min(most, parallel_in_memory(plan));
+  limits.options = {"--checkpoint-every", options.checkpoint_every};
+  if (options.force) limits.options.push_back("--force");
+  limits.most_seconds = options.most_time.empty() ? 0 : duration_of(options.most_time);
+  return limits;
+}
+
+void add_members(StudyPlan& plan) {
+  for (std::size_t group = 0; group < plan.study.groups.size(); ++group)
+    for (std::uint64_t const seed : plan.study.seeds) add_member(plan, group, seed);
+}
+
+/// study.csv and the page of what there is. @return done only where every member is finished
+ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
+  replace_text_file(plan.study.folder / "study.csv", study_csv(plan.study, plan.members));
+  std::vector<std::string> failed;
+  std::size_t finished = 0, waiting = 0;
+  for (std::size_t i = 0; i < plan.members.size(); ++i) {
+    MemberResult const& member = plan.members[i];
+    if (member.state == MemberState::failed) failed.push_back(plan.runs[i].name + ": " + member.message);
+    finished += member.state == MemberState::finished ? 1 : 0;
+    waiting += member.state == MemberState::waiting ? 1 : 0;
+  }
+  std::vector<std::filesystem::path> folders;
+  for (StudyTask const& task : plan.runs) folders.push_back(task.result);
+  if (finished > 0) write_study_report(plan.study, plan.members, folders, plan.study.folder / "study.html");
+  line.repeat_warnings();
+  std::string text = fmt::format("members   {} finished", finished);
+  if (waiting > 0) text += fmt::format(", {} not yet", waiting);
+  if (!failed.empty()) text += fmt::format(", {} failed", failed.size());
+  text += "\n" + statistics_text(plan);
+  for (std::string const& member : failed) text += "failed    " + member + "\n";
+  print_result(text + fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
+  return !failed.empty() ? ExitCode::refused : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;
+}
+
+/// One program in place of this one: what a job of an array does.
+ExitCode run_alone(StudyPlan const& plan, StudyOptions const& options) {
+  bool const specimen = options.specimen > 0;
+  std::vector<StudyTask> const& tasks = specimen ? plan.specimens : plan.runs;
+  int const number = specimen ? options.specimen : options.member;
+  if (static_cast<std::size_t>(number) > tasks.size())
+    throw Refused(fmt::format("the study has {} {}, not {}", tasks.size(), specimen ? "specimens" : "members", number));
+  StudyTask const& task = tasks[static_cast<std::size_t>(number) - 1];
+  std::error_code ignored;
+  for (char const* const folder : {"specimens", "members"})
+    std::filesystem::create_directories(plan.study.folder / folder, ignored);
+  if (specimen && std::filesystem::exists(task.result, ignored))
+    return print_result(fmt::format("{} is there\n", task.result.string()));
+  std::vector<std::string> command = words_of(options.launcher);
+  command.push_back(own_path());
+  command.insert(command.end(), task.arguments.begin(), task.arguments.end());
+  if (options.threads > 0) command.insert(command.end(), {"--threads", fmt::format("{}", options.threads)});
+  if (!specimen) command.insert(command.end(), {"--checkpoint-every", options.checkpoint_every});
+  if (!specimen && !options.most_time.empty()) command.insert(command.end(), {"--max-walltime", options.most_time});
+  if (options.force) command.push_back("--force");
+  become(command);
+}
+
+ExitCode collect(StudyPlan& plan) {
+  ProgressLine line;
+  for (std::size_t i = 0; i < plan.members.size(); ++i) find_finished(plan, i);
+  return conclude(plan, line);
+}
+
+ExitCode study(StudyOptions const& options) {
+  StudyPlan plan = plan_study(study_of(options), options.overrides);
+  if (plan.study.until) require_known_number(*plan.study.until);
+  add_members(plan);
+  if (options.member > 0 || options.specimen > 0) return run_alone(plan, options);
+  if (options.collect) return collect(plan);
+  StudyLimits const limits = limits_of(options, plan);
+  if (options.dry_run) return print_result(study_forecast(plan, limits.parallel, limits.threads));
+  if (!options.slurm.empty()) {
+    write_slurm_script(plan, {options.slurm, options.file, options.launcher, options.overrides, options.output, options.threads,
+                              options.most_time});
+    return print_result(fmt::format("{}: {} specimens, {} members; submit it with: bash {}\n", options.slurm,
+                                    plan.specimens.size(), plan.runs.size(), options.slurm));
+  }
+  OutputFolder const lock(plan.study.folder);
+  watch_for_interrupt();
+  StudyRun run(plan, limits);
+  ExitCode code = run.run();
+  for (GoalSearch goal(plan.study); code == ExitCode::done && goal.add_members(plan, run.line());) code = run.run();
+  ExitCode const concluded = conclude(plan, run.line());
+  return code == ExitCode::done ? concluded : code;
+}
+
+}  // namespace
+
+void add_study(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<StudyOptions>();
+  CLI::App* const verb =
+      program.add_subcommand("study", "Run a matrix of scenes and seeds; means, intervals and one page on all");
+  auto const time = CLI::Validator(duration_problem, "");
+  verb->add_option("study", options->file, "study file (TOML)")->required();
+  verb->add_option("--set", options->overrides, "override a key of the scene in all members; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  verb->add_option("--output", options->output, "folder of the results ('folder' of the study)")
+      ->type_name("DIR")
+      ->check(CLI::Validator(name_problem, ""));
+  verb->add_option("--seeds", options->seeds, "seeds 1 to N of each group ('seeds' of the study)")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("N");
+  verb->add_option("--until", options->until,
+                   "add seeds until the 95 % interval of the mean of a number of study.csv is that narrow: peak_q_Pa=2%")
+      ->type_name("NUMBER=WIDTH");
+  verb->add_option("--most-seeds", options->most_seeds, "with --until: stop at so many seeds of a group (default: 40)")
+      ->check(CLI::Range(2, 10000))
+      ->type_name("N");
+  verb->add_option("--parallel", options->parallel,
+                   "members at a time (default: as many as cores and memory allow; 1 with --launcher)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  verb->add_option("--threads", options->threads, "threads of each member (default: one, more where cores are left over)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  verb->add_option("--launcher", options->launcher, "starts each member: \"mpirun -n 2\", \"srun -n 4\"")->type_name("COMMAND");
+  verb->add_flag("--force", options->force, "members go on where a guard refuses");
+  verb->add_option("--max-walltime", options->most_time, "stop after this time, members with a checkpoint (3h50m, 90s)")
+      ->type_name("TIME")
+      ->check(time);
+  verb->add_option("--checkpoint-every", options->checkpoint_every, "time between checkpoints of a member, 0s for none")
+      ->capture_default_str()
+      ->type_name("TIME")
+      ->check(time);
+  auto* const dry = verb->add_flag("--dry-run", options->dry_run, "only say what the study will cost");
+  auto* const slurm = verb->add_option("--slurm", options->slurm, "only write a script that runs the study as arrays of Slurm")
+                          ->type_name("FILE")
+                          ->check(CLI::Validator(name_problem, ""));
+  auto* const member = verb->add_option("--member", options->member, "only run this member, counted from 1: a job of an array")
+                           ->check(CLI::PositiveNumber)
+                           ->type_name("N");
+  auto* const specimen = verb->add_option("--specimen", options->specimen, "only make this specimen, counted from 1")
+                             ->check(CLI::PositiveNumber)
+                             ->type_name("N");
+  auto* const collected = verb->add_flag("--collect", options->collect, "only write study.csv and the page of what there is");
+  for (auto* const one : {dry, slurm, member, specimen, collected})
+    for (auto* const other : {dry, slurm, member, specimen, collected})
+      if (one != other) one->excludes(other);
+  verb->footer("Example: clathra study examples/study.toml --until peak_q_Pa=5% --output out/study");
+  verb->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
+}
+
+}  // namespace clathra

@@ -1,0 +1,60 @@
+#include "io/report/seed_bands.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "domain/measurement/confidence.hpp"
+#include "io/results/run_results.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr int points = 200;
+
+/// The value at a strain; strains ascend.
+double value_at(std::vector<double> const& eps1, std::vector<double> const& values, double strain) {
+  auto const after = std::lower_bound(eps1.begin(), eps1.end(), strain);
+  if (after == eps1.begin()) return values.front();
+  if (after == eps1.end()) return values.back();
+  auto const i = static_cast<std::size_t>(after - eps1.begin());
+  double const part = (strain - eps1[i - 1]) / (eps1[i] - eps1[i - 1]);
+  return values[i - 1] + part * (values[i] - values[i - 1]);
+}
+
+void add_statistics(SeedBand& band) {
+  for (std::size_t i = 0; i < band.eps1.size(); ++i) {
+    std::vector<double> values;
+    for (std::vector<double> const& seed : band.seeds) values.push_back(seed[i]);
+    MeanInterval const m = mean_interval(values);
+    band.mean.push_back(m.mean);
+    band.low.push_back(m.low());
+    band.high.push_back(m.high());
+  }
+}
+
+}  // namespace
+
+std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_folders) {
+  std::vector<RunResults> const runs = read_runs(run_folders);
+  std::vector<SeedBand> bands;
+  for (char const* const column : band_columns) {
+    SeedBand band;
+    bool const known =
+        !runs.empty() && std::all_of(runs.begin(), runs.end(), [&](RunResults const& run) { return run.history.has(column); });
+    if (known) {
+      double end = runs.front().history["eps1"].back();
+      for (RunResults const& run : runs) end = std::min(end, run.history["eps1"].back());
+      for (int i = 0; i <= points; ++i) band.eps1.push_back(end * i / points);
+      for (RunResults const& run : runs) {
+        std::vector<double> values;
+        for (double const strain : band.eps1) values.push_back(value_at(run.history["eps1"], run.history[column], strain));
+        band.seeds.push_back(std::move(values));
+      }
+      add_statistics(band);
+    }
+    bands.push_back(std::move(band));
+  }
+  return bands;
+}
+
+}  // namespace clathra

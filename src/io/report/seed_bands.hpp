@@ -1,0 +1,23 @@
+#pragma once
+/// Curves of runs that differ in their seed only, laid over each other.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace clathra {
+
+/// A column of history.csv against axial strain, at the same strains for all seeds.
+struct SeedBand {
+  std::vector<double> eps1;                ///< from 0 to where the first of the seeds ends
+  std::vector<std::vector<double>> seeds;  ///< values of each
+  std::vector<double> mean, low, high;     ///< over the seeds at each strain; 95 % interval of the mean, which for one seed is it
+};
+
+/// Columns that a study's page shows.
+inline constexpr char const* band_columns[] = {"q_Pa", "eps_v", "intact_initial_pct", "mechanical_coordination"};
+
+/// One band for each of band_columns; empty where a run has no such column. Between records curves are straight.
+/// @throws FileProblem
+std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_folders);
+
+}  // namespace clathra

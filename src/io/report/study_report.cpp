@@ -1,0 +1,270 @@
+#include "io/report/study_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "io/formats/text_file.hpp"
+#include "io/report/markup.hpp"
+#include "io/report/seed_bands.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double percent = 100, mega = 1e-6;
+constexpr char strain_axis[] = "axial strain ε₁ [%]";
+constexpr std::size_t most_seeds_drawn = 10, most_small_figures = 60;  // of one kind; a page stays below a few megabytes
+constexpr char saturation_key[] = "hydrate.saturation";
+
+/// What is shown of a band.
+struct Shown {
+  std::size_t column;  ///< in band_columns
+  char const *heading, *axis, *caption;
+  double factor;
+};
+constexpr Shown shown_bands[] = {
+    {0, "Stress and strain", "deviator stress q [MPa]", "Deviator stress on the walls.", mega},
+    {1, "Change of volume", "volumetric strain εᵥ [%]", "Compression is positive; a falling curve dilates.", percent},
+    {2, "Intact bonds", "intact bonds [% of those installed]", "Bonds that still hold, as a share of those installed.", 1},
+    {3, "Contacts", "mechanical coordination number", "Contacts of a disc, without those that carry nothing (Thornton 2000).",
+     1}};
+
+/// A group with the curves of its finished members.
+struct GroupCurves {
+  std::string name;
+  std::vector<Setting> settings;
+  std::vector<SeedBand> bands;
+  Stroke stroke;
+};
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<MemberResult> const& members,
+                                          std::vector<std::filesystem::path> const& folders) {
+  std::vector<GroupCurves> groups;
+  for (std::size_t g = 0; g < study.groups.size(); ++g) {
+    std::vector<std::filesystem::path> own;
+    for (std::size_t i = 0; i < members.size(); ++i)
+      if (members[i].group == g && members[i].state == MemberState::finished) own.push_back(folders[i]);
+    if (own.empty()) continue;
+    groups.push_back({study.groups[g].name, study.groups[g].settings, seed_bands(own), run_stroke(groups.size())});
+  }
+  return groups;
+}
+
+/// Whether a column says something: a clean sand has no bonds.
+bool says_something(GroupCurves const& group, std::size_t column) {
+  SeedBand const& band = group.bands[column];
+  return std::any_of(band.mean.begin(), band.mean.end(), [](double value) { return value != 0; });
+}
+
+Area area_of(GroupCurves const& group, Shown const& what) {
+  SeedBand const& band = group.bands[what.column];
+  return {
+      group.name, scaled(band.eps1, percent), scaled(band.low, what.factor), scaled(band.high, what.factor), group.stroke.colour,
+      0.22};
+}
+
+Curve mean_of(GroupCurves const& group, Shown const& what) {
+  SeedBand const& band = group.bands[what.column];
+  return {group.name, scaled(band.eps1, percent), scaled(band.mean, what.factor), group.stroke};
+}
+
+/// The means of all groups with their bands in one figure.
+std::string overlay(std::vector<GroupCurves> const& groups, Shown const& what) {
+  Plot plot;
+  Range strains, values;
+  for (GroupCurves const& group : groups) {
+    if (!says_something(group, what.column)) continue;
+    plot.areas.push_back(area_of(group, what));
+    plot.curves.push_back(mean_of(group, what));
+    strains.include(plot.curves.back().x);
+    values.include(plot.areas.back().low);
+    values.include(plot.areas.back().high);
+    plot.description += fmt::format("{}: {:.3g} at the end. ", group.name, plot.curves.back().y.back());
+  }
+  if (plot.curves.empty()) return "";
+  plot.title = std::string(what.heading) + ", mean over the seeds";
+  plot.x = strains.exact_axis(strain_axis);
+  plot.y = values.axis(what.axis);
+  return figure(what.heading, svg(plot) + legend(plot.curves),
+                std::string(what.caption) + " Lines: mean over the seeds; bands: its 95 % confidence interval at each strain.");
+}
+
+/// One group in a small figure: each seed thin, their mean and its band.
+std::string small_figure(GroupCurves const& group, Shown const& what, Axis const& x, Axis const& y) {
+  Plot plot;
+  SeedBand const& band = group.bands[what.column];
+  plot.title = group.name + ": " + what.heading;
+  plot.x = x;
+  plot.y = y;
+  plot.areas.push_back(area_of(group, what));
+  for (std::size_t i = 0; i < std::min(band.seeds.size(), most_seeds_drawn); ++i)
+    plot.curves.push_back({group.name, scaled(band.eps1, percent), scaled(band.seeds[i], what.factor), {colours::grey, "", 0.8}});
+  plot.curves.push_back(mean_of(group, what));
+  plot.curves.back().stroke.dash.clear();
+  return fmt::format("<figure><h3>{}</h3>\n{}</figure>\n", escaped(group.name), svg(plot));
+}
+
+/// All groups beside each other on the same axes.
+std::string small_multiples(std::vector<GroupCurves> const& groups, Shown const& what) {
+  Range strains, values;
+  for (GroupCurves const& group : groups)
+    for (std::vector<double> const& seed : group.bands[what.column].seeds)
+      strains.include(scaled(group.bands[what.column].eps1, percent)), values.include(scaled(seed, what.factor));
+  Axis const x = strains.exact_axis(strain_axis), y = values.axis(what.axis);
+  std::string figures;
+  for (std::size_t i = 0; i < std::min(groups.size(), most_small_figures); ++i)
+    if (says_something(groups[i], what.column)) figures += small_figure(groups[i], what, x, y);
+  return figures.empty() ? "" : "<div class=\"multiples\">\n" + figures + "</div>\n";
+}
+
+struct Column {
+  char const *number, *heading, *unit;
+  double factor;
+};
+
+/// "3.04 ± 0.12": as many digits as the interval leaves sure.
+std::string with_interval(std::vector<double> const& values, double factor) {
+  MeanInterval const m = mean_interval(values);
+  if (!m.half_width) return with_minus(fmt::format("{:.3g}", m.mean * factor));
+  double const half = *m.half_width * factor;
+  int const digits = half > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6) : 3;
+  return with_minus(fmt::format("{:.{}f}", m.mean * factor, digits)) + fmt::format(" ± {:.{}f}", half, digits);
+}
+
+std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> const& columns, char const* what) {
+  std::string head = fmt::format("<th>{}</th><th>seeds</th>", what), rows;
+  std::vector<Column> used;
+  for (Column const& column : columns)
+    if (std::any_of(groups.begin(), groups.end(), [&](GroupNumbers const& g) { return g.values.contains(column.number); }))
+      used.push_back(column);
+  for (Column const& column : used)
+    head += fmt::format("<th>{}{}</th>", column.heading,
+                        *column.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", column.unit) : "");
+  for (GroupNumbers const& group : groups) {
+    rows += fmt::format("<tr><th>{}</th><td>{}</td>", escaped(group.name), group.seeds.size());
+    for (Column const& column : used) {
+      auto const found = group.values.find(column.number);
+      rows += fmt::format("<td>{}</td>", found == group.values.end() ? "–" : with_interval(found->second, column.factor));
+    }
+    rows += "</tr>\n";
+  }
+  return "<div class=\"scroll\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+/// A number of the envelopes against the saturation, with its interval as a vertical line.
+std::string strength_figure(std::vector<GroupNumbers> const& materials, char const* number, std::string const& heading,
+                            std::string const& axis, double factor) {
+  Plot plot;
+  Range saturations, values;
+  std::vector<std::pair<double, MeanInterval>> points;
+  for (GroupNumbers const& material : materials) {
+    auto const setting = std::find_if(material.settings.begin(), material.settings.end(),
+                                      [](Setting const& s) { return s.first == saturation_key; });
+    auto const found = material.values.find(number);
+    if (setting == material.settings.end() || found == material.values.end()) continue;
+    double const value = std::atof(setting->second.c_str());
+    points.emplace_back(setting->second.find('%') == std::string::npos ? value * percent : value, mean_interval(found->second));
+  }
+  std::set<double> distinct;
+  for (auto const& [saturation, mean] : points) distinct.insert(saturation);
+  if (distinct.size() < 2 || distinct.size() < points.size()) return "";  // several materials at one saturation have no one line
+  std::sort(points.begin(), points.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
+  Curve means{"mean over the seeds", {}, {}, {colours::vermilion, ""}, true};
+  for (auto const& [saturation, m] : points) {
+    means.x.push_back(saturation);
+    means.y.push_back(m.mean * factor);
+    plot.curves.push_back(
+        {"95 % interval", {saturation, saturation}, {m.low() * factor, m.high() * factor}, {colours::dark, "", 2}});
+    values.include(plot.curves.back().y);
+    plot.description +=
+        fmt::format("{:g} % hydrate: {:.3g} ± {:.2g}. ", saturation, m.mean * factor, m.half_width.value_or(0) * factor);
+  }
+  saturations.include(means.x);
+  values.include(means.y);
+  plot.curves.push_back(std::move(means));
+  plot.title = heading + " against hydrate saturation";
+  plot.x = saturations.axis("hydrate saturation [%]");
+  plot.y = values.axis(axis);
+  return figure(plot.title, svg(plot),
+                "One envelope for each seed, fitted to its tests at all confining stresses. Points: mean over the seeds; "
+                "vertical lines: its 95 % confidence interval.");
+}
+
+std::string strength_part(std::vector<GroupNumbers> const& materials) {
+  if (materials.empty()) return "";
+  std::string text = "<h2>Strength</h2>\n" + table(materials,
+                                                   {{"peak_cohesion_Pa", "c at the peak", "MPa", mega},
+                                                    {"peak_friction_angle_deg", "φ at the peak", "°", 1},
+                                                    {"peak_r_squared", "R²", "", 1},
+                                                    {"peak_curvature_per_Pa", "curvature", "1/MPa", 1e6},
+                                                    {"residual_cohesion_Pa", "residual c", "MPa", mega},
+                                                    {"residual_friction_angle_deg", "residual φ", "°", 1}},
+                                                   "material");
+  return text + side_by_side(strength_figure(materials, "peak_cohesion_Pa", "Cohesion", "cohesion c [MPa]", mega) +
+                             strength_figure(materials, "peak_friction_angle_deg", "Friction angle", "friction angle φ [°]", 1));
+}
+
+std::string problems(Study const& study, std::vector<MemberResult> const& members) {
+  std::string items;
+  std::size_t waiting = 0;
+  for (MemberResult const& member : members) {
+    waiting += member.state == MemberState::waiting ? 1 : 0;
+    if (member.state == MemberState::failed)
+      items += "<li>" + escaped(member_name(study.groups[member.group], member.seed) + ": " + member.message) + "</li>\n";
+  }
+  if (waiting > 0) items += fmt::format("<li>{} members are not finished</li>\n", waiting);
+  return items.empty() ? "" : "<div class=\"warn\"><b>Members that are missing</b><ul>\n" + items + "</ul></div>\n";
+}
+
+std::vector<Column> result_columns() {
+  return {{"peak_q_Pa", "peak q", "MPa", mega},
+          {"peak_eps1", "strain at the peak", "%", percent},
+          {"secant_modulus_Pa", "E₅₀", "MPa", mega},
+          {"residual_q_Pa", "residual q", "MPa", mega},
+          {"largest_eps_v", "largest contraction", "%", percent},
+          {"dilation_angle_deg", "ψ", "°", 1},
+          {"end_intact_initial_pct", "intact bonds at the end", "%", 1}};
+}
+
+}  // namespace
+
+void write_study_report(Study const& study, std::vector<MemberResult> const& members,
+                        std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html) {
+  std::vector<GroupNumbers> const groups = numbers_by_group(study, members);
+  std::vector<GroupCurves> const curves = curves_of_groups(study, members, folders);
+  auto const finished =
+      std::count_if(members.begin(), members.end(), [](MemberResult const& m) { return m.state == MemberState::finished; });
+  std::string const title = "Study " + study.file.stem().string();
+  std::string body = "<h1>" + escaped(title) + "</h1>\n";
+  body += fmt::format(
+      "<p class=\"lead\">{} biaxial tests of {} groups, which differ in {}. Numbers are means over the seeds ± half of their 95 "
+      "% "
+      "confidence interval (Student t).</p>\n",
+      finished, groups.size(), escaped(study.keys.empty() ? "their seed only" : fmt::format("{}", fmt::join(study.keys, ", "))));
+  body += problems(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group");
+  std::string overlays, multiples;
+  for (Shown const& what : shown_bands) overlays += overlay(curves, what);
+  body += "<h2>Curves</h2>\n" + side_by_side(overlays) + strength_part(envelopes_by_material(study, members));
+  for (Shown const& what : shown_bands)
+    if (std::string const small = curves.size() > 1 ? small_multiples(curves, what) : ""; !small.empty())
+      multiples += fmt::format("<h3>{}: {}</h3>\n", what.heading, what.axis) + small;
+  if (!multiples.empty())
+    body += fmt::format(
+                "<h2>Each group</h2>\n<p class=\"soft\">Grey: single seeds, {} at most; colour: the mean of all and its "
+                "interval.{}</p>\n",
+                most_seeds_drawn,
+                curves.size() > most_small_figures ? fmt::format(" Shown are the first {} groups.", most_small_figures) : "") +
+            multiples;
+  replace_text_file(html, page(title, body));
+}
+
+}  // namespace clathra

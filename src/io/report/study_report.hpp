@@ -1,0 +1,15 @@
+#pragma once
+/// The page on a study: means with bands over its seeds, strength with intervals, small multiples.
+#include <filesystem>
+#include <vector>
+
+#include "io/results/study_results.hpp"
+
+namespace clathra {
+
+/// Writes the page, which needs nothing but itself. Members that are not finished or failed are named.
+/// @param folders  of the members' runs  @throws FileProblem
+void write_study_report(Study const& study, std::vector<MemberResult> const& members,
+                        std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html);
+
+}  // namespace clathra

@@ -1,0 +1,50 @@
+#include "io/scene/guarded_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "io/scene/scene_guard.hpp"
+
+namespace clathra {
+namespace {
+
+/// A line of a text, counted from 1, up to a comment sign and without blanks at its end.
+std::string_view line_of(std::string_view text, int number) {
+  for (; number > 1; --number) text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
+  text = text.substr(0, text.find_first_of("\n#"));
+  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
+}
+
+/// What the parser says of a line, in the words of somebody who writes scenes: most often quotes are missing.
+std::string syntax_text(std::string_view description, std::string_view line) {
+  if (std::count(line.begin(), line.end(), '"') % 2 != 0) return "a quotation mark (\") is missing in this line";
+  std::string_view const value = line.substr(std::min(line.size(), line.find('=') + 1));
+  std::string_view const from_number = value.substr(std::min(value.size(), value.find_first_not_of(" \t")));
+  std::size_t const after = from_number.find_first_not_of("0123456789+-._eE \t");
+  bool const number = !from_number.empty() && from_number.find_first_of("0123456789+-.") == 0;
+  if (number && after != from_number.npos &&
+      (std::isalpha(static_cast<unsigned char>(from_number[after])) || from_number[after] == '%'))
+    return fmt::format("a number with its unit goes in quotes: \"{}\"", from_number.substr(0, 40));
+  return "cannot be understood: " + std::string(description);
+}
+
+}  // namespace
+
+std::optional<toml::table> parse_guarded(std::string const& text, std::string const& file, std::vector<Problem>& problems) {
+  GuardedText const guarded = guard_scene_text(text, file);
+  problems.insert(problems.end(), guarded.problems.begin(), guarded.problems.end());
+  if (!guarded.problems.empty()) return {};
+  try {
+    return toml::parse(guarded.text);
+  } catch (toml::parse_error const& error) {
+    auto const at = error.source().begin;
+    int const line = static_cast<int>(at.line);
+    problems.push_back({file, line, static_cast<int>(at.column), syntax_text(error.description(), line_of(text, line))});
+    return {};
+  }
+}
+
+}  // namespace clathra

@@ -1,0 +1,367 @@
+#include "io/scene/study_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "io/formats/text_file.hpp"
+#include "io/scene/guarded_toml.hpp"
+#include "io/scene/scene_guard.hpp"
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr char stress_key[] = "test.confining_stress";
+
+/// Keys that each member has its own value of, or that say nothing of what is tested; with what to write instead.
+constexpr std::pair<std::string_view, char const*> other_keys[] = {
+    {"run.seed", "'seeds' gives the seeds"},
+    {"output.folder", "'folder' names the folder of all members"},
+    {"run.threads", "`clathra study --threads` gives the threads of a member"}};
+
+/// A piece of a file's name: "26 %" -> "26pct".
+std::string slug(std::string_view text) {
+  std::string name;
+  for (char const c : text) {
+    if (c == '%') name += "pct";
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '+' || c == '-') name += c;
+    if (c == '/' || c == '_') name += '-';
+  }
+  return name;
+}
+
+/// What a value is called in names: with the key where the value is a bare number or truth value.
+std::string value_name(Setting const& setting) {
+  std::string const value = slug(setting.second), leaf = setting.first.substr(setting.first.find('.') + 1);
+  double number = 0;
+  auto const [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  bool const bare = value == "true" || value == "false" || (error == std::errc() && end == value.data() + value.size());
+  return bare ? slug(leaf) + value : value;
+}
+
+/// A number and its unit, "1 MPa" -> (1, " MPa"); nothing where it begins with no number.
+std::optional<std::pair<double, std::string>> parts_of(std::string const& text) {
+  double number = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || !std::isfinite(number)) return {};
+  return std::pair(number, std::string(end, text.data() + text.size()));
+}
+
+/// The values of one key.
+struct Choices {
+  std::string key;
+  std::vector<std::string> values;
+  bool named = true;  ///< they are part of the groups' names
+};
+
+class StudyReader {
+ public:
+  explicit StudyReader(std::filesystem::path const& path) : file_(path.string()) {
+    study_.file = path;
+    study_.folder = std::filesystem::path("out") / path.stem();
+  }
+
+  Study read() {
+    std::string const text = read_text_file(study_.file, largest_scene_file + 1);
+    std::optional<toml::table> const root = parse_guarded(text, file_, problems_);
+    if (root) read_root(*root);
+    if (problems_.empty()) make_groups();
+    if (!problems_.empty()) throw SceneProblems(std::move(problems_));
+    return std::move(study_);
+  }
+
+ private:
+  using Entry = std::pair<std::string, toml::node const*>;
+
+  void report(toml::node const& node, std::string text) {
+    auto const at = node.source().begin;
+    problems_.push_back({file_, static_cast<int>(at.line), static_cast<int>(at.column), std::move(text)});
+  }
+
+  /// The entries of a table in the order of the file; toml++ sorts them by name.
+  static std::vector<Entry> in_order(toml::table const& table) {
+    std::vector<Entry> entries;
+    for (auto const& [name, node] : table) entries.emplace_back(std::string(name.str()), &node);
+    std::stable_sort(entries.begin(), entries.end(), [](Entry const& a, Entry const& b) {
+      auto const at = a.second->source().begin, other = b.second->source().begin;
+      return std::pair(at.line, at.column) < std::pair(other.line, other.column);
+    });
+    return entries;
+  }
+
+  void read_root(toml::table const& root) {
+    static constexpr std::string_view names[] = {"scene", "seeds", "folder", "until", "most_seeds", "matrix", "groups"};
+    for (auto const& [name, node] : in_order(root)) {
+      if (name == "scene")
+        read_path(*node, study_.scene);
+      else if (name == "folder")
+        read_path(*node, study_.folder);
+      else if (name == "seeds")
+        read_seeds(*node);
+      else if (name == "until")
+        read_goal(*node);
+      else if (name == "most_seeds")
+        read_most_seeds(*node);
+      else if (name == "matrix")
+        read_matrix(*node);
+      else if (name == "groups")
+        read_groups(*node);
+      else
+        report(*node,
+               fmt::format("unknown key '{}'{}; a study has scene, seeds, folder, until, most_seeds, [matrix] and [groups.NAME]",
+                           name.substr(0, 60), name_suggestion(name, names)));
+    }
+    if (study_.scene.empty() && problems_.empty())
+      problems_.push_back({file_, 0, 0, "'scene' is missing: the scene file that all members share"});
+    if (study_.seeds.empty())
+      for (int seed = 1; seed <= usual_seeds; ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
+  }
+
+  void read_path(toml::node const& node, std::filesystem::path& path) {
+    auto const* const text = node.as_string();
+    if (!text || text->get().empty()) return report(node, "needs the name of a file or folder in quotes");
+    path = (study_.file.parent_path() / text->get()).lexically_normal();
+  }
+
+  void read_seeds(toml::node const& node) {
+    constexpr std::int64_t most = 10000;
+    if (auto const* const count = node.as_integer()) {
+      if (count->get() < 1 || count->get() > most) return report(node, fmt::format("'seeds' must be between 1 and {}", most));
+      for (std::int64_t seed = 1; seed <= count->get(); ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
+      return;
+    }
+    auto const* const list = node.as_array();
+    if (!list || list->empty()) return report(node, "'seeds' needs their number, or a list of them: seeds = [1, 2, 3]");
+    for (toml::node const& item : *list) {
+      auto const* const seed = item.as_integer();
+      if (!seed || seed->get() < 0) return report(item, "a seed is a whole number, 0 or more");
+      auto const value = static_cast<std::uint64_t>(seed->get());
+      if (std::count(study_.seeds.begin(), study_.seeds.end(), value) > 0)
+        return report(item, fmt::format("seed {} is there twice", value));
+      study_.seeds.push_back(value);
+    }
+  }
+
+  void read_goal(toml::node const& node) {
+    auto const* const text = node.as_string();
+    if (!text) return report(node, "'until' needs a text like \"peak_q_Pa=2%\"");
+    try {
+      study_.until = study_goal(text->get());
+    } catch (std::invalid_argument const& problem) {
+      report(node, std::string("'until' ") + problem.what());
+    }
+  }
+
+  void read_most_seeds(toml::node const& node) {
+    auto const* const most = node.as_integer();
+    if (!most || most->get() < 2 || most->get() > 10000)
+      return report(node, "'most_seeds' is a whole number between 2 and 10000");
+    study_.most_seeds = static_cast<int>(most->get());
+  }
+
+  static bool is_range(toml::table const& table) {
+    return table.contains("from") || table.contains("to") || table.contains("count");
+  }
+
+  /// Calls found(key, node) for the values of a section, whose keys may be written "a.b" = or a.b =.
+  template <class Found>
+  void for_each_key(toml::node const& section, char const* what, Found const& found) {
+    if (!section.is_table())
+      return report(section, fmt::format("'{}' is a section: write [{}] and keys of the scene below", what, what));
+    for (auto const& [name, node] : in_order(*section.as_table())) {
+      bool const nested = node->is_table() && !is_range(*node->as_table());
+      if (!nested) {
+        found(name, *node);
+        continue;
+      }
+      for (auto const& [leaf, inner] : in_order(*node->as_table())) found(name + "." + leaf, *inner);
+    }
+  }
+
+  /// The key of a scene, where it may stand in a study.
+  Key const* known(std::string const& name, toml::node const& node) {
+    for (auto const& [other, instead] : other_keys)
+      if (name == other) return report(node, fmt::format("'{}' cannot be varied here: {}", name, instead)), nullptr;
+    Key const* const key = find_key(name);
+    if (!key) report(node, fmt::format("unknown key '{}' of a scene{}", name.substr(0, 100), key_suggestion(name)));
+    return key;
+  }
+
+  /// A single value as text, checked against its key.
+  std::optional<std::string> value_of(Key const& key, toml::node const& node) {
+    std::string text;
+    if (auto const* const quoted = node.as_string())
+      text = quoted->get();
+    else if (auto const* const whole = node.as_integer())
+      text = fmt::format("{}", whole->get());
+    else if (auto const* const number = node.as_floating_point())
+      text = fmt::format("{}", number->get());
+    else if (auto const* const truth = node.as_boolean())
+      text = truth->get() ? "true" : "false";
+    else
+      return report(node, fmt::format("'{}' needs one value here", key.name)), std::nullopt;
+    try {
+      Scene scratch;
+      set_from_text(key, scratch, text);
+    } catch (std::invalid_argument const& problem) {
+      return report(node, fmt::format("'{}' {}", key.name, problem.what())), std::nullopt;
+    }
+    if (key.kind == Kind::path && !text.empty()) text = (study_.file.parent_path() / text).lexically_normal().string();
+    return text;
+  }
+
+  void read_matrix(toml::node const& section) {
+    for_each_key(section, "matrix", [&](std::string const& name, toml::node const& node) {
+      Key const* const key = known(name, node);
+      if (!key) return;
+      Choices choices{name, {}};
+      if (auto const* const list = node.as_array()) {
+        for (toml::node const& item : *list)
+          if (auto value = value_of(*key, item)) choices.values.push_back(std::move(*value));
+        if (list->empty()) report(node, fmt::format("'{}' has no value in its list", name));
+      } else if (auto const* const range = node.as_table()) {
+        choices.values = range_of(*key, *range);
+      } else if (auto value = value_of(*key, node)) {
+        choices.values.push_back(std::move(*value));
+        choices.named = false;
+      }
+      std::set<std::string> const distinct(choices.values.begin(), choices.values.end());
+      if (distinct.size() < choices.values.size()) report(node, fmt::format("'{}' has a value twice", name));
+      matrix_.push_back(std::move(choices));
+    });
+  }
+
+  /// { from, to, count }: evenly spaced, both ends included.
+  std::vector<std::string> range_of(Key const& key, toml::table const& table) {
+    auto const* const count = table["count"].as_integer();
+    auto const *const from = table.get("from"), *const to = table.get("to");
+    if (!count || !from || !to || table.size() != 3 || count->get() < 2 || count->get() > 10000)
+      return report(
+                 table,
+                 fmt::format(
+                     "a range of '{}' needs from, to and count (2 to 10000): {{ from = \"1 MPa\", to = \"3 MPa\", count = 3 }}",
+                     key.name)),
+             std::vector<std::string>();
+    auto const first = value_of(key, *from), last = value_of(key, *to);
+    if (!first || !last) return {};
+    auto const a = parts_of(*first), b = parts_of(*last);
+    if (!a || !b || a->second != b->second)
+      return report(table, fmt::format("a range of '{}' needs two numbers in the same unit, got '{}' and '{}'", key.name, *first,
+                                       *last)),
+             std::vector<std::string>();
+    std::vector<std::string> values;
+    for (std::int64_t i = 0; i < count->get(); ++i) {
+      double const part = static_cast<double>(i) / static_cast<double>(count->get() - 1);
+      // Twelve digits: 0.30000000000000004 is what 0.1 three times gives, not what somebody means.
+      values.push_back(fmt::format("{:.12g}{}", a->first + part * (b->first - a->first), a->second));
+    }
+    return values;
+  }
+
+  void read_groups(toml::node const& section) {
+    if (!section.is_table()) return report(section, "'groups' holds sections: write [groups.NAME] and keys of the scene below");
+    for (auto const& [name, node] : in_order(*section.as_table())) {
+      if (name.empty() || slug(name) != name || name.size() > 60) {
+        report(*node, fmt::format("'{}' is no name of a group: letters, digits and .+- only, 60 at most", name.substr(0, 60)));
+        continue;
+      }
+      StudyGroup group{name, {}, name};
+      for_each_key(*node, "groups.NAME", [&](std::string const& key_name, toml::node const& value_node) {
+        if (Key const* const key = known(key_name, value_node))
+          if (auto value = value_of(*key, value_node)) group.settings.emplace_back(key_name, std::move(*value));
+      });
+      named_.push_back(std::move(group));
+    }
+  }
+
+  void make_groups() {
+    std::size_t count = study_.seeds.size() * std::max<std::size_t>(1, named_.size());
+    for (Choices const& choices : matrix_) count = count > most_members ? count : count * choices.values.size();
+    if (count > most_members)
+      return problems_.push_back({file_, 0, 0, fmt::format("the study has more than {} members", most_members)});
+    for (StudyGroup const& group : named_)
+      for (Setting const& setting : group.settings)
+        if (std::any_of(matrix_.begin(), matrix_.end(), [&](Choices const& choices) { return choices.key == setting.first; }))
+          problems_.push_back({file_, 0, 0, fmt::format("'{}' is in [matrix] and in [groups.{}]", setting.first, group.name)});
+    std::vector<StudyGroup> groups = named_.empty() ? std::vector<StudyGroup>(1) : named_;
+    for (Choices const& choices : matrix_) {
+      std::vector<StudyGroup> finer;
+      for (StudyGroup const& group : groups)
+        for (std::string const& value : choices.values) finer.push_back(with(group, {choices.key, value}, choices.named));
+      groups = std::move(finer);
+    }
+    for (StudyGroup& group : groups) {
+      if (group.name.empty()) group.name = "all";
+      if (group.material.empty()) group.material = "all";
+      for (Setting const& setting : group.settings)
+        if (std::find(study_.keys.begin(), study_.keys.end(), setting.first) == study_.keys.end())
+          study_.keys.push_back(setting.first);
+    }
+    std::set<std::string> names;
+    for (StudyGroup const& group : groups)
+      if (!names.insert(group.name).second)
+        problems_.push_back(
+            {file_, 0, 0,
+             fmt::format("two groups have the name '{}': their values differ in blanks and signs only", group.name)});
+    study_.groups = std::move(groups);
+  }
+
+  StudyGroup with(StudyGroup group, Setting const& setting, bool named) {
+    auto const join = [name = value_name(setting)](std::string& to) { to += (to.empty() ? "" : "_") + name; };
+    if (named) join(group.name);
+    if (named && setting.first != stress_key) join(group.material);
+    group.settings.push_back(setting);
+    return group;
+  }
+
+  std::string file_;
+  Study study_;
+  std::vector<StudyGroup> named_;
+  std::vector<Choices> matrix_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+Study load_study(std::filesystem::path const& path) { return StudyReader(path).read(); }
+
+StudyGoal study_goal(std::string const& text) {
+  auto const equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw std::invalid_argument("needs the form NUMBER=WIDTH, as in peak_q_Pa=2%");
+  std::string const width = text.substr(std::min(text.size(), text.find_first_not_of(' ', equals + 1)));
+  auto const parts = parts_of(width);
+  std::string unit = parts ? parts->second : "";
+  std::erase(unit, ' ');
+  if (!parts || (unit != "%" && !unit.empty()))
+    throw std::invalid_argument(fmt::format("needs a width like 2%, got '{}'", width));
+  StudyGoal const goal{text.substr(0, equals), parts->first * (unit == "%" ? 0.01 : 1)};
+  if (!(goal.width > 0 && goal.width < 1))
+    throw std::invalid_argument(fmt::format("needs a width between 0 and 100 %, got '{}'", width));
+  return goal;
+}
+
+LoadedScene member_scene(Study const& study, StudyGroup const& group, std::uint64_t seed, std::vector<std::string> const& more) {
+  std::vector<std::string> overrides;
+  for (auto const& [key, value] : group.settings) overrides.push_back(key + "=" + value);
+  overrides.push_back(fmt::format("run.seed={}", seed));
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  try {
+    return load_scene(study.scene, overrides);
+  } catch (SceneProblems const& problems) {
+    std::vector<Problem> named = problems.problems;
+    for (Problem& problem : named) problem.text += fmt::format(" (in the group {} of {})", group.name, study.file.string());
+    throw SceneProblems(std::move(named));
+  }
+}
+
+std::string member_name(StudyGroup const& group, std::uint64_t seed) { return fmt::format("{}-seed{}", group.name, seed); }
+
+}  // namespace clathra

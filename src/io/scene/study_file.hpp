@@ -1,0 +1,65 @@
+#pragma once
+/// Study files: TOML that says over which keys of a scene, values and seeds runs are made.
+///
+///     scene = "quick.toml"       # what all members share; relative to the study file
+///     seeds = 5                  # 1 to 5, or a list
+///     [matrix]                   # each value with each of the others; a value that is no list holds for all and names no group
+///     "hydrate.saturation" = ["26 %", "41 %", "55 %"]
+///     "test.confining_stress" = { from = "1 MPa", to = "3 MPa", count = 3 }
+///     [groups.dense]             # named sets of keys, each of them with the whole matrix
+///     "sample.void_ratio" = 0.2
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/scene/scene_file.hpp"
+
+namespace clathra {
+
+/// A key of a scene with its value as text, as after --set.
+using Setting = std::pair<std::string, std::string>;
+
+/// Members that differ in their seed only.
+struct StudyGroup {
+  std::string name;               ///< of letters, digits and ._+-: "dense_26pct_1MPa"
+  std::vector<Setting> settings;  ///< those of the named set, then those of the matrix, in the order of the file
+  std::string material;           ///< the name without the confining stress: groups of one material share an envelope
+};
+
+/// "peak_q_Pa=2%": seeds are added until the mean of a number is known to this part of itself.
+struct StudyGoal {
+  std::string number;
+  double width = 0;
+};
+
+struct Study {
+  std::filesystem::path file, scene;
+  std::filesystem::path folder;  ///< of the results: "out/" and the name of the file, where it does not say
+  std::vector<std::uint64_t> seeds;
+  std::vector<StudyGroup> groups;  ///< one at least
+  std::vector<std::string> keys;   ///< of all settings, in the order in which they first appear
+  std::optional<StudyGoal> until;
+  int most_seeds = 40;  ///< with a goal
+};
+
+inline constexpr int usual_seeds = 5;
+inline constexpr std::size_t most_members = 100000;
+
+/// @throws SceneProblems with all that is wrong in the file: unknown keys, values that a scene does not take, two groups of one
+/// name, more than most_members;  FileProblem if it cannot be read
+Study load_study(std::filesystem::path const& path);
+
+/// @throws std::invalid_argument with what is wrong with the text
+StudyGoal study_goal(std::string const& text);
+
+/// The scene of a member. @param more  further overrides
+/// @throws SceneProblems, which name the group
+LoadedScene member_scene(Study const& study, StudyGroup const& group, std::uint64_t seed, std::vector<std::string> const& more);
+
+/// "dense_26pct_1MPa-seed3"
+std::string member_name(StudyGroup const& group, std::uint64_t seed);
+
+}  // namespace clathra

@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/scene/study_file.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StudyFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder);
+    std::ofstream(folder / "base.toml") << "[sample]\nparticles = 300\n";
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  Study load(std::string const& text) const {
+    std::ofstream(folder / "many.toml") << text;
+    return load_study(folder / "many.toml");
+  }
+  std::string problems_of(std::string const& text) const {
+    try {
+      load(text);
+    } catch (SceneProblems const& problems) {
+      EXPECT_EQ(problems.code(), ExitCode::bad_input);
+      return problems.what();
+    }
+    return "taken";
+  }
+  static std::vector<std::string> names(Study const& study) {
+    std::vector<std::string> all;
+    for (StudyGroup const& group : study.groups) all.push_back(group.name);
+    return all;
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_study_" + std::to_string(::getpid()));
+  std::string const base = "scene = \"base.toml\"\n";
+};
+
+using Names = std::vector<std::string>;
+
+TEST_F(StudyFile, IsAMatrixInTheOrderOfTheFile) {
+  Study const study =
+      load(base +
+           "seeds = 3\n[matrix]\n\"test.confining_stress\" = [\"1 MPa\", \"2 MPa\"]\nhydrate.saturation = [0.26, \"55 %\"]\n"
+           "grains.friction = 0.4\n");
+  EXPECT_EQ(study.scene, folder / "base.toml");
+  EXPECT_EQ(study.folder, fs::path("out/many"));
+  EXPECT_EQ(names(study), (Names{"1MPa_saturation0.26", "1MPa_55pct", "2MPa_saturation0.26", "2MPa_55pct"}));
+  EXPECT_EQ(study.groups[3].material, "55pct");
+  EXPECT_EQ(study.groups[3].settings.back(), Setting("grains.friction", "0.4"))
+      << "a single value holds for all and names nothing";
+  EXPECT_EQ(study.keys, (Names{"test.confining_stress", "hydrate.saturation", "grains.friction"}));
+  EXPECT_EQ(study.seeds, (std::vector<std::uint64_t>{1, 2, 3}));
+  Scene const scene = member_scene(study, study.groups[3], 7, {}).scene;
+  EXPECT_EQ(scene.test.confining_stress, 2e6);
+  EXPECT_EQ(scene.hydrate.saturation, 0.55);
+  EXPECT_EQ(scene.grains.friction, 0.4);
+  EXPECT_EQ(scene.run.seed, 7u);
+}
+
+TEST_F(StudyFile, HasFiveSeedsUnlessItSaysOtherwise) {
+  EXPECT_EQ(load(base).seeds.size(), 5u);
+  EXPECT_EQ(names(load(base)), Names{"all"});
+  EXPECT_EQ(load(base + "seeds = [4, 9]\n").seeds, (std::vector<std::uint64_t>{4, 9}));
+}
+
+TEST_F(StudyFile, SpacesRangesEvenly) {
+  Study const study = load(base + "[matrix]\ntest.confining_stress = { from = \"1 MPa\", to = \"2 MPa\", count = 6 }\n");
+  EXPECT_EQ(names(study), (Names{"1MPa", "1.2MPa", "1.4MPa", "1.6MPa", "1.8MPa", "2MPa"}));
+}
+
+TEST_F(StudyFile, CrossesNamedGroupsWithTheMatrix) {
+  Study const study = load(base +
+                           "[groups.dense]\nsample.void_ratio = 0.2\n[groups.loose]\n\"sample.void_ratio\" = 0.26\n"
+                           "[matrix]\n\"hydrate.saturation\" = [\"0 %\", \"55 %\"]\n");
+  EXPECT_EQ(names(study), (Names{"dense_0pct", "dense_55pct", "loose_0pct", "loose_55pct"}));
+  EXPECT_EQ(member_scene(study, study.groups[0], 1, {}).scene.sample.void_ratio, 0.2);
+}
+
+TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
+  std::string const text = problems_of(base +
+                                       "sedes = 3\nseeds = [1, 1]\n[matrix]\n\"test.confinig_stress\" = [\"1 MPa\"]\n"
+                                       "\"hydrate.saturation\" = [\"1 mm\", \"2\"]\n\"run.seed\" = [1, 2]\n"
+                                       "\"test.axial_strain\" = { from = \"1 %\", to = 0.2, count = 3 }\n");
+  for (char const* const part :
+       {":2:9: error: unknown key 'sedes'; did you mean 'seeds'?; a study has", ":3:13: error: seed 1 is there twice",
+        "error: unknown key 'test.confinig_stress' of a scene; did you mean 'confining_stress'?",
+        ":6:25: error: 'hydrate.saturation' needs a", ":7:14: error: 'run.seed' cannot be varied here: 'seeds' gives the seeds",
+        "needs two numbers in the same unit, got '1 %' and '0.2'"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+  EXPECT_NE(problems_of("seeds = 2\n").find("'scene' is missing"), std::string::npos);
+  EXPECT_NE(problems_of(base + "[matrix]\ngrains.friction = [0.3, 0.3]\n").find("has a value twice"), std::string::npos);
+  EXPECT_NE(problems_of(base + "[matrix]\ngrains.friction = []\n").find("no value in its list"), std::string::npos);
+  EXPECT_NE(problems_of(base + "[groups.\"a b\"]\ngrains.friction = 0.3\n").find("is no name of a group"), std::string::npos);
+  EXPECT_NE(problems_of(base + "[groups.a]\ngrains.friction = 0.3\n[matrix]\ngrains.friction = [1]\n")
+                .find("in [matrix] and in [groups.a]"),
+            std::string::npos);
+  EXPECT_NE(problems_of(base + "seeds = 10000\n[matrix]\ngrains.friction = {from = 0.1, to = 0.9, count = 1000}\n")
+                .find("more than 100000 members"),
+            std::string::npos);
+  EXPECT_NE(problems_of("scene = \"a\"\nseeds = 1 2\n").find(":2:"), std::string::npos) << "no TOML";
+}
+
+TEST_F(StudyFile, SaysWhichGroupASceneIsWrongIn) {
+  Study const study = load(base + "[matrix]\nhydrate.saturation = \"55 %\"\nhydrate.temperature = [\"5 degC\", \"15 degC\"]\n");
+  EXPECT_NO_THROW(member_scene(study, study.groups[0], 1, {}));
+  try {
+    member_scene(study, study.groups[1], 1, {});
+    ADD_FAILURE() << "taken";
+  } catch (SceneProblems const& problems) {
+    EXPECT_NE(std::string(problems.what()).find("(in the group 15degC of "), std::string::npos) << problems.what();
+  }
+}
+
+TEST(StudyGoal, IsANumberAndAWidth) {
+  EXPECT_EQ(study_goal("peak_q_Pa=2%").width, 0.02);
+  EXPECT_EQ(study_goal("peak_q_Pa=2%").number, "peak_q_Pa");
+  EXPECT_EQ(study_goal("peak_eps1= 0.05").width, 0.05);
+  for (char const* const wrong :
+       {"peak_q_Pa", "=2%", "peak_q_Pa=", "peak_q_Pa=2 MPa", "peak_q_Pa=0", "peak_q_Pa=-1%", "peak_q_Pa=100%"})
+    EXPECT_THROW(study_goal(wrong), std::invalid_argument) << wrong;
+}
+
+}  // namespace
+}  // namespace clathra
