@@ -1,5 +1,7 @@
 #include "resumption.hpp"
 
+#include <fmt/format.h>
+
 #include "io/errors/problems.hpp"
 #include "io/errors/rank_errors.hpp"
 #include "io/results/run_record.hpp"
@@ -15,6 +17,10 @@ Resumption resume_from(FoundCheckpoint const& checkpoint, std::filesystem::path 
   on_root(ranks, [&] { require_rows(folder, checkpoint.progress); });
   on_each(ranks, [&] { resumed.history = read_history(folder / "history.csv", checkpoint.progress.history.bytes); });
   resumed.test = std::make_unique<BiaxialTest>(scene, read_checkpoint(checkpoint, scene, ranks), ranks);
+  if (double const strain = resumed.test->axial_strain(); scene.test.axial_strain < strain * (1 - 1e-3))
+    throw FileProblem(ExitCode::refused, folder,
+                      fmt::format("the test is at an axial strain of {:.4g} % already, test.axial_strain is {:.4g} %",
+                                  strain * 100, scene.test.axial_strain * 100));
   std::string const hash = hash_text(resumed.test->state_hash());
   on_each(ranks, [&] {
     if (hash != checkpoint_state_hash(checkpoint.file).value_or(hash))

@@ -1,14 +1,22 @@
 #include "run_files.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "domain/scene/hydrate.hpp"
 #include "io/errors/rank_errors.hpp"
 
 namespace clathra {
+namespace {
+
+constexpr double slack = 1e-9;  // of the interval: strains are sums of many steps
+
+}  // namespace
 
 RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks, BiaxialTest const& test,
-                   std::optional<RunProgress> const& before)
+                   std::optional<RunProgress> const& before, double last_record)
     : folder_(std::move(folder)), ranks_(std::move(ranks)), output_(scene.output) {
   on_root(ranks_, [&] {
     bool const events = output_.events && has_bonds(scene);
@@ -20,30 +28,55 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
       if (events) events_.emplace(folder_ / "events.csv");
     }
   });
-  if (output_.snapshots == 0) return;
+  if (!output_.takes_snapshots()) return;
   std::vector<SnapshotEntry> const snapshots = before ? before->snapshots : std::vector<SnapshotEntry>();
   snapshots_.emplace(folder_, ranks_, snapshots, output_.full_precision ? SnapshotNumbers::full : SnapshotNumbers::rounded);
-  if (before) since_snapshot_ = test.events_after(snapshots.empty() ? -1 : snapshots.back().step);
+  if (output_.snapshots > 0) interval_ = scene.test.axial_strain / output_.snapshots;
+  if (!before) return;
+  since_snapshot_ = test.events_after(snapshots.empty() ? -1 : snapshots.back().step);
+  if (interval_ > 0) regular_ = 1 + static_cast<int>(std::floor(last_record / interval_ + slack));
+  auto const& strains = output_.snapshots_at;
+  given_ = static_cast<std::size_t>(std::upper_bound(strains.begin(), strains.end(), test.axial_strain()) - strains.begin());
+}
+
+/// The bonds that broke since the last call, into the rows and towards the next snapshot.
+void RunFiles::take_events(BiaxialTest& test) {
+  std::vector<BreakEvent> const broken = test.take_events();
+  on_root(ranks_, [&] {
+    if (events_) events_->write(broken);
+    if (output_.takes_snapshots()) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
+  });
 }
 
 void RunFiles::write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy) {
-  std::vector<BreakEvent> const broken = test.take_events();
   on_root(ranks_, [&] {
     if (output_.energy)
       history_->write(row, energy);
     else
       history_->write(row);
-    if (events_) events_->write(broken);
-    if (output_.snapshots > 0) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
   });
-  if (snapshots_) write_snapshot_if_due(test);
+  take_events(test);
+  bool const regular = interval_ > 0 && row.eps1 >= (regular_ - slack) * interval_;
+  bool const given = row.eps1 >= next_snapshot_at();
+  if (!regular && !given) return;
+  write_snapshot(test);
+  if (regular) ++regular_;
 }
 
-void RunFiles::write_snapshot_if_due(BiaxialTest& test) {
-  double const next = static_cast<double>(snapshots_->entries().size()) / output_.snapshots;
-  if (test.strain_fraction() < next - 1e-9) return;
+double RunFiles::next_snapshot_at() const {
+  return given_ < output_.snapshots_at.size() ? output_.snapshots_at[given_] : std::numeric_limits<double>::infinity();
+}
+
+void RunFiles::write_snapshot_at(BiaxialTest& test) {
+  if (test.axial_strain() < next_snapshot_at()) return;
+  take_events(test);
+  write_snapshot(test);
+}
+
+void RunFiles::write_snapshot(BiaxialTest& test) {
   Snapshot snapshot = test.snapshot();
   snapshot.events = std::exchange(since_snapshot_, {});
+  while (next_snapshot_at() <= snapshot.eps1) ++given_;
   snapshots_->write(snapshot);
 }
 

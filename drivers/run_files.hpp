@@ -12,20 +12,25 @@ namespace clathra {
 /// All calls are collective; rank 0 writes the rows. All throw FileProblem.
 class RunFiles {
  public:
-  /// @param before  where the files of a run that goes on stood
+  /// @param before  where the files of a run that goes on stood;  @param last_record  its last axial strain in history.csv
   RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks, BiaxialTest const& test,
-           std::optional<RunProgress> const& before);
+           std::optional<RunProgress> const& before, double last_record);
 
   /// One record: its row, the bonds that broke since the last one, and a snapshot where one is due.
   /// @param energy  of the same moment, only with scene.output.energy
   void write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy);
+  /// The axial strain of the next snapshot that has a strain of its own (output.snapshots_at); infinite where there is none.
+  double next_snapshot_at() const;
+  /// Writes it where that strain is reached.
+  void write_snapshot_at(BiaxialTest& test);
   /// Where the files stand, after everything has reached the disk.
   RunProgress flushed() const;
   /// Everything has reached the disk then.
   void close();
 
  private:
-  void write_snapshot_if_due(BiaxialTest& test);
+  void take_events(BiaxialTest& test);
+  void write_snapshot(BiaxialTest& test);
 
   std::filesystem::path folder_;
   Ranks ranks_;
@@ -34,6 +39,9 @@ class RunFiles {
   std::optional<EventsFile> events_;    // on rank 0
   std::optional<SnapshotSeries> snapshots_;
   std::vector<BreakEvent> since_snapshot_;  // on rank 0
+  double interval_ = 0;                     // of the regular snapshots, in axial strain
+  int regular_ = 0;                         // of them have been written
+  std::size_t given_ = 0;                   // of those with a strain of their own lie behind
 };
 
 /// The names of all files of a run's folder reach the disk, as their contents have before. @throws FileProblem io_error

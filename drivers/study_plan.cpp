@@ -155,7 +155,7 @@ void find_finished(StudyPlan& plan, std::size_t member) {
   if (task.specimen && !fs::exists(plan.specimens[*task.specimen].result, ignored)) return;
   Scene const scene = plan.scene_of_run(member).scene;
   std::string const digest = scene.sample.generator == Generator::file ? file_digest(scene.sample.file) : "";
-  if (is_finished_run(task.result, scene, digest)) read_member(plan.members[member], task.result);
+  if (earlier_run(task.result, scene, digest) == EarlierRun::finished) read_member(plan.members[member], task.result);
 }
 
 }  // namespace clathra

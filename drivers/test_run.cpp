@@ -76,7 +76,10 @@ class TestRun::Running {
 
   /// @throws whatever ended the run, after run.json says so
   ExitCode run() {
-    if (finished_) return print_result(fmt::format("this run is finished: {}\n", folder_.string()));
+    if (finished_) {
+      if (!keeps_checkpoint()) on_root(ranks_, [&] { remove_checkpoints(folder_); });  // a kill came between
+      return print_result(fmt::format("this run is finished: {}\n", folder_.string()));
+    }
     if (!resumes()) begin_record();
     try {
       shear();
@@ -91,7 +94,10 @@ class TestRun::Running {
     conclude(ExitCode::done, "finished");
     on_root(ranks_, [&] {
       flush_run_folder(folder_);
-      remove_checkpoints(folder_);  // last: what is finished and on the disk needs them no more
+      if (keeps_checkpoint())
+        checkpoints_->keep_newest();
+      else
+        remove_checkpoints(folder_);  // last: what is finished and on the disk needs them no more
     });
     line_.repeat_warnings();
     print_result(summary_->text() + fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
@@ -99,12 +105,13 @@ class TestRun::Running {
   }
 
  private:
+  bool keeps_checkpoint() const { return scene_.output.keep_checkpoint && limits_.checkpoint_every > 0; }
   bool resumes() const { return !found_.usable.empty(); }
 
   void look_for_an_earlier_part() {
-    found_ = find_checkpoints(folder_, ranks_);
-    on_root(ranks_, [&] { finished_ = !resumes() && is_finished_run(folder_, scene_, record_.specimen_digest); });
+    on_root(ranks_, [&] { finished_ = earlier_run(folder_, scene_, record_.specimen_digest) == EarlierRun::finished; });
     finished_ = ranks_.any(finished_);
+    if (!finished_) found_ = find_checkpoints(folder_, ranks_);
   }
 
   void require_no_unfinished_run() const {
@@ -195,7 +202,7 @@ class TestRun::Running {
   }
 
   void write_curves(BiaxialTest& test, double preparing_seconds) {
-    files_.emplace(folder_, scene_, ranks_, test, resumed_ ? std::optional(resumed_->progress) : std::nullopt);
+    files_.emplace(folder_, scene_, ranks_, test, resumed_ ? std::optional(resumed_->progress) : std::nullopt, last_.eps1);
     Speedometer const clock(test.strain_fraction());
     std::int64_t const steps_before = test.disc_steps();
     double const searching_before = test.search_seconds();
@@ -204,7 +211,8 @@ class TestRun::Running {
     if (!resumed_ && limits_.checkpoint_every > 0 && ranks_.any(preparing_seconds > 0.05 * limits_.checkpoint_every))
       write_checkpoint(test);
     while (!test.finished()) {
-      if (test.advance(pace_)) write_record_of(test);
+      if (test.advance(pace_, files_->next_snapshot_at())) write_record_of(test);
+      files_->write_snapshot_at(test);
       record_.disc_steps = test.disc_steps() - steps_before;
       record_.wall_seconds["shear"] = clock.seconds();
       record_.wall_seconds["neighbour_searches"] = test.search_seconds() - searching_before;
@@ -212,6 +220,7 @@ class TestRun::Running {
       show(test, clock.text(test.strain_fraction(), record_.disc_steps));
       poll(test);
     }
+    if (keeps_checkpoint()) write_checkpoint(test);
     files_->close();
   }
 

@@ -45,7 +45,7 @@ class RunFolder : public testing::Test {
     put(base() / "scene.toml",
         "[sample]\nparticles = 100\nvoid_ratio = 0.28\n[grading]\nfile = \"sizes.csv\"\n[hydrate]\nsaturation = \"55 "
         "%\"\n[test]\n"
-        "axial_strain = \"0.3 %\"\n[output]\nrecords = 200\nsnapshots = 2\n");
+        "axial_strain = \"0.3 %\"\n[output]\nrecords = 200\nsnapshots = 2\nkeep_checkpoint = false\n");
     put(base() / "sizes.csv", "d_mm,percent_finer\n0.12,0\n0.15,30\n0.17,50\n0.2,80\n0.24,100\n");
     fs::copy_file(base() / "sizes.csv", base() / "same.csv");
     CommandResult const alone = run("alone");

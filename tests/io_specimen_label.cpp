@@ -159,7 +159,7 @@ class SpecimenOfARun : public testing::Test {
 TEST_F(SpecimenOfARun, GoesOnUnderItsOwnLabelOnly) {
   ASSERT_EQ(clathra("run", "--output " + out("first")).code, 0);
   std::string const last = reading(out("first") + "/final.h5"), other = " --force --set hydrate.saturation=\"26 %\" ";
-  for (std::string const& verb : {"run --dry-run", "run", "check"}) {
+  for (std::string const verb : {"run --dry-run", "run", "check"}) {
     CommandResult const refused = clathra(verb, last + other + (verb == "run" ? "--output " + out("second") : ""));
     EXPECT_EQ(refused.code, 77) << verb << refused.output;
     EXPECT_TRUE(says(refused.output, "final.h5: holds bonds of another scene: hydrate.saturation was 0.55, is 0.26")) << verb;

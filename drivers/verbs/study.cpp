@@ -139,6 +139,24 @@ ExitCode study(StudyOptions const& options) {
   return code == ExitCode::done ? concluded : code;
 }
 
+/// Options that do only a part of the work, one of them at a time.
+void add_parts(CLI::App& verb, StudyOptions& options) {
+  auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what the study will cost");
+  auto* const slurm = verb.add_option("--slurm", options.slurm, "only write a script that runs the study as arrays of Slurm")
+                          ->type_name("FILE")
+                          ->check(CLI::Validator(name_problem, ""));
+  auto* const member = verb.add_option("--member", options.member, "only run this member, counted from 1: a job of an array")
+                           ->check(CLI::PositiveNumber)
+                           ->type_name("N");
+  auto* const specimen = verb.add_option("--specimen", options.specimen, "only make this specimen, counted from 1")
+                             ->check(CLI::PositiveNumber)
+                             ->type_name("N");
+  auto* const collected = verb.add_flag("--collect", options.collect, "only write study.csv and the page of what there is");
+  for (auto* const one : {dry, slurm, member, specimen, collected})
+    for (auto* const other : {dry, slurm, member, specimen, collected})
+      if (one != other) one->excludes(other);
+}
+
 }  // namespace
 
 void add_study(CLI::App& program, Verb& chosen) {
@@ -178,20 +196,7 @@ void add_study(CLI::App& program, Verb& chosen) {
       ->capture_default_str()
       ->type_name("TIME")
       ->check(time);
-  auto* const dry = verb->add_flag("--dry-run", options->dry_run, "only say what the study will cost");
-  auto* const slurm = verb->add_option("--slurm", options->slurm, "only write a script that runs the study as arrays of Slurm")
-                          ->type_name("FILE")
-                          ->check(CLI::Validator(name_problem, ""));
-  auto* const member = verb->add_option("--member", options->member, "only run this member, counted from 1: a job of an array")
-                           ->check(CLI::PositiveNumber)
-                           ->type_name("N");
-  auto* const specimen = verb->add_option("--specimen", options->specimen, "only make this specimen, counted from 1")
-                             ->check(CLI::PositiveNumber)
-                             ->type_name("N");
-  auto* const collected = verb->add_flag("--collect", options->collect, "only write study.csv and the page of what there is");
-  for (auto* const one : {dry, slurm, member, specimen, collected})
-    for (auto* const other : {dry, slurm, member, specimen, collected})
-      if (one != other) one->excludes(other);
+  add_parts(*verb, *options);
   verb->footer("Example: clathra study examples/study.toml --until peak_q_Pa=5% --output out/study");
   verb->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
 }

@@ -90,7 +90,7 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
   auto const start_simulation = [&] {
     SimulationLaws const laws = test_laws(scene, specimen.critical_thickness);
     simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin(), ranks);
-    simulation->keep_break_events(scene.output.events || scene.output.snapshots > 0);
+    simulation->keep_break_events(scene.output.events || scene.output.takes_snapshots());
   };
   start_simulation();
   preparation["void_ratio_before_consolidation"] = simulation->void_ratio();
@@ -179,7 +179,7 @@ void BiaxialTest::State::begin_shear() {
   events_taken = static_cast<int>(s.break_events(0).size());
   int const broken = s.broken_bonds();
   bonds0 = std::llround(s.measures().bonded) + broken;
-  if (scene.output.snapshots > 0) s.mark_start();
+  if (scene.output.takes_snapshots()) s.mark_start();
   preparation["broken_in_consolidation"] = broken;
   preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
@@ -203,6 +203,7 @@ BiaxialTest::~BiaxialTest() = default;
 StageRecord const& BiaxialTest::preparation() const { return state_->preparation; }
 std::vector<std::string> const& BiaxialTest::warnings() const { return state_->warnings; }
 bool BiaxialTest::finished() const { return strain_fraction() >= 1 - 1e-9; }
+double BiaxialTest::axial_strain() const { return state_->eps1(); }
 double BiaxialTest::strain_fraction() const { return state_->eps1() / state_->scene.test.axial_strain; }
 std::int64_t BiaxialTest::disc_steps() const {
   return state_->disc_steps + state_->simulation->steps() * state_->simulation->discs();
@@ -227,12 +228,16 @@ Snapshot BiaxialTest::snapshot() const {
   return snapshot;
 }
 
-bool BiaxialTest::advance(std::int64_t most_steps) {
+bool BiaxialTest::advance(std::int64_t most_steps, double pause_at) {
   Simulation& s = *state_->simulation;
   for (std::int64_t n = 0; n < most_steps; ++n) {
     s.step();
     if (state_->watch.due(state_->eps1())) state_->check();
     bool const due = ++state_->steps_since_record >= state_->steps_per_record || finished();
+    if (!due && state_->eps1() >= pause_at) {
+      s.throw_if_unstable();
+      return false;
+    }
     if (!due) continue;
     state_->steps_since_record = 0;
     s.throw_if_unstable();

@@ -1,5 +1,6 @@
 #pragma once
 /// The biaxial test of a specimen: bond, consolidate, shear.
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -34,12 +35,14 @@ class BiaxialTest {
   TestState state() const;
 
   bool finished() const;
-  /// Makes at most so many steps towards the next history row. @return whether it is due;  @throws Diverged
-  bool advance(std::int64_t most_steps);
+  /// Makes at most so many steps towards the next history row. @param pause_at  axial strain at which it returns before
+  /// @return whether the row is due;  @throws Diverged
+  bool advance(std::int64_t most_steps, double pause_at = std::numeric_limits<double>::infinity());
   HistoryRow record();                    ///< measured now
   EnergyRow energy();                     ///< only with scene.output.energy
   std::vector<BreakEvent> take_events();  ///< broken bonds since the last call (none without output.events and snapshots), sorted
                                           ///< by (step, id_a, id_b); on rank 0 only
+  double axial_strain() const;            ///< eps_1
   double strain_fraction() const;         ///< eps_1 / target
   /// What was not quasi-static or overlapped too far in the shear so far, in words and in numbers (shear_watch.hpp). The checks
   /// have an interval of their own; preparation() holds the verdict `quasi_static`, 1 or 0, which they may take back.
@@ -50,7 +53,7 @@ class BiaxialTest {
   double search_seconds() const;  ///< wall time of the neighbour searches since the bonds were installed, or since resuming
   std::uint64_t state_hash() const;
   Specimen specimen() const;  ///< the present state, to go on from
-  Snapshot snapshot() const;  ///< the present state, to look at, without events; only with scene.output.snapshots
+  Snapshot snapshot() const;  ///< the present state, to look at, without events; only where the scene takes some
   StageRecord plan() const;   ///< steps, dt, strain rate, I, W, wall time guess inputs
 
  private:

@@ -2,6 +2,7 @@
 /// A scene: everything a run is told, in SI units and after validation. io/scene_file fills it from TOML.
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "kernels/bond_kind.hpp"
 
@@ -89,11 +90,15 @@ struct RunScene {
 /// `[output]`
 struct OutputScene {
   std::string folder = "out";
-  int records = 750;            ///< history rows over the whole strain
-  int snapshots = 15;           ///< over the whole strain, besides the one at its start; 0 = none at all
-  bool energy = false;          ///< keep the energy ledger
-  bool events = true;           ///< events.csv: each broken bond
-  bool full_precision = false;  ///< snapshots as they are computed, not rounded
+  int records = 750;                 ///< history rows over the whole strain
+  int snapshots = 15;                ///< over the whole strain, besides the one at its start; 0 = none at all
+  std::vector<double> snapshots_at;  ///< axial strains of further snapshots, ascending, each once
+  bool energy = false;               ///< keep the energy ledger
+  bool events = true;                ///< events.csv: each broken bond
+  bool full_precision = false;       ///< snapshots as they are computed, not rounded
+  bool keep_checkpoint = true;       ///< of the end of a test, to extend it
+
+  bool takes_snapshots() const { return snapshots > 0 || !snapshots_at.empty(); }
 };
 
 struct Scene {

@@ -1,7 +1,6 @@
 #include "io/report/study_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,8 +102,8 @@ std::string small_figure(GroupCurves const& group, Shown const& what, Axis const
   Plot plot;
   SeedBand const& band = group.bands[what.column];
   plot.title = group.name + ": " + what.heading;
-  plot.x = x;
-  plot.y = y;
+  plot.x = {"", x.from, x.to};  // said once above all
+  plot.y = {"", y.from, y.to};
   plot.areas.push_back(area_of(group, what));
   for (std::size_t i = 0; i < std::min(band.seeds.size(), most_seeds_drawn); ++i)
     plot.curves.push_back({group.name, scaled(band.eps1, percent), scaled(band.seeds[i], what.factor), {colours::grey, "", 0.8}});
@@ -150,14 +149,16 @@ std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> c
     head += fmt::format("<th>{}{}</th>", column.heading,
                         *column.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", column.unit) : "");
   for (GroupNumbers const& group : groups) {
-    rows += fmt::format("<tr><th>{}</th><td>{}</td>", escaped(group.name), group.seeds.size());
+    rows += fmt::format("<tr><th>{}</th><td data-run=\"seeds\">{}</td>", escaped(group.name), group.seeds.size());
     for (Column const& column : used) {
       auto const found = group.values.find(column.number);
-      rows += fmt::format("<td>{}</td>", found == group.values.end() ? "–" : with_interval(found->second, column.factor));
+      std::string const cell = found == group.values.end() ? "–" : with_interval(found->second, column.factor);
+      rows += fmt::format("<td data-run=\"{} {}\">{}</td>", column.heading, column.unit, cell);
     }
     rows += "</tr>\n";
   }
-  return "<div class=\"scroll\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+  return "<div class=\"scroll several sure\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows +
+         "</tbody></table></div>\n";
 }
 
 /// A number of the envelopes against the saturation, with its interval as a vertical line.
@@ -213,6 +214,21 @@ std::string strength_part(std::vector<GroupNumbers> const& materials) {
                              strength_figure(materials, "peak_friction_angle_deg", "Friction angle", "friction angle φ [°]", 1));
 }
 
+/// The keys that have several values, in words.
+std::string varied_keys(Study const& study) {
+  std::string text;
+  for (std::string const& key : study.keys) {
+    std::set<std::string> values;
+    for (StudyGroup const& group : study.groups) {
+      auto const found =
+          std::find_if(group.settings.begin(), group.settings.end(), [&](Setting const& s) { return s.first == key; });
+      values.insert(found == group.settings.end() ? "" : found->second);
+    }
+    if (values.size() > 1) text += (text.empty() ? "" : ", ") + key;
+  }
+  return text.empty() ? "their seed only" : text;
+}
+
 std::string problems(Study const& study, std::vector<MemberResult> const& members) {
   std::string items;
   std::size_t waiting = 0;
@@ -249,14 +265,14 @@ void write_study_report(Study const& study, std::vector<MemberResult> const& mem
       "<p class=\"lead\">{} biaxial tests of {} groups, which differ in {}. Numbers are means over the seeds ± half of their 95 "
       "% "
       "confidence interval (Student t).</p>\n",
-      finished, groups.size(), escaped(study.keys.empty() ? "their seed only" : fmt::format("{}", fmt::join(study.keys, ", "))));
+      finished, groups.size(), escaped(varied_keys(study)));
   body += problems(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group");
   std::string overlays, multiples;
   for (Shown const& what : shown_bands) overlays += overlay(curves, what);
   body += "<h2>Curves</h2>\n" + side_by_side(overlays) + strength_part(envelopes_by_material(study, members));
   for (Shown const& what : shown_bands)
     if (std::string const small = curves.size() > 1 ? small_multiples(curves, what) : ""; !small.empty())
-      multiples += fmt::format("<h3>{}: {}</h3>\n", what.heading, what.axis) + small;
+      multiples += fmt::format("<h3>{} over {}</h3>\n", what.axis, strain_axis) + small;
   if (!multiples.empty())
     body += fmt::format(
                 "<h2>Each group</h2>\n<p class=\"soft\">Grey: single seeds, {} at most; colour: the mean of all and its "

@@ -88,6 +88,23 @@ FoundCheckpoint read_manifest(std::filesystem::path const& run_folder, int gener
   return c;
 }
 
+/// Removes these generations, the file of a manifest after it, and what a kill left half written.
+void remove_generations(std::filesystem::path const& run_folder, std::initializer_list<int> generations) {
+  std::error_code ignored;
+  for (int const generation : generations) {
+    for (char const* const extension : {"json", "h5"})
+      std::filesystem::remove(file_of(run_folder, generation, extension), ignored);
+  }
+  // What a kill left half written goes too.
+  for (char const* const folder : {"ckpt", "snap"}) {
+    for (auto entry = std::filesystem::directory_iterator(run_folder / folder, ignored);
+         entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
+      if (entry->path().filename().string().find(".tmp-") != std::string::npos) std::filesystem::remove(entry->path(), ignored);
+    }
+  }
+  std::filesystem::remove(run_folder / "ckpt", ignored);  // only if it is empty now
+}
+
 }  // namespace
 
 CheckpointSeries::CheckpointSeries(std::filesystem::path run_folder, Ranks ranks, std::optional<FoundCheckpoint> const& last)
@@ -116,6 +133,8 @@ void CheckpointSeries::write(Scene const& scene, TestState const& state, std::in
   ++sequence_;
   ++written_;
 }
+
+void CheckpointSeries::keep_newest() const { remove_generations(folder_, {generation_}); }
 
 namespace {
 
@@ -183,20 +202,6 @@ bool has_checkpoints(std::filesystem::path const& run_folder) {
          std::filesystem::exists(file_of(run_folder, 1, "json"), ignored);
 }
 
-void remove_checkpoints(std::filesystem::path const& run_folder) {
-  std::error_code ignored;
-  for (int generation : {0, 1}) {
-    for (char const* const extension : {"json", "h5"})
-      std::filesystem::remove(file_of(run_folder, generation, extension), ignored);
-  }
-  // What a kill left half written goes too.
-  for (char const* const folder : {"ckpt", "snap"}) {
-    for (auto entry = std::filesystem::directory_iterator(run_folder / folder, ignored);
-         entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
-      if (entry->path().filename().string().find(".tmp-") != std::string::npos) std::filesystem::remove(entry->path(), ignored);
-    }
-  }
-  std::filesystem::remove(run_folder / "ckpt", ignored);  // only if it is empty now
-}
+void remove_checkpoints(std::filesystem::path const& run_folder) { remove_generations(run_folder, {0, 1}); }
 
 }  // namespace clathra

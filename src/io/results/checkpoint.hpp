@@ -38,6 +38,8 @@ class CheckpointSeries {
   /// @throws FileProblem
   void write(Scene const& scene, TestState const& state, std::int64_t step, RunProgress const& progress);
   std::int64_t written() const { return written_; }
+  /// Of a finished run: removes the older generation and what a kill left half written.
+  void keep_newest() const;
 
  private:
   std::filesystem::path folder_;

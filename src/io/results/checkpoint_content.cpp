@@ -192,7 +192,8 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   Json const about = Json::parse(file.read_text("about"), nullptr, false);
   TestState state;
   try {
-    std::string const different = scene_differences(about.at("scene").get<SceneTexts>(), scene, run_folder_of(path));
+    std::string const different =
+        scene_differences(about.at("scene").get<SceneTexts>(), scene, run_folder_of(path), Agreement::further);
     if (!different.empty()) file.fail(ExitCode::refused, "is a checkpoint of another scene" + different);
     about.at("test").get_to(state.numbers);
     about.at("preparation").get_to(state.preparation);

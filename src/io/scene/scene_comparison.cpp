@@ -12,8 +12,11 @@ namespace fs = std::filesystem;
 
 /// Keys that do not change what is computed.
 bool may_differ(Key const& key) {
-  return key.name == "output.folder" || key.name == "run.threads" || key.name == "run.force" || key.name == "sample.file";
+  return key.name == "output.folder" || key.name == "run.threads" || key.name == "run.force" || key.name == "sample.file" ||
+         key.name == "output.keep_checkpoint";
 }
+
+bool may_grow(Key const& key) { return key.name == "test.axial_strain" || key.name == "output.snapshots_at"; }
 
 bool same_file(std::string const& then, std::string const& now, fs::path const& folder) {
   if (then.empty() || now.empty()) return then == now;
@@ -40,11 +43,11 @@ SceneTexts scene_texts(Scene const& scene, fs::path const& folder) {
   return texts;
 }
 
-std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path const& folder) {
+std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path const& folder, Agreement agreement) {
   Scene const defaults;
   std::string text;
   for (Key const& key : schema()) {
-    if (may_differ(key)) continue;
+    if (may_differ(key) || (agreement == Agreement::further && may_grow(key))) continue;
     auto const kept = then.find(std::string(key.name));
     std::string const before = kept != then.end() ? kept->second : value_text(key, defaults);
     if (!states(key, before, now, folder)) text += fmt::format("; {} was {}, is {}", key.name, before, value_text(key, now));

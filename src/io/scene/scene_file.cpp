@@ -24,6 +24,21 @@ struct Place {
   int line = 0, column = 0;
 };
 
+/// A list as text, its items as they were stated. @throws std::invalid_argument
+std::string list_text(toml::array const& list) {
+  std::string text;
+  for (toml::node const& item : list) {
+    if (!text.empty()) text += ',';
+    if (auto const* const quoted = item.as_string())
+      text += quoted->get();
+    else if (auto const number = item.value<double>(); number && item.is_number())
+      text += fmt::format("{}", *number);
+    else
+      throw std::invalid_argument("needs quantities in its list");
+  }
+  return text;
+}
+
 /// One side alone fixes the other by the aspect ratio, unless the number of discs does.
 void complete_box(SampleScene& sample) {
   if (sample.particles > 0) return;
@@ -181,6 +196,8 @@ class SceneReader {
         set_from_number(key, scene_, number->get());
       else if (auto const* const truth = node.as_boolean())
         set_from_boolean(key, scene_, truth->get());
+      else if (auto const* const list = node.as_array(); list && key.kind == Kind::quantities)
+        set_from_text(key, scene_, list_text(*list));
       else
         throw std::invalid_argument(node.is_table() ? "is one value, not a section" : "needs one value, not a list or a date");
     });

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string limit_text(Key const& key, double value) {
-  if (key.kind != Kind::quantity) return fmt::format("{:.0f}", value);
+  if (key.kind != Kind::quantity && key.kind != Kind::quantities) return fmt::format("{:.0f}", value);
   std::string const text = format_quantity(value, key.dimension);
   bool const bare = text.find(' ') == std::string::npos && !bare_unit(key.dimension).empty();
   return bare ? fmt::format("{} {}", text, bare_unit(key.dimension)) : text;
@@ -23,7 +23,8 @@ std::string limit_text(Key const& key, double value) {
 
 /// Whether a scene leaves the key out, as opposed to stating the number 0.
 bool is_absent(Key const& key, Scene const& scene) {
-  return is_zero(key, scene) && (!key.zero.empty() || key.kind == Kind::path || key.kind == Kind::text);
+  return is_zero(key, scene) &&
+         (!key.zero.empty() || key.kind == Kind::path || key.kind == Kind::text || key.kind == Kind::quantities);
 }
 
 /// The default as a scene file states it, or what leaving the key out means.
@@ -35,6 +36,8 @@ std::string default_text(Key const& key) {
 
 std::string_view kind_text(Key const& key) {
   switch (key.kind) {
+    case Kind::quantities:
+      return "list";
     case Kind::quantity:
       return key.dimension == Dimension::ratio ? "number" : dimension_name(key.dimension);
     case Kind::integer:
@@ -68,6 +71,9 @@ Json key_json(Key const& key) {
   switch (key.kind) {
     case Kind::quantity:
       json["anyOf"] = Json::array({number, text});
+      break;
+    case Kind::quantities:
+      json.update({{"type", "array"}, {"items", {{"anyOf", Json::array({number, text})}}}});
       break;
     case Kind::integer:
       json.update(number);

@@ -19,8 +19,10 @@ std::string shown(std::string_view text) {
   return "'" + safe + (text.size() > 40 ? "...'" : "'");
 }
 
+bool is_quantity(Key const& key) { return key.kind == Kind::quantity || key.kind == Kind::quantities; }
+
 std::string limit_text(Key const& key, double value) {
-  return key.kind == Kind::quantity ? format_quantity(value, key.dimension) : fmt::format("{:.0f}", value);
+  return is_quantity(key) ? format_quantity(value, key.dimension) : fmt::format("{:.0f}", value);
 }
 
 /// @param bare  the number came without unit, which may be why it is out of range
@@ -28,12 +30,12 @@ void check_range(Key const& key, double value, bool bare) {
   if (value == 0 && !key.zero.empty()) return;
   if (value >= key.least && value <= key.most) return;
   std::string text = fmt::format("must lie between {} and {}, got {}", limit_text(key, key.least), limit_text(key, key.most),
-                                 key.kind == Kind::quantity ? format_quantity(value, key.dimension) : format_number(value));
+                                 is_quantity(key) ? format_quantity(value, key.dimension) : format_number(value));
   if (!key.zero.empty()) text += fmt::format(" (0: {})", key.zero);
-  if (key.kind == Kind::quantity && key.dimension == Dimension::ratio) {
+  if (is_quantity(key) && key.dimension == Dimension::ratio) {
     if (key.most <= 1 && value > 1 && value <= 100)
       text += fmt::format("; this looks like percent: write {} or \"{} %\"", format_number(value / 100), format_number(value));
-  } else if (key.kind == Kind::quantity && bare) {
+  } else if (is_quantity(key) && bare) {
     text +=
         fmt::format("; a number without unit is in {}; example: {}", bare_unit(key.dimension), quantity_example(key.dimension));
   }
@@ -44,6 +46,33 @@ void set_quantity(Key const& key, Scene& scene, double value, bool bare) {
   if (!std::isfinite(value)) refuse("must be finite");
   check_range(key, value, bare);
   std::get<double& (*)(Scene&)>(key.field)(scene) = value + 0.0;  // "-0" is written back as "0"
+}
+
+bool is_bare(std::string_view text) { return text.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos; }
+
+void set_quantities(Key const& key, Scene& scene, std::vector<double> values) {
+  for (double const value : values) {
+    if (!std::isfinite(value)) refuse("must be finite");
+    check_range(key, value, true);
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::get<std::vector<double>& (*)(Scene&)>(key.field)(scene) = std::move(values);
+}
+
+/// The items of `["2 %", "3 %"]`, also without brackets and quotes, as they come from --set.
+std::vector<double> quantities_in(Key const& key, std::string_view text) {
+  std::vector<double> values;
+  if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
+  while (!text.empty()) {
+    std::string_view item = text.substr(0, text.find(','));
+    text.remove_prefix(std::min(text.size(), item.size() + 1));
+    while (item.starts_with(' ')) item.remove_prefix(1);
+    while (item.ends_with(' ')) item.remove_suffix(1);
+    if (item.empty() && text.empty()) break;  // nothing, or a comma at the end
+    values.push_back(parse_quantity(unquoted(item), key.dimension));
+  }
+  return values;
 }
 
 void store_integer(Key const& key, Scene& scene, std::int64_t value) {
@@ -82,10 +111,12 @@ void set_text(Key const& key, Scene& scene, std::string_view text) {
   std::get<std::string& (*)(Scene&)>(key.field)(scene) = std::string(text);
 }
 
-std::string_view kind_name(Key const& key) {
+std::string kind_name(Key const& key) {
   switch (key.kind) {
     case Kind::quantity:
-      return dimension_name(key.dimension);
+      return std::string(dimension_name(key.dimension));
+    case Kind::quantities:
+      return "a list, each item " + std::string(dimension_name(key.dimension));
     case Kind::integer:
       return "a whole number";
     case Kind::boolean:
@@ -121,9 +152,10 @@ void set_from_text(Key const& key, Scene& scene, std::string_view text) {
   switch (key.kind) {
     case Kind::quantity: {
       double const value = parse_quantity(text, key.dimension);
-      bool const bare = text.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos;
-      return set_quantity(key, scene, value, bare);
+      return set_quantity(key, scene, value, is_bare(text));
     }
+    case Kind::quantities:
+      return set_quantities(key, scene, quantities_in(key, text));
     case Kind::integer:
       return set_integer_text(key, scene, text);
     case Kind::boolean:
@@ -143,6 +175,7 @@ void set_from_number(Key const& key, Scene& scene, double value) {
     if (value != std::floor(value)) refuse("needs a whole number, got " + format_number(value));
     return store_integer(key, scene, static_cast<std::int64_t>(value));
   }
+  if (key.kind == Kind::quantities) return set_quantities(key, scene, {value});
   if (key.kind != Kind::quantity) refuse(fmt::format("needs {}, got a number ({})", kind_name(key), format_number(value)));
   if (key.dimension == Dimension::temperature) parse_quantity(format_number(value), key.dimension);  // refuses: deg C or K?
   set_quantity(key, scene, value, true);
@@ -167,6 +200,7 @@ bool is_zero(Key const& key, Scene const& scene) {
     bool operator()(std::uint64_t& (*at)(Scene&)) const { return read(at, scene) == 0; }
     bool operator()(bool& (*)(Scene&)) const { return false; }
     bool operator()(std::string& (*at)(Scene&)) const { return read(at, scene).empty(); }
+    bool operator()(std::vector<double>& (*at)(Scene&)) const { return read(at, scene).empty(); }
     bool operator()(ChoiceField const&) const { return false; }
   };
   return std::visit(Visitor{scene}, key.field);
@@ -185,6 +219,14 @@ std::string value_text(Key const& key, Scene const& scene) {
     std::string operator()(std::uint64_t& (*at)(Scene&)) const { return fmt::format("{}", read(at, scene)); }
     std::string operator()(bool& (*at)(Scene&)) const { return read(at, scene) ? "true" : "false"; }
     std::string operator()(std::string& (*at)(Scene&)) const { return toml_string(read(at, scene)); }
+    std::string operator()(std::vector<double>& (*at)(Scene&)) const {
+      std::string list;
+      for (double const value : read(at, scene)) {
+        std::string const text = format_quantity(value, key.dimension);
+        list += (list.empty() ? "" : ", ") + (text.find(' ') == std::string::npos ? text : toml_string(text));
+      }
+      return "[" + list + "]";
+    }
     std::string operator()(ChoiceField const& field) const {
       return toml_string(key.choices[static_cast<std::size_t>(field.get(scene))]);
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "domain/scene/scene.hpp"
 #include "domain/scene/units.hpp"
@@ -20,9 +21,10 @@ struct ChoiceField {
 
 /// The place of a value in a Scene.
 using SceneField = std::variant<double& (*)(Scene&), int& (*)(Scene&), std::int64_t& (*)(Scene&), std::uint64_t& (*)(Scene&),
-                                bool& (*)(Scene&), std::string& (*)(Scene&), ChoiceField>;
+                                bool& (*)(Scene&), std::string& (*)(Scene&), std::vector<double>& (*)(Scene&), ChoiceField>;
 
-enum class Kind { quantity, integer, boolean, choice, text, path };
+/// quantities: a list of them, each in the allowed range.
+enum class Kind { quantity, quantities, integer, boolean, choice, text, path };
 
 /// One key. A path is relative to the folder of the scene file.
 struct Key {
