@@ -55,7 +55,15 @@ install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/share/paraview ${PROJECT_SOURCE_DIR}/share/python
   DESTINATION ${CMAKE_INSTALL_DATADIR}/clathra
   COMPONENT program
-  PATTERN __pycache__ EXCLUDE)
+  PATTERN __pycache__ EXCLUDE
+  PATTERN share/python/clathra EXCLUDE)
+# The Python package, where the system's Python finds it once the prefix is /usr.
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/share/python/clathra
+  DESTINATION lib/python3/dist-packages
+  COMPONENT program
+  FILES_MATCHING
+  PATTERN "*.py")
 install(
   FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${clathra_docs_folder}

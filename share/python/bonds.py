@@ -2,11 +2,11 @@
 
     python3 share/python/bonds.py OUT/snap/000000012345.h5 -o bonds.pdf
 
-Needs h5py and matplotlib.
+Needs matplotlib, pandas and h5py.
 """
 import argparse
 
-import h5py
+import clathra
 import matplotlib
 
 matplotlib.use("Agg")
@@ -22,11 +22,9 @@ def main():
     parser.add_argument("snapshot")
     parser.add_argument("-o", "--output", default="bonds.pdf")
     options = parser.parse_args()
-    with h5py.File(options.snapshot) as file:
-        position = 1e3 * file["particles/position"][:]
-        pair = file["contacts/pair"][:]
-        state = file["contacts/state"][:]
-        strain = file.attrs["eps1"]
+    snapshot = clathra.Snapshot(options.snapshot)
+    position = 1e3 * snapshot.particles["position"]
+    pair, state = snapshot.contacts["pair"], snapshot.contacts["state"]
     figure, axis = plt.subplots(figsize=(3.5, 7), constrained_layout=True)
     for value, (name, colour, width) in STATES.items():
         lines = position[pair[state == value]]
@@ -36,7 +34,7 @@ def main():
     axis.set_aspect("equal")
     axis.set_xlabel("x [mm]")
     axis.set_ylabel("y [mm]")
-    axis.set_title(f"$\\varepsilon_1$ = {100 * strain:.2f} %", fontsize=9)
+    axis.set_title(f"$\\varepsilon_1$ = {100 * snapshot.eps1:.2f} %", fontsize=9)
     axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, frameon=False)
     figure.savefig(options.output)
 

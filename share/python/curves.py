@@ -2,31 +2,15 @@
 
     python3 share/python/curves.py OUT... -o curves.pdf
 
-Needs matplotlib. Compression is positive.
+Needs matplotlib, pandas and h5py. Compression is positive.
 """
 import argparse
-import csv
-import json
-import os
 
+import clathra
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-
-
-def read_history(folder):
-    """The columns of history.csv as lists of numbers."""
-    with open(os.path.join(folder, "history.csv"), newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {name: [float(row[name]) for row in rows] for name in rows[0]}
-
-
-def label_of(folder):
-    """Saturation and confining stress of a run, from its run.json."""
-    with open(os.path.join(folder, "run.json")) as file:
-        scene = json.load(file)["scene"]
-    return f"{100 * scene['hydrate']['saturation']:g} %, {scene['test']['confining_stress'] / 1e6:g} MPa"
 
 
 def main():
@@ -37,11 +21,12 @@ def main():
     figure, axes = plt.subplots(3, 1, figsize=(3.5, 7), sharex=True, constrained_layout=True)
     styles = ["-", "--", "-.", ":"]
     for k, folder in enumerate(options.folders):
-        history = read_history(folder)
-        strain = [100 * e for e in history["eps1"]]
+        run = clathra.open(folder)
+        history = run.history
+        strain = 100 * history["eps1"]
         style = {"linestyle": styles[k % len(styles)], "color": f"C{k % 10}", "linewidth": 1}
-        axes[0].plot(strain, [q / 1e6 for q in history["q_Pa"]], label=label_of(folder), **style)
-        axes[1].plot(strain, [100 * e for e in history["eps_v"]], **style)
+        axes[0].plot(strain, history["q_Pa"] / 1e6, label=run.label, **style)
+        axes[1].plot(strain, 100 * history["eps_v"], **style)
         if history["bonds_intact"][0] > 0:
             axes[2].plot(strain, history["intact_initial_pct"], **style)
     axes[0].set_ylabel(r"$q$ [MPa]")

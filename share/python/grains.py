@@ -2,12 +2,12 @@
 
     python3 share/python/grains.py specimen.h5 -o grains.png
 
-Needs h5py, numpy and matplotlib.
+Needs matplotlib, numpy, pandas and h5py.
 """
 import argparse
 import io
 
-import h5py
+import clathra
 import matplotlib
 
 matplotlib.use("Agg")
@@ -41,9 +41,9 @@ def main():
     parser.add_argument("specimen")
     parser.add_argument("-o", "--output", default="grains.png")
     options = parser.parse_args()
-    with h5py.File(options.specimen) as file:
-        x, y, radius = (1e3 * file[f"particles/{name}"][:] for name in ("x", "y", "radius"))
-        walls = [1e3 * file.attrs[side] for side in ("left", "right", "bottom", "top")]
+    specimen = clathra.Specimen(options.specimen)
+    x, y, radius = (1e3 * specimen.particles[name] for name in ("x", "y", "radius"))
+    walls = 1e3 * specimen.walls
     left, right, bottom, top = walls
     figure = plt.figure(figsize=(8, 4.4), dpi=90)
     axes = [figure.add_axes([0.02 + 0.34 * k, 0.165, 0.29, 0.77], anchor="S") for k in range(3)]

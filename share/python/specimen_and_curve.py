@@ -5,20 +5,17 @@
 Left: each disc by the share of its bonds that are lost, in the snapshot nearest to --strain (clean sand: the shear strain until then).
 Middle: the shear strain until the last snapshot, from zero to five times what it would be were it the same everywhere.
 Right: q and the volumetric strain, compression positive; --beside adds other runs in grey and makes the axes hold them all.
-Needs h5py, numpy and matplotlib.
+Needs matplotlib, numpy, pandas and h5py.
 """
 import argparse
-import glob
 import io
-import os
 
-import h5py
+import clathra
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from curves import label_of, read_history
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, to_rgb
 from matplotlib.ticker import MaxNLocator
@@ -33,17 +30,16 @@ SCALE = 5  # times the mean shear strain
 class Moment:
     """What one snapshot says, in mm."""
 
-    def __init__(self, path):
-        with h5py.File(path) as file:
-            self.eps1, self.eps_v = file.attrs["eps1"], file.attrs["eps_v"]
-            self.walls = [1e3 * file.attrs[side] for side in ("left", "right", "bottom", "top")]
-            self.position = 1e3 * file["particles/position"][:]
-            self.displacement = 1e3 * file["particles/displacement"][:, :2]
-            self.diameter = 2e3 * file["particles/radius"][:]
-            initial = file["particles/bonds_initial"][:].astype(float)
-            self.bonded = initial.max() > 0
-            intact = file["particles/bonds_intact"][:].astype(float)
-            self.lost = np.where(initial > 0, 100 - 100 * intact / np.maximum(initial, 1), 0)
+    def __init__(self, snapshot):
+        self.eps1, self.eps_v = snapshot.eps1, snapshot.eps_v
+        self.walls = 1e3 * snapshot.walls
+        discs = snapshot.particles
+        self.position = 1e3 * discs["position"]
+        self.displacement = 1e3 * discs["displacement"][:, :2]
+        self.diameter = 2e3 * discs["radius"]
+        initial, intact = discs["bonds_initial"].astype(float), discs["bonds_intact"].astype(float)
+        self.bonded = initial.max() > 0
+        self.lost = np.where(initial > 0, 100 - 100 * intact / np.maximum(initial, 1), 0)
 
     def mean_shear(self):
         return 100 * (2 * self.eps1 - self.eps_v)
@@ -110,10 +106,10 @@ def draw_specimen(figure, left_edge, moment, draw):
 
 
 def draw_curves(q_axis, v_axis, folder, **style):
-    history = read_history(folder)
-    strain = [100 * e for e in history["eps1"]]
-    q_axis.plot(strain, [q / 1e6 for q in history["q_Pa"]], **style)
-    v_axis.plot(strain, [100 * e for e in history["eps_v"]], **style)
+    history = clathra.open(folder).history
+    strain = 100 * history["eps1"]
+    q_axis.plot(strain, history["q_Pa"] / 1e6, **style)
+    v_axis.plot(strain, 100 * history["eps_v"], **style)
 
 
 def save(figure, output):
@@ -139,8 +135,8 @@ def main():
     parser.add_argument("--strain", type=float, default=0.05, help="axial strain of the picture on the left")
     parser.add_argument("--beside", nargs="*", default=[], metavar="OUT", help="other runs, in grey")
     options = parser.parse_args()
-    moments = [Moment(path) for path in sorted(glob.glob(os.path.join(options.folder, "snap", "*.h5")))]
-    early, last = min(moments, key=lambda moment: abs(moment.eps1 - options.strain)), moments[-1]
+    run = clathra.open(options.folder)
+    early, last = Moment(run.snapshot_at(options.strain)), Moment(run.snapshots[-1])
     figure = plt.figure(figsize=(8, 4.4), dpi=90)
     draw_specimen(figure, 0.01, early, draw_lost if early.bonded else draw_shear)
     draw_specimen(figure, 0.32, last, draw_shear)
@@ -155,7 +151,7 @@ def main():
         axis.grid(color="0.93", linewidth=0.6)
     q_axis.set(ylabel="$q$ [MPa]", ylim=(0, None), xlim=(0, None))
     v_axis.set(ylabel=r"$\varepsilon_v$ [%]", xlabel=r"$\varepsilon_1$ [%]")
-    sample, stress = label_of(options.folder).split(", ")
+    sample, stress = run.label.split(", ")
     q_axis.set_title(f"{sample} hydrate, {stress}" if early.bonded else f"clean sand, {stress}", fontsize=10)
     save(figure, options.output)
 

@@ -1,0 +1,105 @@
+"""Starting the program `clathra`."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+
+from .results import open_run, open_study
+
+
+class ClathraError(RuntimeError):
+    """The program ended with an error: `code` is its exit code, the text what it said."""
+
+    def __init__(self, code, text):
+        super().__init__(f"clathra ended with exit code {code}:\n{text.strip()}")
+        self.code = code
+
+
+def program():
+    """The path of the program: $CLATHRA, else the one in PATH, else that of the build folder beside this package's sources."""
+    built = os.path.join(os.path.dirname(__file__), "..", "..", "..", "build", "release", "drivers", "clathra")
+    for candidate in (os.environ.get("CLATHRA"), shutil.which("clathra"), built):
+        if candidate and os.access(candidate, os.X_OK):
+            return candidate
+    raise FileNotFoundError("the program clathra is neither in PATH nor named by the variable CLATHRA")
+
+
+def _toml_value(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml_value(item) for item in value) + "]"
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value))
+    raise TypeError(f"a scene's value is text, a number, a truth value or a list, not {type(value).__name__}")
+
+
+def _toml(sections):
+    """A scene or study as TOML text; sections may hold sections (groups of a study)."""
+    text = "".join(f"{json.dumps(key)} = {_toml_value(value)}\n" for key, value in sections.items() if not isinstance(value, dict))
+
+    def add(prefix, section):
+        nonlocal text
+        plain = {key: value for key, value in section.items() if not isinstance(value, dict) or {"from", "to", "count"} == set(value)}
+        text += f"\n[{prefix}]\n"
+        for key, value in plain.items():
+            if isinstance(value, dict):
+                text += f"{json.dumps(key)} = {{ " + ", ".join(f"{k} = {_toml_value(v)}" for k, v in value.items()) + " }\n"
+            else:
+                text += f"{json.dumps(key)} = {_toml_value(value)}\n"
+        for key, value in section.items():
+            if key not in plain:
+                add(f"{prefix}.{json.dumps(key)}", value)
+
+    for key, value in sections.items():
+        if isinstance(value, dict):
+            add(json.dumps(key), value)
+    return text
+
+
+def _call(verb, what, output, options):
+    """Calls the program with a file, or with a dictionary that becomes one in the current folder, so that paths in it hold."""
+    arguments = [program(), verb]
+    made = None
+    try:
+        if isinstance(what, dict):
+            descriptor, made = tempfile.mkstemp(suffix=".toml", prefix=".clathra-", dir=".")
+            with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+                file.write(_toml(what))
+        arguments += [made or os.fspath(what), "--output", os.fspath(output)]
+        for name, value in options.items():
+            option = "--" + name.replace("_", "-")
+            if value is True:
+                arguments.append(option)
+            elif value is not False and value is not None:
+                arguments += [option, str(value)]
+        done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise ClathraError(done.returncode, done.stderr or done.stdout)
+    finally:
+        if made:
+            os.unlink(made)
+
+
+def run(scene, output, **options):
+    """Runs a scene and opens its results.
+
+    scene: a dictionary of sections, {"sample": {"particles": 2000}, "hydrate": {"saturation": "55 %"}}, values as in a scene
+    file; or the name of a scene file. output: folder of the results. options: those of `clathra run`, with _ for -:
+    threads=2, resume=True, max_walltime="1h". Raises ClathraError with what the program said.
+    """
+    _call("run", scene, output, options)
+    return open_run(output)
+
+
+def study(plan, output, **options):
+    """Runs a study and opens its results.
+
+    plan: a dictionary, {"scene": "quick.toml", "seeds": 5, "matrix": {"hydrate.saturation": ["26 %", "55 %"]}}, or the name of a
+    study file. output, options and errors: as for run(), with the options of `clathra study`.
+    """
+    _call("study", plan, output, options)
+    return open_study(output)

@@ -1,0 +1,89 @@
+"""The package clathra of share/python, with a real run and a real study: python_package_test.py CLATHRA PROJECT FOLDER"""
+import os
+import sys
+import unittest
+
+CLATHRA, PROJECT, FOLDER = sys.argv[1:4]
+sys.path.insert(0, os.path.join(PROJECT, "share", "python"))
+os.environ["CLATHRA"] = CLATHRA
+
+import clathra  # noqa: E402
+import numpy as np  # noqa: E402
+
+SCENE = {"sample": {"generator": "file", "file": os.path.join(PROJECT, "tests", "golden", "specimen-1.h5")},
+         "hydrate": {"saturation": "55 %"}, "test": {"axial_strain": 0.02},
+         "output": {"records": 20, "snapshots": 2, "snapshots_at": ["0.5 %"], "energy": True}}
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        os.chdir(FOLDER)
+        cls.run_of_scene = clathra.run(SCENE, "run", threads=1)
+        base = {key: value for key, value in SCENE.items() if key != "output"}
+        with open("base.toml", "w", encoding="utf-8") as file:
+            file.write(clathra.program._toml(base))
+        cls.study = clathra.study({"scene": "base.toml", "seeds": 2, "matrix": {"output.records": 10, "test.confining_stress": {
+            "from": "1 MPa", "to": "2 MPa", "count": 2}}}, "study")
+
+    def test_history_is_a_table_with_units(self):
+        run = self.run_of_scene
+        self.assertTrue(run.finished)
+        self.assertEqual(len(run.history), 21)
+        np.testing.assert_allclose(run.history["q_Pa"], run.history["sigma1_Pa"] - run.history["sigma3_Pa"], rtol=1e-12, atol=1e-6)
+        self.assertEqual(run.history["q_Pa"].max(), run.numbers["peak_q_Pa"])
+        units = run.history.attrs["units"]
+        self.assertEqual([units[name] for name in ("q_Pa", "time_s", "eps1", "boundary_work_J", "intact_initial_pct")], ["Pa", "s", "", "J/m", "%"])
+        self.assertEqual([clathra.units_of(name) for name in ("step", "strain_rate_per_s", "peak_curvature_per_Pa", "dilation_angle_deg")],
+                         ["", "1/s", "1/Pa", "deg"])
+
+    def test_snapshots_are_arrays_with_units(self):
+        run = self.run_of_scene
+        self.assertEqual(len(run.snapshots), 4)
+        self.assertAlmostEqual(run.snapshot_at(0.005).eps1, 0.005, delta=1e-6)
+        last = run.snapshots[-1]
+        self.assertEqual(last.particles["position"].shape, (100, 2))
+        self.assertEqual(len(last.particles), 100)
+        self.assertEqual(last.particles.units["position"], "m")
+        left, right, bottom, top = last.walls
+        self.assertTrue(left < last.particles["position"][:, 0].min() and last.particles["position"][:, 1].max() < top)
+        self.assertEqual(np.count_nonzero(last.contacts["state"] == 1), run.history["bonds_intact"].iloc[-1])
+        self.assertEqual(sum(len(snapshot.events) for snapshot in run.snapshots), len(run.events))
+        with self.assertRaises(AttributeError):
+            last.nothing
+
+    def test_specimens_are_arrays(self):
+        final = self.run_of_scene.final
+        self.assertEqual(final.particles["x"].shape, (100,))
+        self.assertAlmostEqual(final.axial_strain, 0.02, delta=1e-6)
+        with self.assertRaises(FileNotFoundError):
+            _ = self.run_of_scene.specimen
+        with self.assertRaises(ValueError):
+            clathra.Snapshot(final.path)
+
+    def test_study_has_members_means_and_intervals(self):
+        study = self.study
+        self.assertEqual(list(study.members["group"]), ["1MPa", "1MPa", "2MPa", "2MPa"])
+        peaks = study.interval("peak_q_Pa")
+        self.assertEqual(list(peaks.columns), ["group", "n", "mean", "standard_deviation", "low", "high"])
+        own = [run.history["q_Pa"].max() for run in study.runs("1MPa")]
+        self.assertAlmostEqual(peaks["mean"][0], np.mean(own))
+        self.assertTrue((peaks["low"] <= peaks["mean"]).all())
+        self.assertEqual(study.means["n"][0], 2)
+        self.assertEqual(study.run("2MPa", 2).scene["test"]["confining_stress"], 2e6)
+        for wrong in (lambda: study.interval("nothing"), lambda: study.runs("3MPa")):
+            with self.assertRaises(KeyError):
+                wrong()
+
+    def test_errors_say_what_the_program_said(self):
+        with self.assertRaisesRegex(clathra.ClathraError, "unknown key 'particels'.*did you mean 'particles'") as caught:
+            clathra.run({"sample": {"particels": 20}}, "wrong")
+        self.assertEqual(caught.exception.code, 65)
+        with self.assertRaises(TypeError):
+            clathra.run({"sample": {"particles": None}}, "wrong")
+        for function in (clathra.open, clathra.open_study):
+            with self.assertRaises(FileNotFoundError):
+                function("nowhere")
+
+
+unittest.main(argv=sys.argv[:1])
