@@ -41,6 +41,7 @@ void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs) {
   if (plan.study.until) throw Refused("--slurm needs members that are known before: leave out 'until' and give 'seeds'");
   std::string study = fmt::format("clathra study {}", shell_word(fs::absolute(jobs.study).lexically_normal().string()));
   for (std::string const& text : jobs.overrides) study += " --set " + shell_word(text);
+  if (!jobs.checkpoint_every.empty()) study += " --checkpoint-every " + jobs.checkpoint_every;
   if (!jobs.output.empty()) study += " --output " + shell_word(jobs.output);
   constexpr double usual_time = 24 * 3600;
   double const time = jobs.most_time.empty() ? usual_time : duration_of(jobs.most_time);

@@ -14,9 +14,10 @@ struct SlurmJobs {
   std::string study;             ///< file, as given
   std::string launcher;          ///< of each member, inside its job; empty = srun
   std::vector<std::string> overrides;
-  std::string output;     ///< folder, as given; empty = that of the study
-  int threads = 0;        ///< cores of a job; 0 = 1
-  std::string most_time;  ///< of a job, "3h50m"; empty = 24 hours
+  std::string output;            ///< folder, as given; empty = that of the study
+  int threads = 0;               ///< cores of a job; 0 = 1
+  std::string most_time;         ///< of a job, "3h50m"; empty = 24 hours
+  std::string checkpoint_every;  ///< "10m"
 };
 
 /// Writes a script for bash that submits an array of specimens, an array of members that begins when they are there, and a job

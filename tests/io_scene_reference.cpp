@@ -27,7 +27,7 @@ std::string content_of(fs::path const& path) {
 std::vector<fs::path> example_files() {
   std::vector<fs::path> files;
   for (auto const& entry : fs::recursive_directory_iterator(CLATHRA_EXAMPLES))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "studies") files.push_back(entry.path());
   return files;
 }
 

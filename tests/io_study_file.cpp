@@ -117,6 +117,16 @@ TEST_F(StudyFile, SaysWhichGroupASceneIsWrongIn) {
   }
 }
 
+TEST(StudyFiles, OfTheExamplesAreRight) {
+  int count = 0;
+  for (auto const& entry : fs::directory_iterator(CLATHRA_EXAMPLES "/studies")) {
+    Study const study = load_study(entry.path());
+    for (StudyGroup const& group : study.groups) EXPECT_NO_THROW(member_scene(study, group, 1, {})) << group.name;
+    ++count;
+  }
+  EXPECT_GT(count, 0);
+}
+
 TEST(StudyGoal, IsANumberAndAWidth) {
   EXPECT_EQ(study_goal("peak_q_Pa=2%").width, 0.02);
   EXPECT_EQ(study_goal("peak_q_Pa=2%").number, "peak_q_Pa");

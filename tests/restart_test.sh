@@ -84,6 +84,20 @@ start 2 "${given[@]}" --output stopped --overwrite --max-walltime "$(seconds $qu
 "$clathra" "${given[@]}" --output stopped --resume >log 2>&1 || fail "cannot be resumed on one rank"
 compare stopped
 
+# Told by a batch system through the launcher, twice: all ranks stop with one checkpoint.
+front_for 3
+"${front[@]}" "${given[@]}" --output told --checkpoint-every 0s >log 2>&1 &
+job=$!
+until [ -s told/history.csv ]; do sleep 0.1; done
+kill -USR1 "$job"
+sleep 0.2
+kill -USR1 "$job" 2>/dev/null || true
+code=0
+wait "$job" || code=$?
+[ "$code" = 75 ] && [ -f told/ckpt/0.json ] || fail "code $code where a launcher passes USR1 on"
+start 2 "${given[@]}" --output told --resume >log 2>&1 || fail "cannot be resumed after USR1"
+compare told
+
 # A full disk in a checkpoint: said so, and the one before serves.
 code=0
 "$clathra" "${given[@]}" --output full --max-walltime 0.1s >log 2>&1 || code=$?

@@ -126,7 +126,7 @@ ExitCode study(StudyOptions const& options) {
   if (options.dry_run) return print_result(study_forecast(plan, limits.parallel, limits.threads));
   if (!options.slurm.empty()) {
     write_slurm_script(plan, {options.slurm, options.file, options.launcher, options.overrides, options.output, options.threads,
-                              options.most_time});
+                              options.most_time, options.checkpoint_every});
     return print_result(fmt::format("{}: {} specimens, {} members; submit it with: bash {}\n", options.slurm,
                                     plan.specimens.size(), plan.runs.size(), options.slurm));
   }

@@ -64,6 +64,12 @@ bool says_something(GroupCurves const& group, std::size_t column) {
   return std::any_of(band.mean.begin(), band.mean.end(), [](double value) { return value != 0; });
 }
 
+/// Shares end at 100 %.
+Axis axis_of(Shown const& what, Range const& values) {
+  bool const share = std::string_view(band_columns[what.column]).ends_with("_pct");
+  return share ? Axis{what.axis, 0, percent} : values.axis(what.axis);
+}
+
 Area area_of(GroupCurves const& group, Shown const& what) {
   SeedBand const& band = group.bands[what.column];
   return {
@@ -92,7 +98,7 @@ std::string overlay(std::vector<GroupCurves> const& groups, Shown const& what) {
   if (plot.curves.empty()) return "";
   plot.title = std::string(what.heading) + ", mean over the seeds";
   plot.x = strains.exact_axis(strain_axis);
-  plot.y = values.axis(what.axis);
+  plot.y = axis_of(what, values);
   return figure(what.heading, svg(plot) + legend(plot.curves),
                 std::string(what.caption) + " Lines: mean over the seeds; bands: its 95 % confidence interval at each strain.");
 }
@@ -106,7 +112,7 @@ std::string small_figure(GroupCurves const& group, Shown const& what, Axis const
   plot.y = {"", y.from, y.to};
   plot.areas.push_back(area_of(group, what));
   for (std::size_t i = 0; i < std::min(band.seeds.size(), most_seeds_drawn); ++i)
-    plot.curves.push_back({group.name, scaled(band.eps1, percent), scaled(band.seeds[i], what.factor), {colours::grey, "", 0.8}});
+    plot.curves.push_back({group.name, scaled(band.eps1, percent), scaled(band.seeds[i], what.factor), {Rgb{140, 140, 140}, "", 1.2}});
   plot.curves.push_back(mean_of(group, what));
   plot.curves.back().stroke.dash.clear();
   return fmt::format("<figure><h3>{}</h3>\n{}</figure>\n", escaped(group.name), svg(plot));
@@ -118,7 +124,7 @@ std::string small_multiples(std::vector<GroupCurves> const& groups, Shown const&
   for (GroupCurves const& group : groups)
     for (std::vector<double> const& seed : group.bands[what.column].seeds)
       strains.include(scaled(group.bands[what.column].eps1, percent)), values.include(scaled(seed, what.factor));
-  Axis const x = strains.exact_axis(strain_axis), y = values.axis(what.axis);
+  Axis const x = strains.exact_axis(strain_axis), y = axis_of(what, values);
   std::string figures;
   for (std::size_t i = 0; i < std::min(groups.size(), most_small_figures); ++i)
     if (says_something(groups[i], what.column)) figures += small_figure(groups[i], what, x, y);
@@ -248,7 +254,7 @@ std::vector<Column> result_columns() {
           {"residual_q_Pa", "residual q", "MPa", mega},
           {"largest_eps_v", "largest contraction", "%", percent},
           {"dilation_angle_deg", "ψ", "°", 1},
-          {"end_intact_initial_pct", "intact bonds at the end", "%", 1}};
+          {"end_intact_initial_pct", "intact at the end", "%", 1}};
 }
 
 }  // namespace
