@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <span>
 
 #include "io/formats/text_file.hpp"
 #include "io/report/markup.hpp"
@@ -29,8 +30,12 @@ constexpr Shown shown_bands[] = {
     {0, "Stress and strain", "deviator stress q [MPa]", "Deviator stress on the walls.", mega},
     {1, "Change of volume", "volumetric strain εᵥ [%]", "Compression is positive; a falling curve dilates.", percent},
     {2, "Intact bonds", "intact bonds [% of those installed]", "Bonds that still hold, as a share of those installed.", 1},
-    {3, "Contacts", "mechanical coordination number", "Contacts of a disc, without those that carry nothing (Thornton 2000).",
-     1}};
+    {3, "Contacts", "mechanical coordination number", "Contacts of a disc, without those that carry nothing (Thornton 2000).", 1},
+    {4, "Broken in tension", "bonds broken in tension", "Those of the consolidation included.", 1},
+    {5, "Broken in compression", "bonds broken in compression", "Those of the consolidation included.", 1},
+    {6, "Broken in shear", "bonds broken in shear", "Those of the consolidation included.", 1},
+    {7, "Broken in rolling", "bonds broken in rolling", "Those of the consolidation included.", 1}};
+constexpr std::size_t multiplied = 3;  // of them are also shown group by group;
 
 /// A group with the curves of its finished members.
 struct GroupCurves {
@@ -112,7 +117,8 @@ std::string small_figure(GroupCurves const& group, Shown const& what, Axis const
   plot.y = {"", y.from, y.to};
   plot.areas.push_back(area_of(group, what));
   for (std::size_t i = 0; i < std::min(band.seeds.size(), most_seeds_drawn); ++i)
-    plot.curves.push_back({group.name, scaled(band.eps1, percent), scaled(band.seeds[i], what.factor), {Rgb{140, 140, 140}, "", 1.2}});
+    plot.curves.push_back(
+        {group.name, scaled(band.eps1, percent), scaled(band.seeds[i], what.factor), {Rgb{140, 140, 140}, "", 1.2}});
   plot.curves.push_back(mean_of(group, what));
   plot.curves.back().stroke.dash.clear();
   return fmt::format("<figure><h3>{}</h3>\n{}</figure>\n", escaped(group.name), svg(plot));
@@ -249,10 +255,10 @@ std::string problems(Study const& study, std::vector<MemberResult> const& member
 
 std::vector<Column> result_columns() {
   return {{"peak_q_Pa", "peak q", "MPa", mega},
-          {"peak_eps1", "strain at the peak", "%", percent},
+          {"peak_eps1", "at ε₁", "%", percent},
           {"secant_modulus_Pa", "E₅₀", "MPa", mega},
           {"residual_q_Pa", "residual q", "MPa", mega},
-          {"largest_eps_v", "largest contraction", "%", percent},
+          {"largest_eps_v", "contraction", "%", percent},
           {"dilation_angle_deg", "ψ", "°", 1},
           {"end_intact_initial_pct", "intact at the end", "%", 1}};
 }
@@ -276,7 +282,7 @@ void write_study_report(Study const& study, std::vector<MemberResult> const& mem
   std::string overlays, multiples;
   for (Shown const& what : shown_bands) overlays += overlay(curves, what);
   body += "<h2>Curves</h2>\n" + side_by_side(overlays) + strength_part(envelopes_by_material(study, members));
-  for (Shown const& what : shown_bands)
+  for (Shown const& what : std::span(shown_bands).first(multiplied))
     if (std::string const small = curves.size() > 1 ? small_multiples(curves, what) : ""; !small.empty())
       multiples += fmt::format("<h3>{} over {}</h3>\n", what.axis, strain_axis) + small;
   if (!multiples.empty())

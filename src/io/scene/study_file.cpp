@@ -44,7 +44,7 @@ std::string value_name(Setting const& setting) {
   double number = 0;
   auto const [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   bool const bare = value == "true" || value == "false" || (error == std::errc() && end == value.data() + value.size());
-  return bare ? slug(leaf) + value : value;
+  return bare || value.starts_with('.') || value.starts_with('-') ? slug(leaf) + value : value;
 }
 
 /// A number and its unit, "1 MPa" -> (1, " MPa"); nothing where it begins with no number.
@@ -69,8 +69,7 @@ class StudyReader {
     study_.folder = std::filesystem::path("out") / path.stem();
   }
 
-  Study read() {
-    std::string const text = read_text_file(study_.file, largest_scene_file + 1);
+  Study read(std::string const& text) {
     std::optional<toml::table> const root = parse_guarded(text, file_, problems_);
     if (root) read_root(*root);
     if (problems_.empty()) make_groups();
@@ -331,7 +330,9 @@ class StudyReader {
 
 }  // namespace
 
-Study load_study(std::filesystem::path const& path) { return StudyReader(path).read(); }
+Study parse_study(std::string const& text, std::filesystem::path const& path) { return StudyReader(path).read(text); }
+
+Study load_study(std::filesystem::path const& path) { return parse_study(read_text_file(path, largest_scene_file + 1), path); }
 
 StudyGoal study_goal(std::string const& text) {
   auto const equals = text.find('=');

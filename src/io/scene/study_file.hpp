@@ -52,6 +52,9 @@ inline constexpr std::size_t most_members = 100000;
 /// name, more than most_members;  FileProblem if it cannot be read
 Study load_study(std::filesystem::path const& path);
 
+/// The same from text. @param path  what the file would be called: paths in the text are relative to its folder
+Study parse_study(std::string const& text, std::filesystem::path const& path);
+
 /// @throws std::invalid_argument with what is wrong with the text
 StudyGoal study_goal(std::string const& text);
 
