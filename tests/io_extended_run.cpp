@@ -41,10 +41,13 @@ TEST_F(ExtendedRun, HasSnapshotsAtTheVeryStepsThatTheirStrainsAreReachedIn) {
   ASSERT_EQ(result.code, 0) << result.output;
   std::vector<double> strains;
   std::size_t events = 0;
+  std::int64_t before = -1;
   for (fs::path const& file : snapshot_files(folder / "out")) {
     Snapshot const snapshot = read_snapshot(file);
     strains.push_back(snapshot.eps1);
     events += snapshot.events.size();
+    for (BreakEvent const& event : snapshot.events) EXPECT_TRUE(before < event.step && event.step <= snapshot.step) << file;
+    before = snapshot.step;
   }
   double const step = 2e-2 / record("out").at("stages").at("plan").at("steps").get<double>();
   for (double const wanted : {0.00123, 0.015}) {
