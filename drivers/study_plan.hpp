@@ -34,8 +34,8 @@ struct StudyPlan {
   Study study;
   std::vector<std::string> overrides;  ///< of all members, below those of the study
   std::vector<MemberResult> members;
-  std::vector<StudyTask> runs;       ///< of members[i]
-  std::vector<StudyTask> specimens;  ///< each for all members of the same scene of generation and seed
+  std::vector<StudyTask> runs;                ///< of members[i]
+  std::vector<StudyTask> specimens;           ///< each for all members of the same scene of generation and seed
   std::map<std::string, SpecimenSize> sizes;  ///< of the specimens that scenes read from files of their own
 
   /// The scene of a run, once its specimen is there. @throws SceneProblems, FileProblem

@@ -86,6 +86,8 @@ class TestRun::Running {
       on_root(ranks_, [&] { record_.result_digests = result_digests(folder_); });
     } catch (Stopped const& stop) {
       return stopped(stop.what());
+    } catch (Diverged const& fault) {
+      return diverged(fault);
     } catch (...) {
       Failure const failure = failure_in_flight();
       if (!failure.everywhere && !ranks_.alone()) end_all_ranks(ranks_, FileProblem(failure.code, failure.text));
@@ -286,6 +288,18 @@ class TestRun::Running {
         write_record(code, reason);
       }
     });
+  }
+
+  /// All ranks diverge alike. What the disc was surrounded by is written for ParaView.
+  ExitCode diverged(Diverged const& fault) {
+    std::string text = std::string("diverged: ") + fault.what();
+    if (fault.around && begun_) try {
+        SnapshotSeries(folder_ / "diverged", ranks_, {}, SnapshotNumbers::full).write(*fault.around);
+        text += fmt::format("; its surroundings are in {} (ParaView)", (folder_ / "diverged" / "particles.xdmf").string());
+      } catch (FileProblem const& problem) {
+        warn(fmt::format("the surroundings of the disc cannot be written: {}", problem.what()));
+      }
+    return fail(ExitCode::diverged, text);
   }
 
   ExitCode stopped(std::string const& cause) {

@@ -84,6 +84,53 @@ TEST(Diverged, ByATimeStepThreeTimesTooLong) {
   EXPECT_TRUE(names(text, "step ")) << text;
 }
 
+TEST(Diverged, SaysSinceWhenWhereAndWhatToChange) {
+  Simulation sim = pressed_packing();
+  sim.time_step = 3 * 2 / sim.largest_frequency();
+  std::string const text = fault_of(sim);
+  for (char const* const part :
+       {", since a step after ", "; it is at (", " mm", "; the time step is ", " of the stable limit of the present contacts: "})
+    EXPECT_TRUE(names(text, part)) << part << " is not in " << text;
+  double const share = std::stod(text.substr(text.find("the time step is ") + 17));
+  EXPECT_GT(share, 1) << text;
+  EXPECT_TRUE(names(text, "shorten the step (run.dt_safety)")) << text;
+}
+
+TEST(Diverged, NamesThePlaceAndTheDeepestContactOfTheDisc) {
+  Specimen s = disordered_patch(5, 5);
+  s.x[11] = s.x[3];
+  s.y[11] = s.y[3] + 0.2 * s.radius[3];
+  Simulation sim(s, sand_laws(), 1e-5);
+  sim.time_step = 1e-9;
+  try {
+    for (int n = 0; n < 200; ++n) sim.step();
+    ADD_FAILURE() << "went on";
+  } catch (Diverged const& fault) {
+    std::string const text = fault.what();
+    EXPECT_TRUE(names(text, "; its deepest contact, with disc 3, overlaps by 1.")) << text;
+    EXPECT_TRUE(names(text, "the step is not why: the grains are too soft")) << text;
+    ASSERT_TRUE(fault.placed);
+    EXPECT_NEAR(fault.x, s.x[11], 0.1 * grain_radius);
+    EXPECT_NEAR(fault.y, s.y[11], 0.1 * grain_radius);
+  }
+}
+
+TEST(Diverged, KnowsWhereADiscWasThatIsNowhere) {
+  Simulation sim = pressed_packing();
+  for (int n = 0; n < 150; ++n) sim.step();
+  int const disc = index_of(sim, 42);
+  double const x = value(sim.particles().x, disc);
+  assign(sim.particles().x, disc, nan);
+  try {
+    for (int n = 0; n < 200; ++n) sim.step();
+    ADD_FAILURE() << "went on";
+  } catch (Diverged const& fault) {
+    EXPECT_TRUE(std::isfinite(fault.x) && std::isfinite(fault.y)) << fault.what();
+    EXPECT_NEAR(fault.x, x, 12 * grain_d50) << "it has spread from there";
+    EXPECT_TRUE(names(fault.what(), "discs are like it")) << fault.what();
+  }
+}
+
 TEST(Diverged, ByCoincidentDiscs) {
   Specimen s = disordered_patch(5, 5);
   s.x[11] = s.x[3];

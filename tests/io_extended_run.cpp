@@ -56,8 +56,9 @@ TEST_F(ExtendedRun, HasSnapshotsAtTheVeryStepsThatTheirStrainsAreReachedIn) {
     EXPECT_LT(*found - wanted, 1.01 * step) << "one step, not one record";
   }
   EXPECT_EQ(strains.size(), 5u) << "0, 0.123 %, the first record after 1 %, 1.5 %, the end once";
-std::string const rows = text("out", "events.csv");
-  EXPECT_EQ(events + 1, static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n'))) << "each broken bond in one snapshot";
+  std::string const rows = text("out", "events.csv");
+  EXPECT_EQ(events + 1, static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')))
+      << "each broken bond in one snapshot";
   // They change nothing of what is computed or written elsewhere.
   ASSERT_EQ(run("plain", two + "--set output.energy=true").code, 0);
   for (char const* const file : {"history.csv", "events.csv"}) EXPECT_EQ(text("out", file), text("plain", file)) << file;

@@ -34,9 +34,10 @@ class StudyCommand : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder);
-    std::ofstream(folder / "base.toml") << "[sample]\ngenerator = \"file\"\nfile = \"" CLATHRA_GOLDEN
-                                           "/specimen-1.h5\"\n"
-                                           "[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.4 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
+    std::ofstream(folder / "base.toml")
+        << "[sample]\ngenerator = \"file\"\nfile = \"" CLATHRA_GOLDEN
+           "/specimen-1.h5\"\n"
+           "[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.4 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
   }
   void TearDown() override { fs::remove_all(folder); }
   CommandResult study(std::string const& text, std::string const& more = "") const {

@@ -7,6 +7,7 @@
 #include "domain/measurement/fabric.hpp"
 #include "domain/measurement/principal_axes.hpp"
 #include "domain/measurement/strain_field.hpp"
+#include "domain/measurement/surroundings.hpp"
 #include "made_up_lattice.hpp"
 
 namespace clathra {
@@ -118,6 +119,28 @@ TEST(Rose, CountsContactsAndForcesByDirection) {
   s.state.assign(s.a.size(), static_cast<std::uint8_t>(broken_in(BreakMode::shear)));
   s.normal_force.assign(s.a.size(), 0.0), s.gap.assign(s.a.size(), 1e-9);
   EXPECT_EQ(rose_of(s).pairs, 0u) << "bonds that are gone";
+}
+
+TEST(Surroundings, AreTheDiscsWithinADistanceAndThePairsBetweenThem) {
+  Snapshot s = made_up_lattice(20, 20);
+  s.x[3] = std::nan("");
+  double const x = s.x[210], y = s.y[210], distance = 3.5 * 2 * static_cast<double>(s.radius[0]);
+  Snapshot const part = surroundings(s, x, y, distance);
+  std::size_t discs = 0, pairs = 0;
+  auto const near = [&](std::size_t i) { return std::hypot(s.x[i] - x, s.y[i] - y) <= distance; };
+  for (std::size_t i = 0; i < s.id.size(); ++i) discs += near(i) ? 1 : 0;
+  for (std::size_t k = 0; k < s.a.size(); ++k)
+    pairs += near(static_cast<std::size_t>(s.a[k])) && near(static_cast<std::size_t>(s.b[k])) ? 1 : 0;
+  EXPECT_GT(discs, 30u);
+  EXPECT_EQ(part.id.size(), discs);
+  EXPECT_EQ(part.a.size(), pairs);
+  EXPECT_EQ(part.normal_force.size(), pairs);
+  EXPECT_EQ(part.vx.size(), discs);
+  for (std::size_t k = 0; k < part.a.size(); ++k) {
+    auto const a = static_cast<std::size_t>(part.a[k]), b = static_cast<std::size_t>(part.b[k]);
+    EXPECT_LT(std::hypot(part.x[a] - part.x[b], part.y[a] - part.y[b]), 2.5 * 2 * static_cast<double>(s.radius[0]))
+        << "numbered anew";
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "domain/biaxial/divergence.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
 #include "domain/generation/bonding.hpp"
@@ -192,7 +193,7 @@ BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback
   t.scene = scene;
   t.ranks = ranks;
   t.d50 = specimen.d50 > 0 ? specimen.d50 : diameter_finer(specimen.radius, 0.5, ranks);
-  t.bond_and_consolidate(std::move(specimen), progress);
+  with_surroundings(t.simulation, t.d50, [&] { t.bond_and_consolidate(std::move(specimen), progress); });
   t.begin_shear();
   if (scene.output.energy) t.start = energy();
 }
@@ -229,6 +230,10 @@ Snapshot BiaxialTest::snapshot() const {
 }
 
 bool BiaxialTest::advance(std::int64_t most_steps, double pause_at) {
+  return with_surroundings(state_->simulation, state_->d50, [&] { return advance_unobserved(most_steps, pause_at); });
+}
+
+bool BiaxialTest::advance_unobserved(std::int64_t most_steps, double pause_at) {
   Simulation& s = *state_->simulation;
   for (std::int64_t n = 0; n < most_steps; ++n) {
     s.step();

@@ -57,6 +57,8 @@ class BiaxialTest {
   StageRecord plan() const;   ///< steps, dt, strain rate, I, W, wall time guess inputs
 
  private:
+  bool advance_unobserved(std::int64_t most_steps, double pause_at);
+
   struct State;
   std::unique_ptr<State> state_;
 };

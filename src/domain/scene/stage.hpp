@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -21,9 +22,15 @@ using ProgressCallback = std::function<bool(Progress const&)>;
 struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+struct Snapshot;
+
 /// The state diverged or left the range of the model; the text names disc, step and cause.
 struct Diverged : std::runtime_error {
   using std::runtime_error::runtime_error;
+  Diverged(std::string const& text, double at_x, double at_y) : std::runtime_error(text), x(at_x), y(at_y), placed(true) {}
+  double x = 0, y = 0;                               ///< of the disc [m]
+  bool placed = false;                               ///< whether it is known where
+  std::shared_ptr<Snapshot const> around = nullptr;  ///< this rank's part of the state around it, where somebody took it
 };
 /// Thrown when the progress callback asked to stop.
 struct Stopped : std::runtime_error {

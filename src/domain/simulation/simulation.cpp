@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "domain/parallel/migration.hpp"
+#include "domain/simulation/fault_report.hpp"
 #include "kernels/spatial_order.hpp"
 
 namespace clathra {
@@ -312,14 +313,14 @@ void Simulation::throw_if_unstable() const {
   double disc[fault_count];
   for (int fault = 0; fault < fault_count; ++fault) disc[fault] = here(fault);
   ranks_.max(disc, fault_count);
-  static constexpr char const* cause[fault_count] = {
-      "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than the smaller radius",
-      "has more neighbours than a row holds (the grading's size ratio is too large)"};
   for (int fault = 0; fault < fault_count; ++fault) {
     if (disc[fault] < 0) continue;
-    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: disc " +
-                   std::to_string(static_cast<int>(disc[fault])) + " " + cause[fault]);
+    double place[2] = {0, 0};
+    std::string const text =
+        fault_text(*this, {static_cast<Fault>(fault), static_cast<int>(disc[fault]), last_good_step_}, place);
+    throw Diverged(text, place[0], place[1]);
   }
+  last_good_step_ = step_;
 }
 
 }  // namespace clathra

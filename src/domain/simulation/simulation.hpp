@@ -180,6 +180,7 @@ class Simulation {
   Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
   Real density_ = 0, d50_ = 0, critical_thickness_ = 0;
   std::int64_t step_ = 0, rebuilds_ = 0;
+  mutable std::int64_t last_good_step_ = 0;  // of the last look for faults that found none
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Coord> start_x_, start_y_;

@@ -87,6 +87,9 @@ void OutputFolder::clear(std::filesystem::path const& keep) const {
   for (std::string_view const name : results)
     if (keep.empty() || !std::filesystem::equivalent(folder_ / name, keep, error)) std::filesystem::remove(folder_ / name, error);
   clear_snapshots(folder_ / "snap");
+  clear_snapshots(folder_ / "diverged" / "snap");
+  for (char const* const index : {"particles.xdmf", "contacts.xdmf", ""})
+    std::filesystem::remove(folder_ / "diverged" / index, error);
   remove_checkpoints(folder_);
 }
 
