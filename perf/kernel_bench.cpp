@@ -54,7 +54,7 @@ void contact_forces(benchmark::State& state) {
 void kick_and_drift(benchmark::State& state) {
   Faults const faults = make_faults();
   measure_call(state, [&](Simulation& s) {
-    benchmark::DoNotOptimize(integrate(s.particles(), s.laws().motion, 0, AffineFrame(), EnergyLosses(), faults));
+    benchmark::DoNotOptimize(integrate(s.particles(), s.laws().motion, {0, 0}, AffineFrame(), EnergyLosses(), faults));
   });
 }
 

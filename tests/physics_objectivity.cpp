@@ -89,7 +89,7 @@ TEST(StressAtRest, IsTheSameInTheContactsAndAtTheWalls) {
   SimulationLaws laws = sand_laws();
   laws.motion.damping = 0.7;
   Simulation sim(disordered_patch(16, 20, 0.04, 3), laws, 0.1 * grain_d50);
-  prepare_servo(sim, 1e6, 2e-3, grain_d50, 0.7);
+  prepare_servo(sim, 1e6, 2e-3, grain_d50, {});
   EXPECT_TRUE(hold_stress(sim, 1e6, 1e-5, 60000, {}, "test"));
   sim.loading.x = sim.loading.y = AxisDrive::held();
   for (int n = 0; n < 3000; ++n) sim.step();

@@ -15,7 +15,7 @@ Simulation elastic_block(double stress, double alpha) {
   SimulationLaws laws = unbreakable(bonded_laws(scene, s.critical_thickness));
   laws.motion.damping = alpha;
   Simulation sim(s, laws, 0.1 * grain_d50);
-  prepare_servo(sim, stress, 1e-3, grain_d50, 0.6);
+  prepare_servo(sim, stress, 1e-3, grain_d50, {});
   EXPECT_TRUE(hold_stress(sim, stress, 1e-3, 40000, {}, "test"));
   return sim;
 }

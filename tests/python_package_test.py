@@ -1,5 +1,6 @@
 """The package clathra of share/python, with a real run and a real study: python_package_test.py CLATHRA PROJECT FOLDER"""
 import os
+import shutil
 import sys
 import unittest
 
@@ -19,6 +20,8 @@ class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         os.chdir(FOLDER)
+        for folder in ("run", "study"):  # of a program before this one
+            shutil.rmtree(folder, ignore_errors=True)
         cls.run_of_scene = clathra.run(SCENE, "run", threads=1)
         base = {key: value for key, value in SCENE.items() if key != "output"}
         with open("base.toml", "w", encoding="utf-8") as file:

@@ -24,13 +24,16 @@ TEST(Checkpoint, KeepsAccountsAndDisplacements) {
   Simulation sim = ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty);
   sim.set_ledger(true);
   sim.mark_start();
-  for (int n = 0; n < 800; ++n) sim.step();
+  sim.choose_time_step({});
+  for (int n = 0; n < 777; ++n) sim.step();
   Simulation again(sim.state(), sim.laws(), world());
   EXPECT_EQ(again.hash(), sim.hash());
-  for (int n = 0; n < 800; ++n) {
+  for (int n = 0; n < 1000; ++n) {
     sim.step();
     again.step();
+    ASSERT_EQ(again.time_step, sim.time_step) << n;  // chosen anew at the same steps
   }
+  EXPECT_EQ(again.time_step_renewals(), sim.time_step_renewals());
   EXPECT_EQ(again.hash(), sim.hash());
   EXPECT_EQ(again.losses().sliding, sim.losses().sliding);
   EXPECT_EQ(again.losses().damping, sim.losses().damping);

@@ -49,6 +49,21 @@ TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
   }
 }
 
+TEST(Ranks, FollowTheLimitOfStabilityAlike) {
+  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
+  Simulation one = ready(whole, Composite::parallel), many = ready(whole, Composite::parallel, world(), &part);
+  for (Simulation* sim : {&one, &many}) sim->choose_time_step({});
+  for (int n = 0; n < 1500; ++n) {
+    one.step();
+    many.step();
+    ASSERT_EQ(one.time_step, many.time_step) << n;
+  }
+  EXPECT_EQ(one.hash(), many.hash());
+  EXPECT_EQ(one.time(), many.time());
+  EXPECT_EQ(one.time_step_renewals(), many.time_step_renewals());
+  EXPECT_GT(many.time_step_renewals(), 3);
+}
+
 std::int64_t neighbours_listed(Simulation const& sim) {
   std::int64_t listed = 0;
   for (int i = 0; i < sim.particles().owned; ++i) listed += sim.rows().length(i);

@@ -62,7 +62,9 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
   return simulation;
 }
 
-double stable_step(Simulation const& simulation, Scene const& scene) { return simulation.stable_time_step(scene.run.dt_safety); }
+double stable_step(Simulation const& simulation, Scene const& scene) {
+  return simulation.stable_time_step(usual_share_of_estimate);
+}
 
 template <class T>
 auto on_host(Field<T> const& field) {

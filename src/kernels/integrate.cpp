@@ -20,7 +20,7 @@ template <bool Ledger>
 struct KickAndDrift {
   ParticleSoA p;
   MotionLaw law;
-  Real dt;
+  StepLengths dt;
   AffineFrame frame;
   Field<Accum> lost_to_damping;
   Faults faults;
@@ -39,19 +39,19 @@ struct KickAndDrift {
     Lanes lost(0);
     Lanes const fx = load(&p.force_x(i)), fy = load(&p.force_y(i));
     Lanes const x0 = load(&p.x(i)), y0 = load(&p.y(i));
-    Lanes const vx = kicked<Ledger>(load(&p.vx(i)), frame.velocity_x(x0), fx, inverse_mass, law.damping, dt, lost) +
-                     select(free, Lanes(law.gravity_x * dt), Lanes(0));
-    Lanes const vy = kicked<Ledger>(load(&p.vy(i)), frame.velocity_y(y0), fy, inverse_mass, law.damping, dt, lost) +
-                     select(free, Lanes(law.gravity_y * dt), Lanes(0));
+    Lanes const vx = kicked<Ledger>(load(&p.vx(i)), frame.velocity_x(x0), fx, inverse_mass, law.damping, dt.kick, lost) +
+                     select(free, Lanes(law.gravity_x * dt.kick), Lanes(0));
+    Lanes const vy = kicked<Ledger>(load(&p.vy(i)), frame.velocity_y(y0), fy, inverse_mass, law.damping, dt.kick, lost) +
+                     select(free, Lanes(law.gravity_y * dt.kick), Lanes(0));
     Lanes const omega =
-        kicked<Ledger>(load(&p.omega(i)), Lanes(0), load(&p.torque(i)), load(&p.inverse_inertia(i)), law.damping, dt, lost);
-    Lanes const x = x0 + vx * dt, y = y0 + vy * dt;
+        kicked<Ledger>(load(&p.omega(i)), Lanes(0), load(&p.torque(i)), load(&p.inverse_inertia(i)), law.damping, dt.kick, lost);
+    Lanes const x = x0 + vx * dt.drift, y = y0 + vy * dt.drift;
     store(&p.vx(i), vx);
     store(&p.vy(i), vy);
     store(&p.omega(i), omega);
     store(&p.x(i), x);
     store(&p.y(i), y);
-    store(&p.angle(i), load(&p.angle(i)) + omega * dt);
+    store(&p.angle(i), load(&p.angle(i)) + omega * dt.drift);
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
 
     Lanes displacement = lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
@@ -70,8 +70,8 @@ struct KickAndDrift {
 
 }  // namespace
 
-Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
-               Faults const& faults) {
+Real integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, AffineFrame const& frame,
+               EnergyLosses const& losses, Faults const& faults) {
   int const groups = group_count(particles.owned), threads = ExecutionSpace().concurrency();
   int const share = (groups + threads - 1) / threads;
   Real largest_displacement = 0;

@@ -34,11 +34,16 @@ struct AffineFrame {
   }
 };
 
+/// The two parts of a step [s]. Velocities lie half a step behind: where its length changes, the kick is the mean of both.
+struct StepLengths {
+  Real kick, drift;
+};
+
 /// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
 /// position.
 /// @param losses  the damping account is written when its field exists
 /// @return at least the longest way of a disc in this step, max (|Delta x| + |Delta y|) [m]
-Real integrate(ParticleSoA const& particles, MotionLaw const& law, Real dt, AffineFrame const& frame, EnergyLosses const& losses,
-               Faults const& faults);
+Real integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, AffineFrame const& frame,
+               EnergyLosses const& losses, Faults const& faults);
 
 }  // namespace clathra

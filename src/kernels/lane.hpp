@@ -82,6 +82,9 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) {
 #endif
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(Real const* from) { return Lanes(from, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Lanes const& value) { value.copy_to(to, stdx::element_aligned); }
+/// From and to single precision.
+KOKKOS_FORCEINLINE_FUNCTION Lanes load_float(float const* from) { return Lanes(from, stdx::element_aligned); }
+KOKKOS_FORCEINLINE_FUNCTION void store_float(float* to, Lanes const& value) { value.copy_to(to, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION Real lane(Lanes const& value, int l) { return value[static_cast<std::size_t>(l)]; }
 KOKKOS_FORCEINLINE_FUNCTION bool lane(Mask const& mask, int l) { return mask[static_cast<std::size_t>(l)]; }
 KOKKOS_FORCEINLINE_FUNCTION void set_lane(Lanes& value, int l, Real to) { value[static_cast<std::size_t>(l)] = to; }
@@ -122,6 +125,8 @@ inline constexpr int lane_count = 1;
 
 KOKKOS_FORCEINLINE_FUNCTION Real load(Real const* from) { return *from; }
 KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Real value) { *to = value; }
+KOKKOS_FORCEINLINE_FUNCTION Real load_float(float const* from) { return *from; }
+KOKKOS_FORCEINLINE_FUNCTION void store_float(float* to, Real value) { *to = static_cast<float>(value); }
 KOKKOS_FORCEINLINE_FUNCTION Real lane(Real value, int) { return value; }
 KOKKOS_FORCEINLINE_FUNCTION bool lane(bool mask, int) { return mask; }
 KOKKOS_FORCEINLINE_FUNCTION void set_lane(Real& value, int, Real to) { value = to; }

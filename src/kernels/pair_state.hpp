@@ -20,11 +20,12 @@ struct PairState {
 };
 
 /// The tangent of a grain contact with what these rows keep: no shear and no rolling where the scene has none.
-KOKKOS_INLINE_FUNCTION ContactStiffness<Real> kept_stiffness(ContactRows const& rows, GrainLaw const& grain, Real overlap,
-                                                             Real common_radius) {
-  ContactStiffness<Real> k = grain_stiffness(grain, overlap, common_radius);
-  if (rows.shear.extent(0) == 0) k.shear = 0;
-  if (!rows.features.rolling) k.rolling = 0;
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> kept_stiffness(ContactRows const& rows, GrainLaw const& grain, L const& overlap,
+                                                               L const& common_radius) {
+  ContactStiffness<L> k = grain_stiffness(grain, overlap, common_radius);
+  if (rows.shear.extent(0) == 0) k.shear = L(0);
+  if (!rows.features.rolling) k.rolling = L(0);
   return k;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-/// The stable time step of explicit integration: an estimate from each disc's own springs, the exact limit from below by power
-/// iteration, and a bound on it that a step may be chosen by.
-#include "kernels/exact_sum.hpp"
-#include "kernels/springs.hpp"
+/// The stable time step of explicit integration: an estimate from each disc's own springs, and a bound from below on the exact
+/// limit, which a step may be chosen by.
+#include "kernels/motion.hpp"
 
 namespace clathra {
 
@@ -13,25 +12,16 @@ namespace clathra {
 /// that gains two more contacts than it has stays below 0.65 of it.
 Real local_time_step(SpringNetwork const& network, int least_contacts = 4);
 
-/// What products with the stiffness of the network need to know of the other ranks and of the periodic boundary.
-struct AcrossRanks {
-  Summation sums;
-  std::function<double(double)> max;                       ///< over all ranks
-  std::function<void(Field<Real> const&)> refresh_ghosts;  ///< gives every ghost the value of its disc
-};
-
-/// Largest angular frequency [1/s] of the present contact network (sticking contacts, intact bonds, walls; no dashpots) by power
-/// iteration on M^-1 K from an above-random start; leapfrog is stable below dt = 2 / omega. A Rayleigh quotient: converges from
-/// below, 20 iterations reach about 2 %.
-Real largest_frequency(SpringNetwork const& network, AcrossRanks const& across, int iterations);
-
 /// A time step [s] below which leapfrog is stable: local damping kicks with (1 + alpha) times the force at worst, a dashpot with
 /// the velocity of half a step before, so the condition is (1 + alpha) lambda_max(M^-1 (dt^2 K + 2 dt C)) <= 4. The eigenvalue is
 /// bounded from above for any positive vector u by max_i (|M^-1 (K + 2 C / dt)| u)_i / u_i (Collatz, Wielandt); u comes out of
-/// ten products from M^-1/2, dt grows towards the bound from below. Over the springs to come, gaps below 0.03 mean diameters
-/// closed.
-/// On packings 0.94 to 1 of the exact limit of the present network, on lattices 0.86 to 1; never above it.
-/// @param alpha  of local damping, 0 = none;  @return 1e300 where no disc has a spring
-Real stable_limit(SpringNetwork const& network, Real alpha, AcrossRanks const& across);
+/// up to twelve products from M^-1/2, dt grows towards the bound from below. Over the springs to come. Sliding contacts count
+/// only above a friction of 2, where they may vibrate faster than sticking ones, and below 1000, where none slides. A function of
+/// the state alone, the same for any number of threads and ranks.
+/// @param alpha  of local damping, 0 = none
+/// @param leeway  gaps below this share of both discs' Verlet skins count as closed: the bound holds until a disc has strayed by
+/// that share of its own
+/// @return 1e300 where no disc has a spring
+Real stable_limit(SpringNetwork const& network, Real alpha, Real leeway, AcrossRanks const& across);
 
 }  // namespace clathra

@@ -34,11 +34,12 @@ struct GiveLeeway {
 /// One group of discs.
 struct Stray {
   ParticleSoA p;
+  Field<Coord> x, y;  ///< where they were
   AffineFrame frame;
   KOKKOS_FUNCTION void operator()(int group, Real& greatest2) const {
     auto const i = static_cast<std::size_t>(group) * lane_count;
-    Lanes const dx = load(&p.x(i)) - (frame.centre_x + frame.stretch_x * (load(&p.reference_x(i)) - frame.reference_centre_x));
-    Lanes const dy = load(&p.y(i)) - (frame.centre_y + frame.stretch_y * (load(&p.reference_y(i)) - frame.reference_centre_y));
+    Lanes const dx = load(&p.x(i)) - (frame.centre_x + frame.stretch_x * (load(&x(i)) - frame.reference_centre_x));
+    Lanes const dy = load(&p.y(i)) - (frame.centre_y + frame.stretch_y * (load(&y(i)) - frame.reference_centre_y));
     Lanes const skin = load(&p.verlet_skin(i));
     Lanes share2 = (dx * dx + dy * dy) / (skin * skin);
     for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(share2, l, 0);  // ghosts share the last group
@@ -65,10 +66,11 @@ void mark_reference(ParticleSoA const& particles) {
   Kokkos::deep_copy(particles.reference_y, particles.y);
 }
 
-Real largest_nonaffine_displacement2(ParticleSoA const& particles, AffineFrame const& frame) {
+Real largest_nonaffine_displacement2(ParticleSoA const& particles, Field<Coord> const& x, Field<Coord> const& y,
+                                     AffineFrame const& frame) {
   Real greatest2 = 0;
   Kokkos::parallel_reduce("largest_nonaffine_displacement", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
-                          Stray{particles, frame}, Kokkos::Max<Real>(greatest2));
+                          Stray{particles, x, y, frame}, Kokkos::Max<Real>(greatest2));
   return greatest2;
 }
 

@@ -21,9 +21,11 @@ Real assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame,
 /// Remembers the present centres as those of a neighbour search.
 void mark_reference(ParticleSoA const& particles);
 
-/// Non-affine displacements since then.
+/// Non-affine displacements since discs were at (x, y).
+/// @param frame  the homogeneous motion since then
 /// @return the largest (d / skin)^2 of this rank's discs, d the distance from where the homogeneous motion would have brought
 /// one
-Real largest_nonaffine_displacement2(ParticleSoA const& particles, AffineFrame const& frame);
+Real largest_nonaffine_displacement2(ParticleSoA const& particles, Field<Coord> const& x, Field<Coord> const& y,
+                                     AffineFrame const& frame);
 
 }  // namespace clathra

@@ -33,16 +33,19 @@ struct WallLaw {
   KOKKOS_INLINE_FUNCTION GrainLaw as_grain() const { return {normal_stiffness, shear_stiffness, friction, 0, damping_ratio}; }
 };
 
-/// A wall as a disc meets it.
+/// A wall as a disc meets it. L is a lane type.
+template <class L>
 struct WallFace {
-  Real nx, ny;    ///< from the disc into the wall
-  Real distance;  ///< of the disc's centre [m], negative behind the wall
-  Real vx, vy;    ///< of the wall [m/s]
+  Real nx, ny;  ///< from the disc into the wall
+  L distance;   ///< of the disc's centre [m], negative behind the wall
+  Real vx, vy;  ///< of the wall [m/s]
 };
-KOKKOS_INLINE_FUNCTION WallFace wall_face(Walls const& walls, int wall, Coord x, Coord y) {
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION WallFace<L> wall_face(Walls const& walls, int wall, L const& x, L const& y) {
   bool const upright = wall == left || wall == right, ahead = wall == right || wall == top;
   Real const outward = ahead ? 1 : -1, speed = walls.velocity[wall];
-  Coord const at = upright ? x : y, position = walls.position[wall];
+  L const& at = upright ? x : y;
+  Coord const position = walls.position[wall];
   return {upright ? outward : 0, upright ? 0 : outward, ahead ? position - at : at - position, upright ? speed : 0,
           upright ? 0 : speed};
 }

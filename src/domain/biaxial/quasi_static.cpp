@@ -24,9 +24,9 @@ double stiffness_number(Scene const& scene) { return scene.grains.kn / scene.tes
 
 }  // namespace
 
-RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio) {
+RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio, double added_mass) {
   RateNumbers n;
-  double const stress = scene.test.confining_stress, density = scene.grains.density;
+  double const stress = scene.test.confining_stress, density = scene.grains.density * (1 + added_mass);
   n.strain_rate =
       scene.test.strain_rate > 0 ? scene.test.strain_rate : strain_rate_of(scene.test.inertial_number, stress, density, d50);
   n.inertial_number = n.strain_rate * d50 * std::sqrt(density / stress);

@@ -21,7 +21,7 @@ inline constexpr double inertial_warning = 1e-3, inertial_limit = 1e-2, wave_war
 inline constexpr double stiffness_warning = 50, stiffness_limit = 10;  ///< of k_n / sigma_3
 
 /// @param height [m], compressed by two platens that each do half;  @param d50 [m]
-RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio);
+RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio, double added_mass = 0);
 
 /// True where a run may be called quasi-static: I below 1e-3 and W below 0.5.
 inline bool is_quasi_static(RateNumbers const& n) { return n.inertial_number < inertial_warning && n.wave_number < wave_limit; }

@@ -12,14 +12,18 @@ namespace clathra {
 
 namespace {
 
-/// The time step that a specimen of this scene will get [s]: its smallest disc in six contacts, bonded if the scene has hydrate.
+/// The time step that a specimen of this scene will get [s]: its smallest disc in six contacts, bonded if the scene has hydrate;
+/// the factors of the limit and of scaled masses are those of specimens of the paper's grading.
 double estimated_time_step(Scene const& scene, Grading const& grading, bool bonded) {
   double const r = 0.5 * grading.smallest(), mass = pi * r * r * scene.grains.density;
   double const bond_share = bonded ? 0.5 : 0;  // Eq. 16: k_bn < k_n / 2
   double const ks = scene.grains.ks + bond_share * scene.grains.kn * 2 / 3;
   double const rolling = grain_law(scene).rolling_factor() * (1 + 2 * bond_share) * 1.5;
   double const turn = 6 * (ks + rolling) * r * r;
-  return scene.run.dt_safety * std::sqrt(2 * 0.5 * mass * r * r / turn);
+  RunScene const& run = scene.run;
+  double const limit = run.time_step == TimeStepRule::spectrum ? 1.39 / std::sqrt(1 + run.damping) : 1,
+               scaling = std::min(std::sqrt(run.inertia_scaling), 1.6) * (1 + 0.6 * run.mass_scaling);
+  return run.step_choice().safety * limit * scaling * std::sqrt(2 * 0.5 * mass * r * r / turn);
 }
 
 /// Disc-steps until a specimen is packed and at rest, to about 20 %: fitted to specimens of 300 to 20,000 discs at void ratios of
@@ -41,7 +45,7 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
   constexpr double entries = 5.2;  // a disc, empty places of slices included
   int const extras =
       (scene.output.energy ? 5 : 0) + (scene.output.takes_snapshots() ? 2 : 0) + (scene.test.wall_friction > 0 ? 4 : 0);
-  double const state = 8 * (16 + extras) + 4 + entries * (4 + 8 * numbers + 16);
+  double const state = 8 * (18 + extras) + 4 + entries * (4 + 8 * numbers + 16);
   // Beside the state there is, in turns, the specimen that it was made from, a checkpoint and the last specimen; ranks also send
   // parts of these to each other.
   double const beside = ranks > 1 ? 1 : 0.85;

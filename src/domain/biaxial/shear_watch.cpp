@@ -20,14 +20,25 @@ std::string text_of(char const* format, Numbers... numbers) {
 void ShearWatch::check(Simulation const& simulation, double eps1) {
   Measures const m = simulation.measures();
   double const unbalanced = m.unbalanced_ratio(simulation.discs());
+  smallest_step_ = checks_ == 0 ? simulation.time_step : std::min(smallest_step_, simulation.time_step);
+  largest_step_ = std::max(largest_step_, simulation.time_step);
   ++checks_;
   unbalanced_checks_ += unbalanced > unbalanced_limit ? 1 : 0;
   largest_unbalanced_ = std::max(largest_unbalanced_, unbalanced);
+  double const elastic = m.grain_energy + m.bond_energy + m.wall_energy, kinetic = elastic > 0 ? m.kinetic / elastic : 0;
+  fast_checks_ += kinetic > kinetic_limit ? 1 : 0;
+  largest_kinetic_ = std::max(largest_kinetic_, kinetic);
   if (m.deep == 0) return;
   deepest_ = std::max(deepest_, simulation.deepest_overlap());
   if (m.deep / m.touching <= deep_share_) return;
   deep_share_ = m.deep / m.touching;
   deep_eps1_ = eps1;
+}
+
+std::string ShearWatch::of_kinetic_energy() const {
+  return text_of(
+      "the kinetic energy of the scaled masses was above %g of the elastic energy in %lld of %lld checks (%.3g at most)",
+      kinetic_limit, static_cast<long long>(fast_checks_), static_cast<long long>(checks_), largest_kinetic_);
 }
 
 std::vector<std::string> ShearWatch::warnings() const {

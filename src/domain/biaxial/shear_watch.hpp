@@ -1,5 +1,6 @@
 #pragma once
 /// What is looked at while a specimen is sheared, whatever is written: is the test still quasi-static, do grains overlap too far?
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ inline constexpr double check_interval = 2e-4;      ///< of axial strain
 inline constexpr double unbalanced_at_rest = 1e-3;  ///< mean unbalanced force over mean contact force, before the shear
 inline constexpr double unbalanced_limit = 1e-2;    ///< while it is sheared
 inline constexpr double unbalanced_share = 0.01;    ///< of the checks that may be above it
+inline constexpr double kinetic_limit = 1e-3;       ///< kinetic over elastic energy, of scaled masses
 inline constexpr double deep_overlap_share =
     1e-2;  ///< of the touching pairs that may overlap by more than a tenth of the smaller radius
 
@@ -23,6 +25,11 @@ class ShearWatch {
 
   /// False where the unbalanced ratio was above its limit in more than 1 % of the checks.
   bool balanced() const { return static_cast<double>(unbalanced_checks_) <= unbalanced_share * static_cast<double>(checks_); }
+  /// False where the kinetic energy was above its share of the elastic one in more than 1 % of the checks of a whole test.
+  bool is_slow(double axial_strain) const {
+    return static_cast<double>(fast_checks_) <= std::max(1.0, unbalanced_share * axial_strain / check_interval);
+  }
+  std::string of_kinetic_energy() const;
   /// In words: what was not as it should be.
   std::vector<std::string> warnings() const;
 
@@ -35,13 +42,19 @@ class ShearWatch {
     visit("deep_overlap_share", deep_share_);
     visit("deep_overlap_eps1", deep_eps1_);
     visit("deepest_overlap", deepest_);
+    visit("checks_fast", fast_checks_);
+    visit("largest_kinetic_share", largest_kinetic_);
+    visit("smallest_time_step_s", smallest_step_);
+    visit("largest_time_step_s", largest_step_);
   }
 
  private:
-  std::int64_t checks_ = 0, unbalanced_checks_ = 0;
+  std::int64_t checks_ = 0, unbalanced_checks_ = 0, fast_checks_ = 0;
   double largest_unbalanced_ = 0;
-  double deep_share_ = 0, deep_eps1_ = 0;  // the largest share, and when
-  double deepest_ = 0;                     // overlap over the smaller radius
+  double largest_kinetic_ = 0;                   // energy over the elastic one
+  double deep_share_ = 0, deep_eps1_ = 0;        // the largest share, and when
+  double deepest_ = 0;                           // overlap over the smaller radius
+  double smallest_step_ = 0, largest_step_ = 0;  // [s]
 };
 
 }  // namespace clathra

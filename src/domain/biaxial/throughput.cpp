@@ -110,10 +110,10 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
   // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a
   // test.
-  prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.dt_safety);
+  prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.step_choice());
   for (int n = 0; n < setup.relaxation_steps; ++n) simulation.step();
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
-  prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.dt_safety);
+  prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
   RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
   simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
   simulation.add_uniform_strain_rate(-0.25 * rate.strain_rate, rate.strain_rate);

@@ -50,7 +50,7 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
   constexpr int interval = 10;             // steps between checks of the stress
   constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
   constexpr double slowing_range = 0.004;  // in void ratio
-  double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.density(), target.d50);
+  double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.moving_density(), target.d50);
   double rate = 0, lowest = 1;
   while (simulation.void_ratio() > target.void_ratio + 1e-5) {
     double const above = simulation.void_ratio() - target.void_ratio;
@@ -94,7 +94,7 @@ double mean_stress(Simulation const& simulation) {
 }
 
 double wave_speed(Simulation const& simulation) {
-  double const bulk_density = simulation.density() / (1 + simulation.void_ratio());
+  double const bulk_density = simulation.moving_density() / (1 + simulation.void_ratio());
   return std::sqrt(packing_modulus(simulation.laws().contact.grain) / bulk_density);
 }
 
@@ -107,11 +107,11 @@ SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& fri
   return laws;
 }
 
-void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, double dt_safety) {
-  simulation.time_step = simulation.stable_time_step(dt_safety);
+void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step) {
+  simulation.choose_time_step(step);
   if (simulation.periodic()) return;
   Walls const& walls = simulation.walls();
-  double const rate = strain_rate_of(inertial_number, stress, simulation.density(), d50);
+  double const rate = strain_rate_of(inertial_number, stress, simulation.moving_density(), d50);
   simulation.loading.servo.contact_stiffness = simulation.laws().wall.normal_stiffness;
   simulation.loading.servo.integral_time = 0.25 * std::max(walls.width(), walls.height()) / wave_speed(simulation);
   simulation.loading.x = AxisDrive::at_stress(stress, 0.5 * rate * walls.width());
@@ -141,7 +141,7 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
 
 double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,
                               CompressionTarget const& target, ProgressCallback const& progress) {
-  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, scene.run.dt_safety);
+  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, scene.run.step_choice());
   AxisDrive const servo_x = simulation.loading.x, servo_y = simulation.loading.y;
   double const lowest = compress_until_void_ratio(simulation, scene, friction, target, progress);
   // With the full friction back the assembly creeps no further.

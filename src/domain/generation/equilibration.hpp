@@ -50,7 +50,7 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
                  char const* stage);
 
 /// Sets time step, servo constants and speed caps of a simulation for an isotropic stress.
-void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, double dt_safety);
+void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step);
 
 /// Speed of compression waves in the assembly [m/s], from a modulus of 0.8 k_n and the bulk density.
 double wave_speed(Simulation const& simulation);

@@ -72,15 +72,15 @@ double highest_point(Specimen const& specimen, Ranks const& ranks) {
 
 /// Drives the top wall down, ever slower as the assembly is about to jam, until it has the void ratio or resists with twenty
 /// times the stress.
-void compact(Simulation& simulation, double void_ratio, double stress, double speed, Progress const& stage,
-             ProgressCallback const& progress) {
+void compact(Simulation& simulation, StepChoice const& step, double void_ratio, double stress, double speed,
+             Progress const& stage, ProgressCallback const& progress) {
+  simulation.choose_time_step(step);
   simulation.loading.x = AxisDrive::held();
   double mean_stress = 0;  // over the last steps: single blows of flying discs are no stress
   while (simulation.void_ratio() > void_ratio && mean_stress < 20 * stress) {
     double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.03, 1.0);
     simulation.loading.y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
     constexpr int interval = 200;
-    simulation.time_step = simulation.stable_time_step(0.8);
     mean_stress = 0;
     for (int n = 0; n < interval && simulation.void_ratio() > void_ratio; ++n) {
       simulation.step();
@@ -109,8 +109,8 @@ Specimen compacted_layers(Scene const& scene, SampleDesign const& design, Simula
     Simulation simulation(specimen, laws, loose_skin * specimen.d50, ranks);
     Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
-    compact(simulation, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, scene.bond.stress, speed, stage,
-            counted);
+    compact(simulation, scene.run.step_choice(), under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed,
+            scene.bond.stress, speed, stage, counted);
     disc_steps += simulation.steps() * simulation.discs();
     simulation.stop_discs();
     specimen = simulation.specimen();

@@ -48,4 +48,19 @@ double diameter_finer(std::vector<double> const& radii, double fraction, Ranks c
   return 2 * ranks.max(sorted.empty() ? 0 : sorted.back());
 }
 
+double radius_above(std::vector<double> const& radii, double share, Ranks const& ranks) {
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  auto const below = static_cast<double>(ranks.sum(static_cast<std::int64_t>(radii.size()))) * share;
+  double found = 1e300;
+  ranks.relay(0, [&](double count) {
+    for (double r : sorted) {
+      if (count >= below) found = std::min(found, r);
+      ++count;
+    }
+    return count;
+  });
+  found = ranks.min(found);
+  return found < 1e300 ? found : ranks.max(sorted.empty() ? 0 : sorted.back());
+}
+
 }  // namespace clathra

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/scene/step_choice.hpp"
 #include "kernels/bond_kind.hpp"
 
 namespace clathra {
@@ -81,10 +82,19 @@ struct TestScene {
 struct RunScene {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0 = OMP_NUM_THREADS or all cores
-  double dt_safety = 0.7;
-  double damping = 0.3;  ///< alpha of local damping in the shear stage
-  double skin = 0;       ///< Verlet skin [m]; 0 = chosen
-  bool force = false;    ///< go on where a guard refuses; noted in run.json
+  TimeStepRule time_step = TimeStepRule::spectrum;
+  double dt_safety = 0;        ///< 0 = the usual one of the rule
+  double damping = 0.3;        ///< alpha of local damping in the shear stage
+  double inertia_scaling = 1;  ///< moments of inertia over their own, in consolidation and shear
+  double mass_scaling = 0;     ///< share of the discs, the smallest, that get the mass of the next one, likewise; 0 = none
+  double skin = 0;             ///< Verlet skin [m]; 0 = chosen
+  bool force = false;          ///< go on where a guard refuses; noted in run.json
+
+  bool scales_masses() const { return inertia_scaling != 1 || mass_scaling > 0; }
+  StepChoice step_choice() const {
+    double const usual = time_step == TimeStepRule::spectrum ? usual_share_of_limit : usual_share_of_estimate;
+    return {time_step, dt_safety > 0 ? dt_safety : usual};
+  }
 };
 
 /// `[output]`

@@ -13,6 +13,8 @@ namespace {
 
 constexpr int check_every = 64;         // steps between checks of the fault flags
 constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
+constexpr Real calm_leeway = 0.3;       // of its skin that a calm disc may stray before the step is chosen anew
+constexpr int most_steps_of_a_choice = 1000, least_steps_of_a_calm_choice = 150;
 
 Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
 
@@ -34,15 +36,22 @@ WallReactions Simulation::apply_wall_forces(Real dt) {
 }
 
 void Simulation::step() {
+  if (following_.on && (following_.due || rebuild_pending_)) renew_time_step();
   loading.move(walls_, time_step);
   Kokkos::Timer const moving;
-  Real const largest_displacement = integrate(particles_, laws_.motion, time_step, frame(), losses_, faults_);
+  StepLengths const lengths{following_.last > 0 ? middle(following_.last, time_step) : time_step, time_step};
+  Real const largest_displacement = integrate(particles_, laws_.motion, lengths, frame(), losses_, faults_);
+  following_.last = time_step;
   busy_seconds_ += moving.seconds();
   if (periodic()) stretch_homogeneously();
-  if (rebuild_pending_ || outdated(ranks_.max(largest_displacement))) {
+  Real const way = way_in_skins(ranks_.max(largest_displacement));
+  if (rebuild_pending_ || have_strayed(search_mark_, particles_.reference_x, particles_.reference_y, way, 1)) {
     rebuild();
   } else {
     refresh_ghosts();
+    if (following_.on)
+      following_.due =
+          ++following_.age >= most_steps_of_a_choice || have_strayed(step_mark_, step_x_, step_y_, way, following_.leeway);
   }
   WallReactions const before = reactions_;
   Kokkos::Timer const pushing;
@@ -87,9 +96,8 @@ void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
   make_room_for_breaks();
   if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
   mark_reference(particles_);
-  reference_walls_ = walls_;
-  reference_cell_ = cell_;
-  nonaffine_displacement_ = 0;
+  search_mark_ = {walls_, cell_, 0};
+  following_.due = following_.on;  // pairs that were not listed may touch from now on
   rebuild_pending_ = false;
   ++rebuilds_;
   Kokkos::fence();
@@ -134,22 +142,22 @@ void Simulation::set_sums() {
            ranks_.summation()};
 }
 
-/// The homogeneous motion since the last neighbour search: that of the walls, or of the periodic cell.
-AffineFrame Simulation::frame() const {
+/// The homogeneous motion since a mark: that of the walls, or of the periodic cell.
+AffineFrame Simulation::frame_since(Mark const& mark) const {
   AffineFrame f;
   if (periodic()) {
     f.centre_x = f.reference_centre_x = cell_.left;
     f.centre_y = f.reference_centre_y = cell_.bottom;
-    f.stretch_x = cell_.width / reference_cell_.width;
-    f.stretch_y = cell_.height / reference_cell_.height;
+    f.stretch_x = cell_.width / mark.cell.width;
+    f.stretch_y = cell_.height / mark.cell.height;
     return f;
   }
   f.centre_x = middle(walls_.position[left], walls_.position[right]);
   f.centre_y = middle(walls_.position[bottom], walls_.position[top]);
-  f.reference_centre_x = middle(reference_walls_.position[left], reference_walls_.position[right]);
-  f.reference_centre_y = middle(reference_walls_.position[bottom], reference_walls_.position[top]);
-  f.stretch_x = walls_.width() / reference_walls_.width();
-  f.stretch_y = walls_.height() / reference_walls_.height();
+  f.reference_centre_x = middle(mark.walls.position[left], mark.walls.position[right]);
+  f.reference_centre_y = middle(mark.walls.position[bottom], mark.walls.position[top]);
+  f.stretch_x = walls_.width() / mark.walls.width();
+  f.stretch_y = walls_.height() / mark.walls.height();
   f.gradient_x = (walls_.velocity[right] - walls_.velocity[left]) / walls_.width();
   f.gradient_y = (walls_.velocity[top] - walls_.velocity[bottom]) / walls_.height();
   f.drift_x = middle(walls_.velocity[left], walls_.velocity[right]);
@@ -167,20 +175,25 @@ SkinRange Simulation::skin_range(bool by_speed) const {
   return {least, std::max(most, least)};
 }
 
-/// Whether two discs that are not in each other's rows could touch: the largest non-affine displacement of a disc as a share of
-/// its skin, plus what the homogeneous motion itself brings two discs nearer, as a share of the least skin. Displacements a step
-/// are added up until they could amount to that, and only then are the discs' own ones computed.
+/// What this step may have brought a disc away from the homogeneous motion, as a share of the least skin.
 /// @param largest_displacement  of a disc of any rank in this step [m]
-bool Simulation::outdated(Real largest_displacement) {
-  AffineFrame const f = frame();
+Real Simulation::way_in_skins(Real largest_displacement) const {
+  Real const of_frame = periodic() ? 0 : (walls_.largest_speed(left, right) + walls_.largest_speed(bottom, top)) * time_step;
+  return (largest_displacement + of_frame) / skin_range(false).least;
+}
+
+/// Whether two discs whose gap was wider than a share of both their skins, where a mark stands, could touch: the largest
+/// non-affine displacement of a disc as a share of its skin, plus what the homogeneous motion itself brings two discs nearer, as
+/// a share of the least skin. Ways are added up until they could amount to that, and only then are the discs' own ones computed.
+/// @param x,y  where the discs were then;  @param way  of this step, in least skins;  @param leeway  the share
+bool Simulation::have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real way, Real leeway) {
+  AffineFrame const f = frame_since(mark);
   Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
   Real const spent = closing * (2 * largest_radius_ / skin_ + 1);
-  Real const frame_displacement =
-      periodic() ? 0 : (walls_.largest_speed(left, right) + walls_.largest_speed(bottom, top)) * time_step;
-  nonaffine_displacement_ += (largest_displacement + frame_displacement) / skin_range(false).least;
-  if (nonaffine_displacement_ * (1 + closing) + spent < 1) return false;
-  nonaffine_displacement_ = std::sqrt(ranks_.max(largest_nonaffine_displacement2(particles_, f)));
-  return nonaffine_displacement_ + spent >= 1;
+  mark.strayed += way;
+  if (mark.strayed * (1 + closing) + spent < leeway) return false;
+  mark.strayed = std::sqrt(ranks_.max(largest_nonaffine_displacement2(particles_, x, y, f)));
+  return mark.strayed + spent >= leeway;
 }
 
 void Simulation::account_boundary_work(WallReactions const& before) {
@@ -271,15 +284,41 @@ AcrossRanks Simulation::across() const {
 }
 
 Real Simulation::stable_time_step(Real safety) const {
-  constexpr Real below_limit = 0.95;  // the network stiffens before the step is chosen again
-  return std::min(safety * ranks_.min(local_time_step(springs())), below_limit * stable_limit());
+  return std::min(safety * ranks_.min(local_time_step(springs())), usual_share_of_limit * stable_limit());
+}
+
+void Simulation::choose_time_step(StepChoice const& choice) {
+  Real const estimate = ranks_.min(local_time_step(springs()));
+  constexpr Real most = 1.35;  // times the estimate, which counts contacts to come: no bound knows those of flying discs
+  following_.on = true;
+  following_.share = choice.rule == TimeStepRule::spectrum ? choice.safety : usual_share_of_limit;
+  following_.ceiling = (choice.rule == TimeStepRule::spectrum ? most : choice.safety) * estimate;
+  following_.age = least_steps_of_a_calm_choice;
+  renew_time_step();
+}
+
+/// Where discs stray so fast that the last choice did not last, the next one counts every listed gap as closed: it lasts until
+/// the next search.
+void Simulation::renew_time_step() {
+  if (rebuild_pending_) rebuild(true, forces());
+  following_.leeway = following_.age < least_steps_of_a_calm_choice ? 1 : calm_leeway;
+  Real const limit = clathra::stable_limit(springs(), laws_.motion.damping, following_.leeway, across());
+  time_step = std::min(following_.share * limit, following_.ceiling);
+  following_.age = 0;
+  following_.due = false;
+  ++renewals_;
+  step_mark_ = {walls_, cell_, 0};
+  for (auto* field : {&step_x_, &step_y_})
+    if (field->extent(0) != particles_.x.extent(0)) *field = Field<Coord>("step_reference", particles_.x.extent(0));
+  Kokkos::deep_copy(step_x_, particles_.x);
+  Kokkos::deep_copy(step_y_, particles_.y);
 }
 
 Real Simulation::largest_frequency(int iterations) const {
   return in_range([&] { return clathra::largest_frequency(springs(), across(), iterations); });
 }
 
-Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, across()); }
+Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, calm_leeway, across()); }
 
 /// Where no rank sends or gets discs, intact bonds only become fewer after restore_history().
 void Simulation::make_room_for_breaks() {

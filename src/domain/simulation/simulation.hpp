@@ -7,6 +7,7 @@
 #include "domain/parallel/halo.hpp"
 #include "domain/scene/specimen.hpp"
 #include "domain/scene/stage.hpp"
+#include "domain/scene/step_choice.hpp"
 #include "domain/simulation/broken_bonds.hpp"
 #include "domain/simulation/loading.hpp"
 #include "domain/simulation/periodic_images.hpp"
@@ -14,6 +15,7 @@
 #include "kernels/forces.hpp"
 #include "kernels/measures.hpp"
 #include "kernels/neighbours.hpp"
+#include "kernels/spectrum.hpp"
 #include "kernels/stability.hpp"
 #include "kernels/verlet_skin.hpp"
 #include "kernels/walls.hpp"
@@ -25,15 +27,23 @@ namespace clathra {
 /// (docs/performance.md).
 inline constexpr double chosen_skin = 0.12;
 
+/// Heavier discs than their size makes them, for longer time steps: what is quasi-static does not depend on masses.
+struct MassScaling {
+  Real inertia = 1;       ///< factor of all moments of inertia
+  Real least_radius = 0;  ///< smaller discs have the mass of a disc of this radius [m], and its part in their moment of inertia
+};
+
 /// What the discs obey. Features follow from it: rolling moments, bonds, a separate bond history, a ledger exist only if asked
 /// for here.
 struct SimulationLaws {
   ContactLaws contact;
   WallLaw wall;
   MotionLaw motion;
+  MassScaling scaling;  ///< of a specimen that is taken over
   ContactFeatures features() const {
-    return {contact.grain.friction > 0 || contact.bond_kind == BondKind::replace, contact.grain.shape_factor > 0,
-            contact.bond_kind != BondKind::none, contact.bond_kind == BondKind::parallel};
+    bool const shears = contact.grain.friction > 0 && contact.grain.shear_stiffness > 0;
+    return {shears || contact.bond_kind == BondKind::replace, contact.grain.shape_factor > 0, contact.bond_kind != BondKind::none,
+            contact.bond_kind == BondKind::parallel};
   }
   LossKinds losses() const {
     ContactFeatures const f = features();
@@ -45,6 +55,16 @@ struct SimulationLaws {
 /// Several ranks may share a simulation: each owns the discs of a rectangle and keeps their rows. All calls but those that say
 /// "of this rank" are then collective, and what they return is that of the whole specimen and the same on every rank.
 class Simulation {
+  /// How the time step follows the limit.
+  struct StepFollowing {
+    bool on = false;
+    Real share = 0, ceiling = 0;  ///< dt = min(share * stable_limit(), ceiling)
+    Real leeway = 1;              ///< share of its skin that a disc may stray before dt is chosen anew
+    Real last = 0;                ///< dt of the step before, 0 before the first [s]
+    std::int64_t age = 0;         ///< steps since the last choice
+    bool due = false;
+  };
+
  public:
   /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
   /// @param specimen  this rank's share of it: each disc and each contact on one rank, whichever
@@ -66,8 +86,11 @@ class Simulation {
   Specimen specimen() const;
 
   // Settings that may change between steps.
-  Real time_step = 0;  ///< dt [s]
+  Real time_step = 0;  ///< dt of the next step [s]; where none has been chosen below it stays as it is set
   Loading loading;
+  /// Chooses the time step from the springs to come and from then on follows the limit of stability (step_choice.hpp): renewed
+  /// after each neighbour search, whenever a disc has strayed as far as the bound allows for, and every 1000 steps.
+  void choose_time_step(StepChoice const& choice);
   void set_laws(SimulationLaws const& laws);  ///< history that both laws need is kept
   void set_skin(Real skin) {
     skin_ = skin;
@@ -95,8 +118,10 @@ class Simulation {
   Walls const& walls() const { return walls_; }
   PeriodicCell const& cell() const { return cell_; }
   bool periodic() const { return cell_.exists(); }
-  Real density() const { return density_; }                        ///< of the grains [kg/m^3]
-  Real critical_thickness() const { return critical_thickness_; }  ///< h_max of the bonds [m], 0 = none
+  Real density() const { return density_; }                             ///< of the grains [kg/m^3]
+  Real added_mass() const { return added_mass_; }                       ///< by MassScaling, over the mass of all discs
+  Real moving_density() const { return density_ * (1 + added_mass_); }  ///< what inertia and wave number go by [kg/m^3]
+  Real critical_thickness() const { return critical_thickness_; }       ///< h_max of the bonds [m], 0 = none
   Real area() const { return periodic() ? cell_.width * cell_.height : walls_.width() * walls_.height(); }
   Real solid_area() const { return solid_area_; }
   Real void_ratio() const { return area() / solid_area_ - 1; }  ///< nominal
@@ -109,8 +134,11 @@ class Simulation {
   std::uint64_t hash() const;
   /// A safety factor times local_time_step(), but never above 0.95 of stable_limit() [s].
   Real stable_time_step(Real safety = 1) const;
-  Real largest_frequency(int iterations = 20) const;  ///< of the present contact network [1/s]
-  Real stable_limit() const;                          ///< clathra::stable_limit() with the present damping [s]
+  Real largest_frequency(int iterations = 40) const;  ///< of the present contact network [1/s]
+  Real stable_limit() const;                          ///< clathra::stable_limit() of calm discs with the present damping [s]
+  std::int64_t time_step_renewals() const { return renewals_; }
+  SpringNetwork springs() const;  ///< for those who analyse it further, with across()
+  AcrossRanks across() const;
   SimulationLaws const& laws() const { return laws_; }
   int broken_bonds() const;
   BreakCounts break_counts() const;  ///< so far
@@ -120,7 +148,7 @@ class Simulation {
   /// Bytes of this rank's fields, with the ledger, the log of breaks and the most that a neighbour search has needed beside them.
   std::size_t bytes() const {
     return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) + broken_bonds_.bytes() +
-           search_bytes_;
+           (start_x_.span() + start_y_.span() + step_x_.span() + step_y_.span()) * sizeof(Coord) + search_bytes_;
   }
   // Of this rank:
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
@@ -139,9 +167,18 @@ class Simulation {
   void rebuild(bool skin_by_speed = true, AuxiliaryFields const& also = {});
   void upload_discs(Specimen const& specimen);
   void restore_history(Specimen const& specimen);
-  AffineFrame frame() const;
+  /// The box when the discs were where a reference says, and how far they have strayed since.
+  struct Mark {
+    Walls walls;
+    PeriodicCell cell;
+    Real strayed = 1e300;  ///< at most, beside the homogeneous motion, as a share of a skin
+  };
+  AffineFrame frame() const { return frame_since(search_mark_); }
+  AffineFrame frame_since(Mark const& mark) const;
   SkinRange skin_range(bool by_speed) const;
-  bool outdated(Real largest_displacement);
+  Real way_in_skins(Real largest_displacement) const;
+  bool have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real way, Real leeway);
+  void renew_time_step();
   void stretch_homogeneously();
   bool sorting_is_due();
   void rebalance_if_it_pays();
@@ -149,8 +186,6 @@ class Simulation {
   void set_sums();
   AuxiliaryFields forces();
   AuxiliaryFields derived();
-  SpringNetwork springs() const;
-  AcrossRanks across() const;
   template <class Work>
   auto in_range(Work const& sum) const;
   WallReactions apply_wall_forces(Real dt);
@@ -158,6 +193,8 @@ class Simulation {
   void find_listed_neighbours();
   template <class Visit>
   void for_each_number(Visit&& visit);
+  template <class Visit>
+  void for_each_later_number(Visit&& visit);
   std::vector<SpecimenContact> contacts_by_id() const;
   void account_boundary_work(WallReactions const& before);
   void make_room_for_breaks();
@@ -168,25 +205,28 @@ class Simulation {
   ParticleSoA particles_;
   ContactRows rows_;
   SimulationLaws laws_;
-  Walls walls_, reference_walls_;
+  Walls walls_;
   WallContacts wall_contacts_;
   WallReactions reactions_;
-  PeriodicCell cell_, reference_cell_;
+  PeriodicCell cell_;
   PeriodicImages images_;
   Halo halo_;
   mutable BrokenBonds broken_bonds_;  // collected when they are asked for
   EnergyLosses losses_;
   Faults faults_;
   Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
-  Real density_ = 0, d50_ = 0, critical_thickness_ = 0;
+  Real density_ = 0, d50_ = 0, critical_thickness_ = 0, added_mass_ = 0;
   std::int64_t step_ = 0, rebuilds_ = 0;
   mutable std::int64_t last_good_step_ = 0;  // of the last look for faults that found none
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Coord> start_x_, start_y_;
-  int searches_until_sorting_ = 0;       // in space; the first sorts
-  Real nonaffine_displacement_ = 1e300;  // at most, since the last search, as a share of a skin
-  double busy_seconds_ = 0;              // of this rank since the cuts were made
+  int searches_until_sorting_ = 0;  // in space; the first sorts
+  Mark search_mark_, step_mark_;    // of the last search, of the last choice of the time step
+  StepFollowing following_;
+  Field<Coord> step_x_, step_y_;  // [owned] where that choice found the discs [m]; empty where no step was chosen
+  std::int64_t renewals_ = 0;
+  double busy_seconds_ = 0;  // of this rank since the cuts were made
   bool rebuild_pending_ = true;
   std::size_t search_bytes_ = 0;  // at most
 };

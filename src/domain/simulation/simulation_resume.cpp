@@ -55,7 +55,7 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("ledger", laws_.contact.ledger);
   visit("keeps_break_events", broken_bonds_.keeps_events);
   visit_walls("wall", walls_, visit);
-  visit_walls("reference_wall", reference_walls_, visit);
+  visit_walls("reference_wall", search_mark_.walls, visit);
   for (int wall = 0; wall < wall_count; ++wall) {
     std::string const name = std::string("reaction_") + wall_names[wall];
     visit(name, reactions_.normal[wall]);
@@ -67,6 +67,22 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("servo_gain", loading.servo.gain);
   visit("servo_integral_time", loading.servo.integral_time);
   visit("servo_contact_stiffness", loading.servo.contact_stiffness);
+  for_each_later_number(visit);
+}
+
+/// Those that the first versions of checkpoints lack: they had one time step for all time.
+template <class Visit>
+void Simulation::for_each_later_number(Visit&& visit) {
+  visit("added_mass", added_mass_);
+  visit("follows_limit", following_.on);
+  visit("share_of_limit", following_.share);
+  visit("time_step_ceiling", following_.ceiling);
+  visit("time_step_leeway", following_.leeway);
+  visit("time_step_before", following_.last);
+  visit("time_step_age", following_.age);
+  visit("time_step_due", following_.due);
+  visit("time_step_renewals", renewals_);
+  visit_walls("step_wall", step_mark_.walls, visit);
 }
 
 AuxiliaryFields Simulation::forces() {
@@ -75,10 +91,12 @@ AuxiliaryFields Simulation::forces() {
   return all;
 }
 
-/// What is derived from the state but must not be derived anew: forces, and where the last search found the discs.
+/// What is derived from the state but must not be derived anew: forces, and where the last search and the last choice of the time
+/// step found the discs.
 AuxiliaryFields Simulation::derived() {
   AuxiliaryFields all;
   for_each_derived_field(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
+  if (following_.on) all.insert(all.begin(), {{"step_x", &step_x_}, {"step_y", &step_y_}});
   return all;
 }
 
@@ -108,6 +126,8 @@ SimulationState Simulation::state() {
 Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks)
     : ranks_(std::move(ranks)), laws_(laws), faults_(make_faults()) {
   state.numbers.emplace("keeps_break_events", 1);  // as those did that do not say so
+  for_each_later_number(
+      [&](std::string const& name, auto const& value) { state.numbers.emplace(name, static_cast<double>(value)); });
   for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
   set_sums();

@@ -178,14 +178,18 @@ void Simulation::upload_discs(Specimen const& s) {
   std::size_t const n = s.size();
   particles_ = allocate_particles(static_cast<int>(n));
   std::vector<double> inverse_mass(n), inverse_inertia(n);
+  MassScaling const& scaling = laws_.scaling;
+  auto const moving_area = [least = scaling.least_radius](double r) { return pi * std::max(r, least) * std::max(r, least); };
   for (std::size_t i = 0; i < n; ++i) {
-    inverse_mass[i] = 1 / (pi * s.radius[i] * s.radius[i] * s.density);
-    inverse_inertia[i] = 2 * inverse_mass[i] / (s.radius[i] * s.radius[i]);
+    inverse_mass[i] = 1 / (moving_area(s.radius[i]) * s.density);
+    inverse_inertia[i] = 2 * inverse_mass[i] / (scaling.inertia * (s.radius[i] * s.radius[i]));
     largest_radius_ = std::max(largest_radius_, s.radius[i]);
   }
   largest_radius_ = ranks_.max(largest_radius_);
   // Summed by id, so that the order of the input does not show.
-  solid_area_ = Directory(ranks_, discs_, s.id, {s.radius}).sum_by_id([](double const* r) { return pi * *r * *r; });
+  Directory const radii(ranks_, discs_, s.id, {s.radius});
+  solid_area_ = radii.sum_by_id([](double const* r) { return pi * *r * *r; });
+  added_mass_ = radii.sum_by_id([&](double const* r) { return moving_area(*r); }) / solid_area_ - 1;
   upload(particles_.id, s.id);
   upload(particles_.inverse_mass, inverse_mass);
   upload(particles_.inverse_inertia, inverse_inertia);
@@ -195,9 +199,9 @@ void Simulation::upload_discs(Specimen const& s) {
   d50_ = s.d50;
   critical_thickness_ = s.critical_thickness;
   if (s.periodic) {
-    cell_ = reference_cell_ = {s.left, s.bottom, s.width(), s.height()};
+    cell_ = search_mark_.cell = {s.left, s.bottom, s.width(), s.height()};
   } else {
-    walls_ = reference_walls_ = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
+    walls_ = search_mark_.walls = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
   }
 }
 

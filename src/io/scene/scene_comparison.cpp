@@ -26,6 +26,11 @@ bool same_file(std::string const& then, std::string const& now, fs::path const& 
          fs::weakly_canonical(fs::absolute(then, ignored), ignored) == here;
 }
 
+/// What a scene meant that was kept before it could state the key: its default, or what was done then.
+std::string unstated(Key const& key, Scene const& defaults) {
+  return key.name == "run.time_step" ? "\"bound\"" : value_text(key, defaults);
+}
+
 /// Whether a text that was kept states the value of a scene.
 bool states(Key const& key, std::string const& text, Scene const& scene, fs::path const& folder) {
   if (text == value_text(key, scene)) return true;
@@ -49,7 +54,7 @@ std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path
   for (Key const& key : schema()) {
     if (may_differ(key) || (agreement == Agreement::further && may_grow(key))) continue;
     auto const kept = then.find(std::string(key.name));
-    std::string const before = kept != then.end() ? kept->second : value_text(key, defaults);
+    std::string const before = kept != then.end() ? kept->second : unstated(key, defaults);
     if (!states(key, before, now, folder)) text += fmt::format("; {} was {}, is {}", key.name, before, value_text(key, now));
   }
   return text;

@@ -30,6 +30,7 @@ constexpr std::array laws = {Names("none"), Names("thickness_dependent"), Names(
 constexpr std::array composites = {Names("replace"), Names("parallel"), Names("memory")};
 constexpr std::array moment_scales = {Names("paper_si"), Names("rod_mm"), Names("similitude")};
 constexpr std::array sources = {Names("printed"), Names("thm")};
+constexpr std::array step_rules = {Names("spectrum"), Names("bound")};
 constexpr std::array modes = {Names("eq3"), Names("given_thickness"), Names("areal_target")};
 
 using enum Dimension;
@@ -89,8 +90,11 @@ Key const table[] = {
 
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},
   {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
-  {"run.dt_safety", quantity, CLATHRA_FIELD(run, dt_safety), "time step over its stable limit", ratio, 0.001, 1},
+  {"run.time_step", choice, CLATHRA_CHOICE(run, time_step), "time step: a share of the limit of stability, followed as that changes, or of an estimate when a stage begins, lowered where the limit asks for it", ratio, 0, 0, {}, step_rules},
+  {"run.dt_safety", quantity, CLATHRA_FIELD(run, dt_safety), "time step over that limit or estimate", ratio, 0.001, 1, "0.95 of the limit, 0.7 of the estimate"},
   {"run.damping", quantity, CLATHRA_FIELD(run, damping), "local damping while the specimen is sheared", ratio, 0, 0.95},
+  {"run.inertia_scaling", quantity, CLATHRA_FIELD(run, inertia_scaling), "moments of inertia over their own while the specimen is consolidated and sheared: rotation holds the time step down", ratio, 1, 10},
+  {"run.mass_scaling", quantity, CLATHRA_FIELD(run, mass_scaling), "share of the discs, the smallest, that get the mass of the smallest other one, likewise", ratio, 0, 0.5},
   {"run.skin", quantity, CLATHRA_FIELD(run, skin), "distance beyond touching at which neighbours are listed; up to five times that for discs that fly", length, 1e-9, 1, "chosen"},
   {"run.force", boolean, CLATHRA_FIELD(run, force), "go on where a guard refuses; noted in run.json"},
 

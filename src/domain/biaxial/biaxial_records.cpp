@@ -1,0 +1,164 @@
+/// What a running biaxial test says of itself: records, snapshots, events, and its state for checkpoints.
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "domain/biaxial/biaxial_state.hpp"
+#include "domain/measurement/history_row.hpp"
+#include "domain/measurement/snapshot.hpp"
+#include "domain/simulation/break_event.hpp"
+
+namespace clathra {
+
+Snapshot BiaxialTest::snapshot() const {
+  Simulation const& s = *state_->simulation;
+  Snapshot snapshot = take_snapshot(s);
+  snapshot.step = s.steps() - state_->first_step;
+  snapshot.time = s.time() - state_->start_time;
+  snapshot.eps1 = state_->eps1();
+  snapshot.eps_v = std::log(state_->area0 / s.area());
+  snapshot.d50 = state_->d50;
+  return snapshot;
+}
+
+HistoryRow BiaxialTest::record() {
+  Simulation const& s = *state_->simulation;
+  Measures const m = s.measures();
+  WallStress const stress = s.stress();
+  HistoryRow row;
+  row.step = s.steps() - state_->first_step;
+  row.time_s = s.time() - state_->start_time;
+  row.eps1 = state_->eps1();
+  row.eps_v = std::log(state_->area0 / s.area());
+  row.sigma1_Pa = stress.y;
+  row.sigma3_Pa = stress.x;
+  row.q_Pa = stress.y - stress.x;
+  row.p_Pa = 0.5 * (stress.y + stress.x);
+  row.contact_sigma1_Pa = m.stress_area_yy / s.area();
+  row.contact_sigma3_Pa = m.stress_area_xx / s.area();
+  row.void_ratio = s.void_ratio();
+  row.bonds_intact = std::llround(m.bonded);
+  row.intact_initial_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
+  row.intact_interacting_pct = m.interacting > 0 ? 100.0 * m.bonded / m.interacting : 0;
+  row.broken = s.break_counts();
+  row.coordination = 2 * m.interacting / s.discs();
+  row.mechanical_coordination = m.mechanical_coordination();
+  row.inertial_number = state_->rate.strain_rate * state_->d50 * std::sqrt(s.moving_density() / std::max(row.sigma3_Pa, 1.0));
+  row.wave_number = rate_numbers(state_->scene, state_->d50, s.walls().height(), row.void_ratio, s.added_mass()).wave_number;
+  row.unbalanced = m.unbalanced_ratio(s.discs());
+  return row;
+}
+
+EnergyRow BiaxialTest::energy() {
+  Simulation const& s = *state_->simulation;
+  Measures const m = s.measures();
+  LossTotals const lost = s.losses();
+  EnergyRow row;
+  row.boundary_work = s.boundary_work();
+  row.kinetic = m.kinetic;
+  row.grain_elastic = m.grain_energy;
+  row.bond_elastic = m.bond_energy;
+  row.wall_elastic = m.wall_energy;
+  row.sliding = lost.sliding;
+  row.rolling = lost.rolling;
+  row.dashpot = lost.dashpot;
+  row.damping = lost.damping;
+  row.breakage = lost.breakage;
+  EnergyRow const& start = state_->start;
+  double const stored = row.kinetic + row.grain_elastic + row.bond_elastic + row.wall_elastic;
+  double const stored_at_start = start.kinetic + start.grain_elastic + start.bond_elastic + start.wall_elastic;
+  row.residual =
+      row.boundary_work - (stored - stored_at_start) - (row.sliding + row.rolling + row.dashpot + row.damping + row.breakage);
+  return row;
+}
+
+std::vector<BreakEvent> BiaxialTest::take_events() {
+  std::vector<BreakEvent> events = state_->simulation->break_events(state_->events_taken);
+  state_->events_taken += static_cast<int>(events.size());
+  for (BreakEvent& event : events) event.step -= state_->first_step;
+  return gathered(state_->ranks, std::move(events));
+}
+
+std::vector<BreakEvent> BiaxialTest::events_after(std::int64_t step) const {
+  std::vector<BreakEvent> later;
+  std::vector<BreakEvent> const all = state_->simulation->break_events(0);
+  std::vector<BreakEvent> const pending = state_->simulation->break_events(state_->events_taken);
+  for (BreakEvent event : all) {
+    if (!pending.empty() && !comes_before(event, pending.front())) break;
+    event.step -= state_->first_step;
+    if (event.step > step) later.push_back(event);
+  }
+  return gathered(state_->ranks, std::move(later));
+}
+
+template <class Visit>
+void BiaxialTest::State::for_each_number(Visit&& visit) {
+  visit("d50", d50);
+  visit("height0", height0);
+  visit("area0", area0);
+  visit("bonds0", bonds0);
+  visit("records_due", records_due);
+  visit("record_interval", record_interval);
+  visit("first_step", first_step);
+  visit("start_time", start_time);
+  visit("disc_steps", disc_steps);
+  visit("strain_rate", rate.strain_rate);
+  visit("inertial_number", rate.inertial_number);
+  visit("wave_number", rate.wave_number);
+  for_each_energy_column(start, [&](std::string const& name, double& value) { visit("start_" + name, value); });
+  watch.for_each_number(visit);
+}
+
+TestState BiaxialTest::state() const {
+  State& t = *state_;
+  TestState s;
+  s.simulation = t.simulation->state();
+  s.events_taken = static_cast<std::size_t>(t.events_taken);
+  s.hash = t.simulation->hash();
+  t.for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
+  s.preparation = t.preparation;
+  s.warnings = t.warnings;
+  return s;
+}
+
+BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks) : state_(std::make_unique<State>()) {
+  State& t = *state_;
+  t.scene = scene;
+  t.ranks = ranks;
+  // Checkpoints from before there were checks hold none.
+  t.watch.for_each_number(
+      [&](std::string const& name, auto const& value) { state.numbers.emplace(name, static_cast<double>(value)); });
+  // Earlier ones had one step for all time, and counted records in steps.
+  bool const counted_in_steps = state.numbers.count("steps_per_record") > 0;
+  if (counted_in_steps) state.numbers.insert({{"records_due", 0}, {"record_interval", 0}, {"start_time", 0}});
+  t.for_each_number(
+      [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
+  t.preparation = state.preparation;
+  t.warnings = state.warnings;
+  t.events_taken = static_cast<int>(state.events_taken);
+  SimulationLaws laws = test_laws(scene, state.simulation.numbers.at("critical_thickness"));
+  laws.motion.damping = scene.run.damping;
+  t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
+  if (!counted_in_steps) return;
+  Simulation const& s = *t.simulation;
+  t.record_interval = state.numbers.at("steps_per_record") * t.rate.strain_rate * s.time_step;
+  t.records_due = static_cast<std::int64_t>(t.eps1() / t.record_interval);
+  t.start_time = s.time() - static_cast<double>(s.steps() - t.first_step) * s.time_step;
+}
+
+StageRecord BiaxialTest::plan() const {
+  Simulation const& s = *state_->simulation;
+  StageRecord plan;
+  plan["discs"] = s.discs();
+  plan["time_step_s"] = s.time_step;
+  plan["strain_rate_per_s"] = state_->rate.strain_rate;
+  plan["inertial_number"] = state_->rate.inertial_number;
+  plan["wave_number"] = state_->rate.wave_number;
+  plan["steps"] = std::ceil(state_->scene.test.axial_strain / (state_->rate.strain_rate * s.time_step));
+  plan["width_m"] = s.walls().width();
+  plan["height_m"] = s.walls().height();
+  return plan;
+}
+
+}  // namespace clathra

@@ -1,0 +1,46 @@
+#pragma once
+/// Everything a running biaxial test knows; of biaxial_test.cpp and biaxial_records.cpp alone.
+#include "domain/biaxial/biaxial_test.hpp"
+#include "domain/biaxial/quasi_static.hpp"
+#include "domain/biaxial/shear_watch.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/scene.hpp"
+#include "domain/simulation/simulation.hpp"
+
+namespace clathra {
+
+/// The laws of consolidation and shear: only what the scene needs. @param h_max  of the bonds [m], 0 = none
+SimulationLaws test_laws(Scene const& scene, double h_max);
+
+struct BiaxialTest::State {
+  Scene scene;
+  Ranks ranks;
+  std::unique_ptr<Simulation> simulation;
+  StageRecord preparation;
+  std::vector<std::string> warnings;
+  RateNumbers rate;
+  double d50 = 0, height0 = 0, area0 = 0;
+  std::int64_t bonds0 = 0, records_due = 0, first_step = 0;
+  double record_interval = 0, start_time = 0;  // of axial strain; of the shear [s]
+  std::int64_t disc_steps = 0;
+  int events_taken = 0;  // of those that this rank has seen
+  bool at_rest = false;  // when the shear began
+  EnergyRow start;
+  ShearWatch watch;
+
+  void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
+  std::string text_of_scaling() const;
+  MassScaling mass_scaling(std::vector<double> const& radii) const;
+  void consolidate(double stress, ProgressCallback const& progress);
+  void require_rest(std::int64_t steps);
+  void begin_shear();
+  bool record_is_due() const { return eps1() >= static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }
+  double eps1() const { return std::log(height0 / simulation->walls().height()); }
+  void check();
+  double skin() const { return scene.run.skin > 0 ? scene.run.skin : chosen_skin * d50; }
+  template <class Visit>
+  void for_each_number(Visit&& visit);
+  void count_disc_steps() { disc_steps += simulation->steps() * simulation->discs(); }
+};
+
+}  // namespace clathra
