@@ -1,6 +1,7 @@
 /// Runs that cannot go on are stopped within 200 steps, naming a disc and the step.
 #include <limits>
 
+#include "extreme_rows.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -46,6 +47,9 @@ TEST(Diverged, ByANumberThatIsNotFiniteInAnyFieldOfADisc) {
       EXPECT_TRUE(names(text, "not finite")) << field << " " << text;
     }
   }
+  if (!testing::Test::HasFailure())
+    print_row("NaN and infinity in position, velocity and spin of a disc", "refused: the disc \"is not finite\"",
+              "names the disc");
 }
 
 TEST(Diverged, ByAPositionThatIsNotFiniteThoughNothingTouchesTheDisc) {
