@@ -1,7 +1,10 @@
 /// What a scene does not need it does not pay for: neither bytes nor launches.
 #include <map>
+#include <set>
 #include <string>
 
+#include "domain/biaxial/biaxial_state.hpp"
+#include "domain/biaxial/scene_needs.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -23,6 +26,13 @@ class Launches {
   }
   Launches(Launches const&) = delete;
   int of(std::string const& name) const { return counted()[name]; }
+  /// Those launched so many times.
+  std::set<std::string> launched(int times) const {
+    std::set<std::string> names;
+    for (auto const& [name, count] : counted())
+      if (count == times) names.insert(name);
+    return names;
+  }
   int with(std::string const& part) const {
     int sum = 0;
     for (auto const& [name, times] : counted()) sum += name.find(part) != std::string::npos ? times : 0;
@@ -93,6 +103,58 @@ TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
   for (int n = 0; n < 50; ++n) bonded.step();
   EXPECT_EQ(launches.of("contact_forces_bonded"), 50);
   EXPECT_EQ(launches.of("contact_forces"), 0);
+}
+
+/// What needs_of() says of a scene is what a simulation of it keeps and launches.
+void expect_needs(std::string const& what, Scene const& scene) {
+  SceneNeeds const needs = needs_of(scene);
+  Specimen s = disordered_patch(8, 8);
+  bool const bonded = scene.hydrate.saturation > 0;
+  if (bonded) bond_all(s, scene);
+  SimulationLaws laws = test_laws(scene, bonded ? s.critical_thickness : 0);
+  laws.motion.damping = scene.run.damping;
+  Simulation sim(s, laws, 0.1 * grain_d50);
+  sim.choose_time_step(scene.run.step_choice());
+  sim.set_ledger(scene.output.energy);
+  if (scene.output.takes_snapshots()) sim.mark_start();
+  EXPECT_EQ(bytes_per_entry(sim), static_cast<std::size_t>(needs.bytes(true))) << what;
+  // Rough walls keep theirs for the discs next to them alone.
+  int const of_walls = scene.test.wall_friction > 0 ? 4 * sizeof(Real) : 0;
+  SimulationState const state = sim.state();
+  std::set<std::string> kept(state.disc_columns.begin(), state.disc_columns.end()), named;
+  kept.insert("id");
+  for (NeededField const& field : needs.fields)
+    if (!field.of_entry) named.insert(field.name);
+  EXPECT_EQ(kept, named) << what;
+  std::size_t const places = sim.particles().x.extent(0), marks = (scene.output.takes_snapshots() ? 4 : 2) * sizeof(Coord);
+  EXPECT_EQ(bytes(sim.particles()) + bytes(sim.energy_losses()) + marks * places,
+            static_cast<std::size_t>(needs.bytes(false) - of_walls) * places)
+      << what;
+  Launches const launches;
+  for (int n = 0; n < 7; ++n) sim.step();
+  std::set<std::string> kernels;
+  for (NeededKernel const& kernel : needs.kernels) kernels.insert(kernel.name);
+  EXPECT_EQ(launches.launched(7), kernels) << what;
+}
+
+TEST(Features, AreListedWithTheirBytesAndKernels) {
+  Scene scene;
+  expect_needs("sand", scene);
+  scene.output.energy = true;
+  expect_needs("sand with energy", scene);
+  scene.hydrate.saturation = 0.55;
+  expect_needs("parallel with energy", scene);
+  scene.bond.composite = Composite::replace;
+  scene.output.snapshots = 0;
+  expect_needs("replace with energy, without snapshots", scene);
+  scene.grains.friction = 0;
+  scene.grains.shape_factor = 0;
+  scene.run.damping = 0;
+  expect_needs("replace without friction and damping", scene);
+  scene.hydrate.saturation = 0;
+  scene.test.wall_friction = 0.3;
+  scene.grains.contact_damping = 0.1;
+  expect_needs("smooth grains between rough walls, dashpots", scene);
 }
 
 /// Names of the accounts that a ledger keeps with these laws, and the bytes that they cost a place of a disc.

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "domain/biaxial/scene_needs.hpp"
 #include "domain/measurement/disc_grading.hpp"
 #include "domain/measurement/snapshot.hpp"
 #include "domain/scene/grading.hpp"
@@ -19,6 +20,7 @@
 #include "io/results/run_record.hpp"
 #include "io/results/snapshot_file.hpp"
 #include "io/results/specimen_file.hpp"
+#include "io/scene/scene_file.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
@@ -27,7 +29,7 @@ namespace {
 
 struct InfoOptions {
   std::string file;
-  bool state_hash = false;
+  bool state_hash = false, cost = false;
 };
 
 constexpr std::size_t largest_record = std::size_t{64} << 20;
@@ -133,8 +135,25 @@ ExitCode info_of_run(std::filesystem::path const& file, bool only_hash) {
   }
 }
 
+/// What a scene keeps in memory and computes in each step, with the keys that ask for it.
+std::string needs_text(Scene const& scene) {
+  SceneNeeds const needs = needs_of(scene);
+  std::string text;
+  for (bool const of_entry : {false, true}) {
+    text += fmt::format("{} bytes {}\n", needs.bytes(of_entry),
+                        of_entry ? "an entry of the neighbour rows (about 5 a disc)" : "a disc");
+    for (NeededField const& field : needs.fields)
+      if (field.of_entry == of_entry) text += fmt::format("  {:<18} {}  {}\n", field.name, field.bytes, field.asked_by);
+  }
+  text += "kernels in each step\n";
+  for (NeededKernel const& kernel : needs.kernels)
+    text += fmt::format("  {:<22} {}: {}\n", kernel.name, kernel.does, kernel.asked_by);
+  return text;
+}
+
 ExitCode info(InfoOptions const& options) {
   std::filesystem::path const file = options.file;
+  if (options.cost) return print_result(needs_text(load_scene(file).scene));
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) return info_of_run(file / "run.json", options.state_hash);
   if (file.extension() == ".json") return info_of_run(file, options.state_hash);
@@ -161,10 +180,15 @@ ExitCode info(InfoOptions const& options) {
 
 void add_info(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<InfoOptions>();
-  CLI::App* const verb = program.add_subcommand("info", "Say what a specimen file, a snapshot or the folder of a run holds");
-  verb->add_option("file", options->file, "specimen file, snapshot, run.json, or folder of a run")->required();
+  CLI::App* const verb =
+      program.add_subcommand("info", "Say what a specimen file, a snapshot or the folder of a run holds, or what a scene costs");
+  verb->add_option("file", options->file, "specimen file, snapshot, run.json, or folder of a run; with --cost a scene")
+      ->required();
   verb->add_flag("--state-hash", options->state_hash, "print only the hash of the state");
-  verb->footer("Example: clathra info out/quick/specimen.h5");
+  verb->add_flag("--cost", options->cost,
+                 "what a scene keeps in memory, a disc and an entry, and computes in each step, and which key asks for it")
+      ->excludes("--state-hash");
+  verb->footer("Example: clathra info out/quick/specimen.h5\n         clathra info --cost examples/quick.toml");
   verb->callback([options, &chosen] { chosen = [options] { return info(*options); }; });
 }
 

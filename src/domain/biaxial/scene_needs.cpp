@@ -1,0 +1,103 @@
+#include "domain/biaxial/scene_needs.hpp"
+
+#include <map>
+#include <type_traits>
+
+#include "domain/biaxial/biaxial_state.hpp"
+#include "domain/scene/hydrate.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr char const* every_scene = "every scene";
+constexpr char const* hydrate = "hydrate.saturation, bond.law";
+
+template <class View>
+constexpr int bytes_of(View const&) {
+  return static_cast<int>(sizeof(typename std::decay_t<View>::value_type));
+}
+
+void add_discs(Scene const& scene, std::vector<NeededField>& fields) {
+  ParticleSoA particles;
+  auto const state = [&](DiscField const& about, auto const& field) {
+    fields.push_back({about.name, bytes_of(field), false, every_scene});
+  };
+  for_each_field(particles, state);
+  for_each_derived_field(particles, state);
+  for (char const* const name : {"step_x", "step_y"}) fields.push_back({name, sizeof(Coord), false, every_scene});
+  if (!scene.output.takes_snapshots()) return;
+  for (char const* const name : {"start_x", "start_y"})
+    fields.push_back({name, sizeof(Coord), false, "output.snapshots, output.snapshots_at"});
+}
+
+void add_accounts(SimulationLaws const& laws, std::vector<NeededField>& fields) {
+  std::map<std::string, std::string> const with{{"lost_sliding", "grains.friction, test.wall_friction"},
+                                                {"lost_rolling", "grains.shape_factor"},
+                                                {"lost_dashpot", "grains.contact_damping"},
+                                                {"lost_breakage", "hydrate.saturation"},
+                                                {"lost_damping", "run.damping"}};
+  EnergyLosses losses;
+  for_each_account(losses, laws.losses(), [&](char const* name, Field<Accum> const& account, bool needed) {
+    if (needed) fields.push_back({name, bytes_of(account), false, "output.energy with " + with.at(name)});
+  });
+}
+
+void add_entries(SimulationLaws const& laws, std::vector<NeededField>& fields) {
+  bool const replace = laws.contact.bond_kind == BondKind::replace;
+  std::map<std::string, std::string> const keys{{"shear", replace ? "grains.friction, bond.composite" : "grains.friction"},
+                                                {"moment", laws.features().rolling ? "grains.shape_factor" : hydrate},
+                                                {"formation_overlap", hydrate},
+                                                {"bond_shear", "bond.composite"},
+                                                {"bond_moment", "bond.composite"}};
+  ContactRows rows;
+  fields.push_back({"neighbour", bytes_of(rows.neighbour), true, every_scene});
+  for_each_possible_history(
+      laws.features(),
+      [&](HistoryField const& about, bool needed, auto const& field) {
+        if (needed) fields.push_back({about.name, bytes_of(field), true, keys.at(about.name)});
+      },
+      rows);
+  if (laws.features().bonds) fields.push_back({"width", bytes_of(rows.width), true, hydrate});
+}
+
+/// The variant of the contact kernel that these laws run, in words.
+NeededKernel contact_kernel(Scene const& scene, SimulationLaws const& laws) {
+  ContactFeatures const f = laws.features();
+  NeededKernel kernel{f.bonds ? "contact_forces_bonded" : "contact_forces", "normal force", every_scene};
+  auto const add = [&](bool present, char const* what, char const* key) {
+    if (!present) return;
+    kernel.does += std::string(", ") + what;
+    kernel.asked_by += std::string(", ") + key;
+  };
+  add(f.shear, "friction", "grains.friction");
+  add(f.rolling, "rolling", "grains.shape_factor");
+  add(f.bonds, f.separate_bond ? "bonds beside contacts" : "bonds in place of contacts", hydrate);
+  add(laws.contact.grain.damping_ratio > 0, "dashpots", "grains.contact_damping");
+  add(scene.output.energy, "accounts", "output.energy");
+  return kernel;
+}
+
+}  // namespace
+
+SceneNeeds needs_of(Scene const& scene) {
+  constexpr double any_thickness = 1e-5;
+  SimulationLaws laws = test_laws(scene, has_bonds(scene) ? any_thickness : 0);
+  laws.motion.damping = scene.run.damping;
+  SceneNeeds needs;
+  add_discs(scene, needs.fields);
+  if (scene.output.energy) add_accounts(laws, needs.fields);
+  if (laws.wall.friction > 0)
+    for (char const* const wall : {"shear_left", "shear_right", "shear_bottom", "shear_top"})
+      needs.fields.push_back({wall, sizeof(Real), false, "test.wall_friction, of discs at the walls"});
+  add_entries(laws, needs.fields);
+  bool const damped = laws.motion.damping > 0;
+  needs.kernels.push_back(
+      {"kick_and_drift", damped ? "leapfrog, local damping" : "leapfrog", damped ? "every scene, run.damping" : every_scene});
+  needs.kernels.push_back(contact_kernel(scene, laws));
+  needs.kernels.push_back({"wall_forces", laws.wall.friction > 0 ? "four walls, friction" : "four walls",
+                           laws.wall.friction > 0 ? "every scene, test.wall_friction" : every_scene});
+  return needs;
+}
+
+}  // namespace clathra

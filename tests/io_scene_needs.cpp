@@ -1,0 +1,55 @@
+/// What each example scene keeps and launches, scene by scene: tests/golden/scene_needs.txt.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "command.hpp"
+#include "domain/biaxial/scene_needs.hpp"
+#include "io/scene/scene_file.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A line a scene: bytes a disc and an entry, fields beside those of every scene, and what the contact kernel does.
+std::string needs_of_examples() {
+  std::set<fs::path> scenes;
+  for (fs::directory_entry const& entry : fs::recursive_directory_iterator(CLATHRA_EXAMPLES))
+    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "studies") scenes.insert(entry.path());
+  std::ostringstream text;
+  for (fs::path const& path : scenes) {
+    SceneNeeds const needs = needs_of(load_scene(path).scene);
+    text << fs::relative(path, CLATHRA_EXAMPLES).string() << ": " << needs.bytes(false) << " a disc, " << needs.bytes(true)
+         << " an entry;";
+    for (NeededField const& field : needs.fields)
+      if (field.asked_by != "every scene") text << ' ' << field.name;
+    for (NeededKernel const& kernel : needs.kernels) text << "; " << kernel.name << ": " << kernel.does;
+    text << '\n';
+  }
+  return text.str();
+}
+
+// CLATHRA_RECORD=1 writes the record anew.
+TEST(SceneNeeds, OfTheExamplesAreThoseOnRecord) {
+  if (std::getenv("CLATHRA_RECORD")) std::ofstream(CLATHRA_GOLDEN "/scene_needs.txt") << needs_of_examples();
+  std::ifstream file(CLATHRA_GOLDEN "/scene_needs.txt");
+  std::string const golden((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(needs_of_examples(), golden);
+}
+
+TEST(SceneNeeds, AreWhatInfoPrints) {
+  CommandResult const out = run_clathra("info --cost " CLATHRA_EXAMPLES "/sand.toml");
+  EXPECT_EQ(out.code, 0);
+  for (char const* const part : {"bytes a disc", "friction", "output.snapshots", "kick_and_drift"})
+    EXPECT_NE(out.output.find(part), std::string::npos) << part;
+  EXPECT_EQ(out.output.find("hydrate"), std::string::npos) << "nothing of bonds is there";
+  EXPECT_EQ(run_clathra("info --cost nowhere.toml").code, 66);
+}
+
+}  // namespace
+}  // namespace clathra
