@@ -4,6 +4,9 @@
 #ifdef _OPENMP
 #include <omp.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sched.h>
 #include <unistd.h>
 
@@ -77,7 +80,7 @@ void keep_for_the_new_start() {
 }
 
 /// Sets a variable; true if that changed it.
-bool compress_to_void_ratio(char const* name, std::string const& value) {
+bool set_variable(char const* name, std::string const& value) {
   char const* const now = std::getenv(name);
   if (now && value == now) return false;
   ::setenv(name, value.c_str(), 1);
@@ -114,16 +117,16 @@ std::string thread_warning(int wanted) {
 void set_up_threads(int wanted) {
   int const threads = thread_count(wanted);
   keep_for_the_new_start();
-  bool changed = compress_to_void_ratio("OMP_NUM_THREADS", std::to_string(threads));
+  bool changed = set_variable("OMP_NUM_THREADS", std::to_string(threads));
   if (launched_ranks() > 1) ::setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);  // more ranks than cores is for the user to choose
   ::setenv("KOKKOS_NUM_THREADS", std::to_string(threads).c_str(), 1);
   if (!std::getenv("OMP_PROC_BIND")) {
     bool const all = threads == found().cores;
-    changed = compress_to_void_ratio("OMP_PROC_BIND", all ? "true" : "false") || changed;
+    changed = set_variable("OMP_PROC_BIND", all ? "true" : "false") || changed;
     if (all && !std::getenv("OMP_PLACES")) ::setenv("OMP_PLACES", "cores", 1);
   }
   if (!std::getenv("OMP_WAIT_POLICY") && !std::getenv("GOMP_SPINCOUNT"))
-    changed = compress_to_void_ratio("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
+    changed = set_variable("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
   if (changed) start_anew();
 }
 
@@ -134,7 +137,21 @@ struct KokkosSession::Guard {
   Kokkos::ScopeGuard scope{argument_count, arguments};
 };
 
-KokkosSession::KokkosSession() : guard_(std::make_unique<Guard>()) {}
+namespace {
+
+/// Searches and choices of the time step allocate and free the same fields over and over. Handed back to the system and fetched
+/// anew, page by page, they made choosing a time step twice as dear.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kept = 1 << 30, in_one_piece = 1 << 25;  // [bytes]; the second is the largest that glibc takes
+  ::mallopt(M_TRIM_THRESHOLD, kept);
+  ::mallopt(M_MMAP_THRESHOLD, in_one_piece);
+#endif
+}
+
+}  // namespace
+
+KokkosSession::KokkosSession() : guard_(std::make_unique<Guard>()) { keep_freed_memory(); }
 KokkosSession::~KokkosSession() = default;
 
 }  // namespace clathra

@@ -171,12 +171,14 @@ struct FillAbsoluteStiffness {
   }
 };
 
-/// w = factor M^-1 |K + 2 C / dt| u of one group of discs a call; reduces to the largest w / u.
+/// v = factor M^-1 |K + 2 C / dt| u of one group of discs a call; reduces to the largest v / u. Any positive u bounds, so the
+/// next one goes half as far again as v does, w = v sqrt(v / u): a bound as good from five products as v alone has from seven.
 struct AbsoluteProduct {
   SpringNetwork net;
   AbsoluteStiffness k;
   Motion u, w;
   Real factor;
+  bool further;  ///< w = v sqrt(v / u), else w = v: the first product is not normalised yet
 
   KOKKOS_FUNCTION void operator()(int group, Real& greatest) const {
     auto const first = static_cast<std::size_t>(group) * lane_count;
@@ -196,15 +198,19 @@ struct AbsoluteProduct {
       y += load_float(&k.between[3](e)) * vx + load_float(&k.between[4](e)) * vy + load_float(&k.between[5](e)) * vt;
       t += load_float(&k.between[6](e)) * vx + load_float(&k.between[7](e)) * vy + load_float(&k.between[8](e)) * vt;
     }
-    Lanes const inverse_mass = factor * load(&net.particles.inverse_mass(first)), wx = x * inverse_mass, wy = y * inverse_mass,
-                wt = t * (factor * load(&net.particles.inverse_inertia(first)));
-    store(&w.x(first), wx);
-    store(&w.y(first), wy);
-    store(&w.rotation(first), wt);
-    auto const ratio = [](Lanes const& a, Lanes const& b) { return select(b > Lanes(0), a / b, Lanes(0)); };
-    Lanes largest_ratio = lane_max(lane_max(ratio(wx, ux), ratio(wy, uy)), ratio(wt, ut));  // u = 0 meets no spring
+    Lanes const inverse_mass = factor * load(&net.particles.inverse_mass(first)),
+                inverse_inertia = factor * load(&net.particles.inverse_inertia(first));
+    Lanes largest_ratio = lane_max(lane_max(next(x * inverse_mass, ux, &w.x(first)), next(y * inverse_mass, uy, &w.y(first))),
+                                   next(t * inverse_inertia, ut, &w.rotation(first)));
     for (auto l = net.particles.owned - static_cast<int>(first); l < lane_count; ++l) set_lane(largest_ratio, l, 0);
     greatest = lane_max(greatest, largest(largest_ratio));
+  }
+
+  /// Stores one component of w, returns v / u.
+  KOKKOS_FORCEINLINE_FUNCTION Lanes next(Lanes const& v, Lanes const& from, Real* to) const {
+    Lanes const ratio = select(from > Lanes(0), v / from, Lanes(0));  // u = 0 meets no spring
+    store(to, further ? v * lane_sqrt(ratio) : v);
+    return ratio;
   }
 };
 
@@ -238,7 +244,7 @@ Real stable_limit(SpringNetwork const& network, Real alpha, Real leeway, AcrossR
   Real const slip = lane_max(slip_of(network.laws.grain.friction), slip_of(network.wall_law.friction));
   // Without them it is enough when a product wins little: where the stiffest place is small that is soon.
   constexpr int least_products = 4;
-  constexpr Real little = 1.0015;
+  constexpr Real little = 1.006;  // five products for most states, for 0.5 % of the step
   int const products = dashpots ? 16 : 12;
   Real step = dashpots ? -1e-3 * across.max(-local_time_step(network)) : 0, factor = 1;
   Kokkos::RangePolicy<ExecutionSpace> const groups(0, group_count(particles.owned));
@@ -248,7 +254,7 @@ Real stable_limit(SpringNetwork const& network, Real alpha, Real leeway, AcrossR
       Kokkos::parallel_for("fill_absolute_stiffness", groups,
                            FillAbsoluteStiffness{network, stiffness, dashpots ? 2 / step : 0, leeway, slip});
     Real greatest = 0;
-    Kokkos::parallel_reduce("absolute_product", groups, AbsoluteProduct{network, stiffness, u, w, factor},
+    Kokkos::parallel_reduce("absolute_product", groups, AbsoluteProduct{network, stiffness, u, w, factor, n > 0},
                             Kokkos::Max<Real>(greatest));
     greatest = across.max(std::max(greatest, Real(0))) / factor;
     if (!(greatest > 0)) return 1e300;
