@@ -182,7 +182,7 @@ std::uint64_t bonded_state_hash() {
   install_bonds(scene, specimen);
   SimulationLaws laws;
   laws.contact.bond_kind = BondKind::parallel;
-  laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
+  laws.contact.bond = make_bond_law(scene, specimen.d50, specimen.critical_thickness);
   Simulation simulation(specimen, laws, median_diameter / 20);
   simulation.time_step = 1e-7;
   simulation.loading.y = AxisDrive::at_rate(400);

@@ -111,7 +111,7 @@ void expect_needs(std::string const& what, Scene const& scene) {
   Specimen s = disordered_patch(8, 8);
   bool const bonded = scene.hydrate.saturation > 0;
   if (bonded) bond_all(s, scene);
-  SimulationLaws laws = test_laws(scene, bonded ? s.critical_thickness : 0);
+  SimulationLaws laws = test_laws(scene, grain_d50, bonded ? s.critical_thickness : 0);
   laws.motion.damping = scene.run.damping;
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.choose_time_step(scene.run.step_choice());

@@ -140,7 +140,7 @@ inline Scene hydrate_scene(double saturation, Composite composite, MomentScale s
 inline SimulationLaws bonded_laws(Scene const& scene, double h_max) {
   SimulationLaws laws = sand_laws();
   laws.contact.bond_kind = scene.bond.composite == Composite::parallel ? BondKind::parallel : BondKind::replace;
-  laws.contact.bond = make_bond_law(scene, h_max);
+  laws.contact.bond = make_bond_law(scene, grain_d50, h_max);
   return laws;
 }
 inline double h_max_of(Scene const& scene) { return critical_thickness_ratio(scene.hydrate.saturation) * grain_d50; }

@@ -175,12 +175,76 @@ TEST(BondLaw, TheConstantThicknessLawGivesEveryGapTheSameBond) {
 
 TEST(BondLaw, TheQuickTestsShapeFactorsAreNeverAboveTheExactOnes) {
   for (double const h_max : {1e-6, 14.9e-6, 0.5e-3, 1.15e-3, 3e-3}) {
-    BondLaw const law = make_bond_law(table_scene(0.55), h_max);
+    BondLaw const law = make_bond_law(table_scene(0.55), d50, h_max);
     for (int i = 0; i <= 100; ++i) {
       EXPECT_LE(law.least_shape_of_shear, shape_of_shear(h_max * i / 100));
       EXPECT_LE(law.least_shape_of_rolling, shape_of_rolling(h_max * i / 100));
     }
   }
+}
+
+/// R_t, R_c [N/m] and f K of a bond without gap between grains of d50.
+struct GaplessBond {
+  double saturation, tension, compression;
+};
+
+TEST(BondLaw, OfScaledRodsHasTheAddendsOfEquation11ScaledByArea) {
+  for (GaplessBond const& expected : {GaplessBond{0.26, 479, 1541}, {0.41, 784, 2522}, {0.55, 916, 2948}}) {
+    Scene scene = table_scene(expected.saturation);
+    scene.bond.coefficients = CoefficientSource::thm;
+    scene.bond.rod_thickness = RodThickness::scaled;
+    BondCard const card = evaluate_bond(scene, d50, d50 / 2, d50 / 2, 0, 0);
+    EXPECT_NEAR(card.R_t, expected.tension, 1);
+    EXPECT_NEAR(card.R_c, expected.compression, 1);
+    EXPECT_EQ(card.K_s, 0.41);  // a gap of 0 is one at any scale
+    double const gap = 5e-6, rod = gap * 12e-3 / d50;
+    BondCard const apart = evaluate_bond(scene, d50, d50 / 2, d50 / 2, gap, 0);
+    EXPECT_DOUBLE_EQ(apart.K_s, shear_slope(rod));
+    EXPECT_DOUBLE_EQ(apart.f_r, shape_of_rolling(rod));
+    EXPECT_NEAR(apart.R_t, 3 * apart.q_t * apart.B + (2.67e5 * rod - 160.2) * apart.B / 1.5e-4, 1e-9);
+    EXPECT_EQ(apart.thickness, gap);  // stiffness and width are those of the bond itself
+  }
+}
+
+TEST(BondLaw, OfClampedRodsIsThatOfTheThinnestOneTested) {
+  Scene scene = table_scene(0.41);
+  scene.bond.rod_thickness = RodThickness::clamped;
+  for (double const gap : {0.0, 5e-6}) {
+    BondCard const card = evaluate_bond(scene, d50, d50 / 2, d50 / 2, gap, 0);
+    EXPECT_NEAR(card.f_s * card.K_s, 0.520, 5e-4);
+    EXPECT_NEAR(card.f_r * card.K_r, 1.017, 5e-4);
+    EXPECT_NEAR(card.R_t, 1.421e7 * card.B, 1e-9);
+    EXPECT_NEAR(card.R_c, 2.571e7 * card.B, 1e-9);
+  }
+}
+
+TEST(BondLaw, WithFloorsIsNeverWeakerThanAGrainContact) {
+  Scene scene = table_scene(0.26);
+  scene.grains.shape_factor = 2;
+  scene.grains.friction = 0.5;
+  double const h_max = critical_thickness_ratio(0.26) * d50, radius = d50 / 2;
+  BondLaw const printed_law = make_bond_law(scene, d50, h_max);
+  scene.bond.friction_floor = true;
+  BondLaw const law = make_bond_law(scene, d50, h_max);
+  double const width = law.width(radius, 0.0);
+  BondStrength const with = bond_strength(law.strength, width, 0, radius),
+                     without = bond_strength(printed_law.strength, width, 0, radius);
+  int floored = 0, printed = 0;
+  for (double normal = -300; normal < 0.999 * with.compression; normal += 10) {
+    double const shear = std::max(without.shear(normal), 0.5 * normal),
+                 rolling = std::max(without.rolling(normal), normal * 2 * radius / 6);
+    EXPECT_EQ(with.shear(normal), shear);
+    EXPECT_DOUBLE_EQ(with.rolling(normal), rolling);
+    (shear > without.shear(normal) ? floored : printed) += 1;
+    for (double const part : {0.0, 0.3, 0.6, 0.9}) {
+      double const rest = std::sqrt(1 - part * part);
+      EXPECT_EQ(with.test(normal, 0.999 * part * shear, 0.999 * rest * rolling), BreakMode::none) << normal << " " << part;
+      EXPECT_NE(with.test(normal, 1.001 * part * shear, 1.001 * rest * rolling), BreakMode::none) << normal << " " << part;
+    }
+  }
+  EXPECT_GT(floored, 10);
+  EXPECT_GT(printed, 10);
+  EXPECT_EQ(with.test(with.compression, 0, 0), BreakMode::compression);
 }
 
 }  // namespace

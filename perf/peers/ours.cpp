@@ -55,7 +55,7 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
     StageRecord record;
     bond_specimen(scene, specimen, record);
     laws.contact.bond_kind = BondKind::parallel;
-    laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
+    laws.contact.bond = make_bond_law(scene, specimen.d50, specimen.critical_thickness);
   }
   Simulation simulation(specimen, laws, skin_in_d50 * specimen.d50);
   simulation.evaluate_forces();

@@ -17,16 +17,17 @@ struct LeastStrength {
 KOKKOS_INLINE_FUNCTION LeastStrength least_strength(BondLaw const& law) {
   // Less by a thousand millionth: strictly below what bond_strength() computes, however that is rounded.
   constexpr Real less = 1 - 1e-9, more = 1 + 1e-9;
-  Real const least_thickness = law.plate_thickness,
-             largest_thickness = law.thickness_weight * law.critical_thickness + law.plate_thickness;
-  Real const tension = tensile_strength(law.strength, Real(0), least_thickness);
-  Real const compression = compressive_strength(law.strength, Real(0), largest_thickness);
+  auto const less_than = [](Real strength) { return strength - 1e-9 * lane_abs(strength); };
+  Real const least_thickness = rod_thickness(law.strength, law.plate_thickness),
+             largest_thickness = rod_thickness(law.strength, law.thickness_weight * law.critical_thickness + law.plate_thickness);
+  Real const of_tension = tension_addend(least_thickness), of_compression = compression_addend(largest_thickness);
+  Real const tension = law.strength.rod_share * of_tension, compression = law.strength.rod_share * of_compression;
   Real const rolling = less * law.least_shape_of_rolling * rolling_slope(more * largest_thickness);
   LeastStrength least;
-  least.tension = tension - 1e-9 * lane_abs(tension);
-  least.tension_per_width = less * law.strength.tensile_stress;
-  least.compression = compression - 1e-9 * lane_abs(compression);
-  least.compression_per_width = less * law.strength.compressive_stress;
+  least.tension = less_than(tension);
+  least.tension_per_width = less_than(law.strength.tensile_stress + law.strength.rod_share_per_width * of_tension);
+  least.compression = less_than(compression);
+  least.compression_per_width = less_than(law.strength.compressive_stress + law.strength.rod_share_per_width * of_compression);
   least.shear_slope = less * law.least_shape_of_shear * shear_slope(more * largest_thickness);
   least.moment = rolling * law.strength.moment_length;
   least.moment_per_width = rolling * law.strength.moment_width_ratio;
@@ -52,10 +53,11 @@ KOKKOS_FORCEINLINE_FUNCTION auto is_far_from_breaking(LeastStrength const& least
 /// test decides.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION auto is_surely_intact(BondLaw const& law, BondForce<L> const& bond) {
-  L const tension = tensile_strength(law.strength, bond.width, bond.thickness);
-  L const compression = compressive_strength(law.strength, bond.width, bond.thickness);
-  L const a = law.least_shape_of_shear * shear_slope(bond.thickness);
-  L const b = law.least_shape_of_rolling * rolling_slope(bond.thickness) * moment_length(law.strength, bond.width);
+  L const rod = rod_thickness(law.strength, bond.thickness);
+  L const tension = tensile_strength(law.strength, bond.width, rod);
+  L const compression = compressive_strength(law.strength, bond.width, rod);
+  L const a = law.least_shape_of_shear * shear_slope(rod);
+  L const b = law.least_shape_of_rolling * rolling_slope(rod) * moment_length(law.strength, bond.width);
   L const size = lane_max(envelope_lower_bound(bond.force.normal + tension, compression + tension), L(0));
   L const of_shear = bond.force.shear * b, of_moment = bond.force.moment * a, limit = a * b * size;
   return of_shear * of_shear + of_moment * of_moment < limit * limit;

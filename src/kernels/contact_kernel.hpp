@@ -251,13 +251,15 @@ struct ContactKernel {
     Mask broken(false);
     BondForce<Lanes> const trial{{block.normal, block.shear, block.moment}, {0, 0, 0}, block.width, block.thickness};
     for_each_set(block.where && !is_surely_intact(constants.bond, trial), [&](int l) {
-      BondStrength const strength = bond_strength(constants.bond.strength, lane(block.width, l), lane(block.thickness, l));
+      std::size_t const e = block.entry + static_cast<std::size_t>(l), disc = block.first + static_cast<std::size_t>(l);
+      Real const radius = common_radius(p.radius(disc), p.radius(rows.neighbour(e)));
+      BondStrength const strength =
+          bond_strength(constants.bond.strength, lane(block.width, l), lane(block.thickness, l), radius);
       BreakMode const mode = strength.test(lane(block.normal, l), lane(block.shear, l), lane(block.moment, l));
       if (mode == BreakMode::none) return;
-      std::size_t const e = block.entry + static_cast<std::size_t>(l);
       rows.formation_overlap(e) = no_bond;
       set_lane(broken, l, true);
-      int const id = p.id(block.first + static_cast<std::size_t>(l)), other = p.id(rows.neighbour(e));
+      int const id = p.id(disc), other = p.id(rows.neighbour(e));
       if (id < other) breaks.record(step, id, other, mode, lane(block.x, l), lane(block.y, l));  // the other side sees it too
     });
     return broken;

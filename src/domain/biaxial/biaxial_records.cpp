@@ -137,7 +137,7 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   t.preparation = state.preparation;
   t.warnings = state.warnings;
   t.events_taken = static_cast<int>(state.events_taken);
-  SimulationLaws laws = test_laws(scene, state.simulation.numbers.at("critical_thickness"));
+  SimulationLaws laws = test_laws(scene, t.d50, state.simulation.numbers.at("critical_thickness"));
   laws.motion.damping = scene.run.damping;
   t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
   if (!counted_in_steps) return;

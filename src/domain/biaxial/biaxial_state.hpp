@@ -10,7 +10,7 @@
 namespace clathra {
 
 /// The laws of consolidation and shear: only what the scene needs. @param h_max  of the bonds [m], 0 = none
-SimulationLaws test_laws(Scene const& scene, double h_max);
+SimulationLaws test_laws(Scene const& scene, double d50, double h_max);
 
 struct BiaxialTest::State {
   Scene scene;

@@ -38,12 +38,12 @@ BondKind bond_kind(Scene const& scene) {
 
 }  // namespace
 
-SimulationLaws test_laws(Scene const& scene, double h_max) {
+SimulationLaws test_laws(Scene const& scene, double d50, double h_max) {
   SimulationLaws laws;
   laws.contact.grain = grain_law(scene);
   if (h_max > 0) {
     laws.contact.bond_kind = bond_kind(scene);
-    laws.contact.bond = make_bond_law(scene, h_max);
+    laws.contact.bond = make_bond_law(scene, d50, h_max);
   }
   laws.wall = wall_law(scene, scene.test.wall_friction);
   laws.motion.damping = 0.7;
@@ -59,7 +59,7 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     bond_specimen(scene, specimen, preparation, ranks);
   }
   auto const start_simulation = [&] {
-    SimulationLaws laws = test_laws(scene, specimen.critical_thickness);
+    SimulationLaws laws = test_laws(scene, specimen.d50, specimen.critical_thickness);
     laws.scaling = mass_scaling(specimen.radius);
     simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin(), ranks);
     simulation->keep_break_events(scene.output.events || scene.output.takes_snapshots());
@@ -180,7 +180,8 @@ BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback
   State& t = *state_;
   t.scene = scene;
   t.ranks = ranks;
-  t.d50 = specimen.d50 > 0 ? specimen.d50 : diameter_finer(specimen.radius, 0.5, ranks);
+  if (!(specimen.d50 > 0)) specimen.d50 = diameter_finer(specimen.radius, 0.5, ranks);
+  t.d50 = specimen.d50;
   (void)check_rate(scene, rate_numbers(scene, t.d50, specimen.height(), specimen.void_ratio));  // before the work
   with_surroundings(t.simulation, t.d50, [&] { t.bond_and_consolidate(std::move(specimen), progress); });
   t.begin_shear();

@@ -81,8 +81,8 @@ NeededKernel contact_kernel(Scene const& scene, SimulationLaws const& laws) {
 }  // namespace
 
 SceneNeeds needs_of(Scene const& scene) {
-  constexpr double any_thickness = 1e-5;
-  SimulationLaws laws = test_laws(scene, has_bonds(scene) ? any_thickness : 0);
+  constexpr double any_d50 = 1e-4, any_thickness = 1e-5;
+  SimulationLaws laws = test_laws(scene, any_d50, has_bonds(scene) ? any_thickness : 0);
   laws.motion.damping = scene.run.damping;
   SceneNeeds needs;
   add_discs(scene, needs.fields);

@@ -105,7 +105,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
     specimen = by_place(ranks, std::move(specimen));
     bond_specimen(scene, specimen, record, ranks);
     laws.contact.bond_kind = BondKind::parallel;
-    laws.contact.bond = make_bond_law(scene, specimen.critical_thickness);
+    laws.contact.bond = make_bond_law(scene, specimen.d50, specimen.critical_thickness);
   }
   Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
   // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a

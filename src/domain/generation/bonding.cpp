@@ -52,7 +52,7 @@ double unit_of_area(Specimen const& s) { return SumUnits::near(s.d50 * s.d50); }
 
 /// Sum of Eq. 5 over the pairs that a critical thickness would bond [m^2].
 double area_at(Scene const& scene, Specimen const& s, std::vector<NearPair> const& pairs, double h_max, Ranks const& ranks) {
-  BondLaw const law = make_bond_law(scene, h_max);
+  BondLaw const law = make_bond_law(scene, s.d50, h_max);
   ExactSum area(unit_of_area(s));
   for (NearPair const& p : pairs) {
     if (!(p.gap < h_max)) continue;
@@ -198,7 +198,7 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   if (!(outcome.critical_thickness > 0)) return outcome;
   Specimen const s = with_surroundings(ranks, share, outcome.critical_thickness);
   ExactSum area(unit_of_area(s));
-  BondLaw const law = make_bond_law(scene, outcome.critical_thickness);
+  BondLaw const law = make_bond_law(scene, share.d50, outcome.critical_thickness);
   std::vector<SpecimenContact> contacts;
   std::sort(share.contacts.begin(), share.contacts.end(), by_ids);
   auto old = share.contacts.begin();

@@ -36,6 +36,21 @@ void set_moment_length(BondStrengthLaw& strength, BondScene const& bond) {
   }
 }
 
+/// How a bond is read off those between rods that were tested, and whether it may be weaker than a grain contact.
+void set_rod(BondStrengthLaw& strength, Scene const& scene, double d50) {
+  constexpr double rod_diameter = 12e-3, thinnest = 0.6e-3, area = 3e-3 * 50e-3;  // [m, m, m^2] of the bonds between rods
+  if (scene.bond.rod_thickness == RodThickness::clamped) strength.least_rod_thickness = thinnest;
+  if (scene.bond.rod_thickness == RodThickness::scaled) {
+    strength.rod_scale = rod_diameter / d50;
+    strength.rod_share = 0;
+    strength.rod_share_per_width = 1 / area;  // of a bond 1 m long
+  }
+  if (scene.bond.friction_floor) {
+    strength.floor_friction = scene.grains.friction;
+    strength.floor_shape_factor = scene.grains.shape_factor;
+  }
+}
+
 }  // namespace
 
 HydrateStrength hydrate_strength(double temperature, double pore_pressure, double density) {
@@ -90,7 +105,7 @@ std::string hydrate_problem(HydrateScene const& hydrate) {
 
 bool has_bonds(Scene const& scene) { return scene.hydrate.saturation > 0 && scene.bond.law != BondLawKind::none; }
 
-BondLaw make_bond_law(Scene const& scene, double critical_thickness) {
+BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness) {
   HydrateScene const& hydrate = scene.hydrate;
   HydrateStrength const solid = hydrate_strength(hydrate.temperature, hydrate.pore_pressure, hydrate.density);
   bool const printed = scene.bond.coefficients == CoefficientSource::printed;
@@ -98,6 +113,7 @@ BondLaw make_bond_law(Scene const& scene, double critical_thickness) {
   law.strength.tensile_stress = printed ? printed_tensile_stress : 3 * solid.tension;
   law.strength.compressive_stress = printed ? printed_compressive_stress : 3 * solid.compression;
   set_moment_length(law.strength, scene.bond);
+  set_rod(law.strength, scene, d50);
   law.modulus = solid.modulus;
   law.particle_stiffness = scene.grains.kn_particle > 0 ? scene.grains.kn_particle : scene.grains.kn;
   law.critical_thickness = critical_thickness;
@@ -110,7 +126,8 @@ BondLaw make_bond_law(Scene const& scene, double critical_thickness) {
   }
   if (scene.bond.composite == Composite::memory) law.preload_stiffness = scene.grains.kn;
   // f_s and f_r fall from gap 0 to 1.15 mm and rise from there; the last digits are left to the rounding of exponential().
-  double const flattest = std::min(critical_thickness, 1.15e-3);
+  double const thickest = law.thickness_weight * critical_thickness + law.plate_thickness;
+  double const flattest = std::min(rod_thickness(law.strength, thickest), 1.15e-3);
   law.least_shape_of_shear = shape_of_shear(flattest) * (1 - 1e-12);
   law.least_shape_of_rolling = shape_of_rolling(flattest) * (1 - 1e-12);
   return law;
@@ -119,7 +136,7 @@ BondLaw make_bond_law(Scene const& scene, double critical_thickness) {
 BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, double gap, double normal_force) {
   bool const given = scene.bond.mode == BondingMode::given_thickness;
   double const h_max = given ? scene.bond.critical_thickness : critical_thickness_ratio(scene.hydrate.saturation) * d50;
-  BondLaw const law = make_bond_law(scene, h_max);
+  BondLaw const law = make_bond_law(scene, d50, h_max);
   HydrateStrength const solid = hydrate_strength(scene.hydrate.temperature, scene.hydrate.pore_pressure, scene.hydrate.density);
 
   BondCard card;
@@ -132,17 +149,18 @@ BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, dou
   card.q_c = solid.compression;
   card.q_t = solid.tension;
   card.E_m = solid.modulus;
-  card.R_t = tensile_strength(law.strength, card.B, card.thickness);
-  card.R_c = compressive_strength(law.strength, card.B, card.thickness);
+  double const rod = rod_thickness(law.strength, card.thickness);
+  card.R_t = tensile_strength(law.strength, card.B, rod);
+  card.R_c = compressive_strength(law.strength, card.B, rod);
   card.k_mh = card.h0 > 0 ? card.B * law.modulus / card.h0 : 0;
   ContactStiffness<double> const stiffness = law.stiffness(card.B, card.thickness);
   card.k_bn = stiffness.normal;
   card.k_bs = stiffness.shear;
   card.k_bm = stiffness.rolling;
-  card.f_s = shape_of_shear(card.thickness);
-  card.K_s = shear_slope(card.thickness);
-  card.f_r = shape_of_rolling(card.thickness);
-  card.K_r = rolling_slope(card.thickness);
+  card.f_s = shape_of_shear(rod);
+  card.K_s = shear_slope(rod);
+  card.f_r = shape_of_rolling(rod);
+  card.K_r = rolling_slope(rod);
   card.moment_length = moment_length(law.strength, card.B);
   card.bonded = scene.bond.law != BondLawKind::none && h_max > 0 && gap < h_max && card.R_t > 0 && card.R_c > 0;
 

@@ -41,9 +41,9 @@ std::string hydrate_problem(HydrateScene const& hydrate);
 /// elsewhere.
 bool has_bonds(Scene const& scene);
 
-/// The bond law of a scene whose hydrate has the critical thickness h_max [m]. 3 q_t and 3 q_c come from Eq. 13 (`thm`) or are
-/// 1.421e7 and 2.571e7 Pa (`printed`); E_m is that of Eq. 18 with both.
-BondLaw make_bond_law(Scene const& scene, double critical_thickness);
+/// The bond law of a scene whose hydrate has the critical thickness h_max [m] between grains of the median diameter d50 [m]. 3
+/// q_t and 3 q_c come from Eq. 13 (`thm`) or are 1.421e7 and 2.571e7 Pa (`printed`); E_m is that of Eq. 18 with both.
+BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness);
 
 /// Every number of one bond, for `clathra bond` and for checks by hand. SI.
 struct BondCard {

@@ -12,6 +12,7 @@ namespace clathra {
 enum class Generator { under_compaction, tiled, file };
 enum class BondLawKind { none, thickness_dependent, constant_thickness };
 enum class MomentScale { paper_si, rod_mm, similitude };
+enum class RodThickness { printed, clamped, scaled };
 enum class CoefficientSource { printed, thm };
 enum class BondingMode { eq3, given_thickness, areal_target };
 
@@ -59,6 +60,8 @@ struct BondScene {
   Composite composite = Composite::parallel;
   MomentScale moment_scale = MomentScale::similitude;
   double moment_ratio = 1.0 / 14;  ///< c_r of similitude, L_r = c_r B
+  RodThickness rod_thickness = RodThickness::printed;
+  bool friction_floor = false;  ///< R_s >= mu F_n, R_r >= F_n B_c / 6
   CoefficientSource coefficients = CoefficientSource::thm;
   BondingMode mode = BondingMode::eq3;
   double critical_thickness = 0;     ///< h_max for mode given_thickness [m]

@@ -160,7 +160,7 @@ bool RunResults::has_bonds() const {
 
 std::string RunResults::bond_variant() const {
   std::string variant;
-  for (char const* const key : {"law", "composite", "moment_scale", "coefficients"})
+  for (char const* const key : {"law", "composite", "moment_scale", "rod_thickness", "coefficients"})
     variant += (variant.empty() ? "" : ", ") + text(std::string("/scene/bond/") + key).value_or("?");
   return variant;
 }

@@ -44,6 +44,8 @@ constexpr Item items[] = {{"bond.stress", Part::making},
                           {"bond.coefficients", Part::bonds},
                           {"bond.moment_scale", Part::bonds},
                           {"bond.moment_ratio", Part::bonds},
+                          {"bond.rod_thickness", Part::bonds},
+                          {"bond.friction_floor", Part::bonds},
                           {"hydrate.temperature", Part::climate},
                           {"hydrate.pore_pressure", Part::climate},
                           {"grains.kn_particle", Part::climate}};

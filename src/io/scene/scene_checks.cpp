@@ -157,7 +157,8 @@ void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
 void check_bonding(Check& check) {
   BondScene const& bond = check.scene.bond;
   if (!has_bonds(check.scene)) {
-    for (std::string_view const key : {"bond.composite", "bond.mode", "bond.moment_scale", "bond.coefficients"})
+    for (std::string_view const key :
+         {"bond.composite", "bond.mode", "bond.moment_scale", "bond.coefficients", "bond.rod_thickness", "bond.friction_floor"})
       if (check.given(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
     return;
   }

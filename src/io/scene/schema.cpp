@@ -29,6 +29,7 @@ constexpr std::array tables = {Names("toyoura"), Names("uniform")};
 constexpr std::array laws = {Names("none"), Names("thickness_dependent"), Names("constant_thickness")};
 constexpr std::array composites = {Names("replace"), Names("parallel"), Names("memory")};
 constexpr std::array moment_scales = {Names("paper_si"), Names("rod_mm"), Names("similitude")};
+constexpr std::array rod_thicknesses = {Names("printed"), Names("clamped"), Names("scaled")};
 constexpr std::array sources = {Names("printed"), Names("thm")};
 constexpr std::array step_rules = {Names("spectrum"), Names("bound")};
 constexpr std::array modes = {Names("eq3"), Names("given_thickness"), Names("areal_target")};
@@ -74,6 +75,8 @@ Key const table[] = {
   {"bond.composite", choice, CLATHRA_CHOICE(bond, composite), "a bond replaces the grain contact, acts in parallel to it, or replaces it and keeps its force", ratio, 0, 0, {}, composites},
   {"bond.moment_scale", choice, CLATHRA_CHOICE(bond, moment_scale), "length L_r that Eq. 9b lacks: 1 m, 1 mm, or moment_ratio times the bond width", ratio, 0, 0, {}, moment_scales},
   {"bond.moment_ratio", quantity, CLATHRA_FIELD(bond, moment_ratio), "L_r over the bond width with moment_scale \"similitude\"", ratio, 1e-4, 10},
+  {"bond.rod_thickness", choice, CLATHRA_CHOICE(bond, rod_thickness), "thickness of the tested rod that stands for a bond (Eqs. 10, 11): that of its gap, as printed; at least the 0.6 mm of the thinnest one; or the gap scaled by 12 mm over d50", ratio, 0, 0, {}, rod_thicknesses},
+  {"bond.friction_floor", boolean, CLATHRA_FIELD(bond, friction_floor), "a bonded contact is never weaker than an unbonded one: R_s >= mu F_n, R_r >= F_n B_c / 6"},
   {"bond.coefficients", choice, CLATHRA_CHOICE(bond, coefficients), "strength of hydrate: as printed in Eq. 15, or from temperature, pressure and density (Eq. 13)", ratio, 0, 0, {}, sources},
   {"bond.mode", choice, CLATHRA_CHOICE(bond, mode), "critical thickness from saturation (Eq. 3), as given, or such that the bonds fill the saturation", ratio, 0, 0, {}, modes},
   {"bond.critical_thickness", quantity, CLATHRA_FIELD(bond, critical_thickness), "largest gap that a bond spans, with mode \"given_thickness\"", length, 1e-9, 0.01, "bond.mode decides"},
