@@ -11,6 +11,7 @@
 #include "interrupt.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/output_folder.hpp"
+#include "study_forecast.hpp"
 
 namespace clathra {
 namespace {
@@ -57,6 +58,16 @@ double fraction_in(std::string const& log) {
 }
 
 }  // namespace
+
+StudyLimits usual_limits(StudyPlan const& plan, int parallel, int threads, std::vector<std::string> launcher) {
+  StudyLimits limits;
+  limits.launcher = std::move(launcher);
+  int const cores = static_cast<int>(own_cores().size()), members = static_cast<int>(plan.members.size());
+  limits.threads = threads > 0 ? threads : std::max(1, cores / std::max(1, members));
+  int const most = limits.launcher.empty() ? std::max(1, cores / limits.threads) : 1;
+  limits.parallel = parallel > 0 ? parallel : std::min(most, parallel_in_memory(plan));
+  return limits;
+}
 
 StudyRun::StudyRun(StudyPlan& plan, StudyLimits limits)
     : plan_(plan), limits_(std::move(limits)), slot_taken_(static_cast<std::size_t>(limits_.parallel)), cores_(own_cores()) {

@@ -20,6 +20,10 @@ struct StudyLimits {
   double most_seconds = 0;            ///< stop then, members with a checkpoint; 0 = never
 };
 
+/// Programs at a time and threads of each: by default one thread for each member, which is the most work that cores can do, and
+/// more threads only where there are fewer members than cores. @param parallel,threads  0: the default
+StudyLimits usual_limits(StudyPlan const& plan, int parallel, int threads, std::vector<std::string> launcher);
+
 class StudyRun {
  public:
   StudyRun(StudyPlan& plan, StudyLimits limits);

@@ -14,6 +14,7 @@ using Verb = std::function<ExitCode()>;
 inline std::string name_problem(std::string const& name) { return name.empty() ? "the name is empty" : ""; }
 
 void add_run(CLI::App& program, Verb& chosen);
+void add_reproduce(CLI::App& program, Verb& chosen);
 void add_study(CLI::App& program, Verb& chosen);
 void add_check(CLI::App& program, Verb& chosen);
 void add_generate(CLI::App& program, Verb& chosen);

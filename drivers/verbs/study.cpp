@@ -43,15 +43,8 @@ Study study_of(StudyOptions const& options) {
   return study;
 }
 
-/// Programs at a time and threads of each: by default one thread for each member, which is the most work that cores can do, and
-/// more threads only where there are fewer members than cores.
 StudyLimits limits_of(StudyOptions const& options, StudyPlan const& plan) {
-  StudyLimits limits;
-  limits.launcher = words_of(options.launcher);
-  int const cores = static_cast<int>(own_cores().size()), members = static_cast<int>(plan.members.size());
-  limits.threads = options.threads > 0 ? options.threads : std::max(1, cores / std::max(1, members));
-  int const most = limits.launcher.empty() ? std::max(1, cores / limits.threads) : 1;
-  limits.parallel = options.parallel > 0 ? options.parallel : std::min(most, parallel_in_memory(plan));
+  StudyLimits limits = usual_limits(plan, options.parallel, options.threads, words_of(options.launcher));
   limits.options = {"--checkpoint-every", options.checkpoint_every};
   if (options.force) limits.options.push_back("--force");
   limits.most_seconds = options.most_time.empty() ? 0 : duration_of(options.most_time);

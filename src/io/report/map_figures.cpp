@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 #include "domain/measurement/principal_axes.hpp"
 #include "domain/measurement/strain_field.hpp"
 #include "domain/measurement/test_numbers.hpp"
 #include "io/report/curves.hpp"
+#include "io/report/drawn_picture.hpp"
 #include "io/report/grading_figure.hpp"
 #include "io/report/maps.hpp"
 #include "io/report/markup.hpp"
-#include "io/report/png.hpp"
 #include "io/report/rose_diagrams.hpp"
 #include "io/results/snapshot_file.hpp"
 
@@ -34,49 +32,6 @@ struct Shown {
   Snapshot const& first() const { return snapshots.front(); }
   Snapshot const& last() const { return snapshots.back(); }
 };
-
-std::string strain_text(Snapshot const& s) { return fmt::format("ε₁ = {:.3g} %", s.eps1 * percent); }
-
-/// A picture to be made: what of, how many pixels a grain is worth, and who draws it.
-struct Picture {
-  MapView view;
-  double grain;  ///< mean diameter [m]
-  std::string alt;
-  std::function<Canvas(MapView const&)> draw;
-  double pixels_per_grain = 24;
-};
-
-/// As high as `bytes` allow, but no higher than is of use, and at most 1400 pixels.
-std::string drawn(Picture const& wanted, std::size_t bytes) {
-  constexpr double lowest = 120, highest = 1400, safety = 0.93;
-  MapView view = wanted.view;
-  double pixels = std::clamp(view.height / wanted.grain * wanted.pixels_per_grain, lowest, highest);
-  for (;;) {
-    view.pixels = static_cast<int>(pixels);
-    Canvas const canvas = wanted.draw(view);
-    std::string const png = png_bytes(canvas);
-    if (png.size() <= bytes || pixels <= lowest) return picture(png, canvas, wanted.alt);
-    double const shrink = std::sqrt(static_cast<double>(bytes) / static_cast<double>(png.size()));
-    pixels = std::max(lowest, pixels * std::min(safety, shrink));
-  }
-}
-
-double mean_diameter(Snapshot const& s) {
-  return 2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
-}
-
-std::string titled(std::string const& image, std::string const& text) {
-  return "<div>" + image + "<p>" + escaped(text) + "</p></div>\n";
-}
-
-std::string strip(std::string const& contents) { return "<div class=\"strip\">\n" + contents + "</div>\n"; }
-
-std::string mode_entries() {
-  std::string entries;
-  for (BreakModeNames const& m : break_modes)
-    entries += patch_entry(mode_stroke(m.mode).colour, std::string("broken in ") + m.name);
-  return entries;
-}
 
 /// The grains in the middle, at the start and at the end.
 std::string detail_pictures(Shown const& shown) {
@@ -149,16 +104,6 @@ std::string force_figure(Shown const& shown) {
       "Force chains", strip(titled(image, strain_text(s))) + legend(entries),
       "How the load finds its way through the grains near the peak: a line from centre to centre of two grains, as wide as "
       "the normal force between them is large.");
-}
-
-/// A round number that at most two of a hundred values exceed.
-double upper_end(std::vector<float> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }), values.end());
-  if (values.empty()) return 0;
-  auto const at = values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  double const end = double(*at);
-  return end > 0 ? std::ceil(end / tick_step(0, end, 10)) * tick_step(0, end, 10) : 0;
 }
 
 std::string strain_figure(Shown const& shown) {

@@ -4,22 +4,13 @@
 #include <iterator>
 
 #include "domain/measurement/confidence.hpp"
+#include "domain/measurement/curve_features.hpp"
 #include "io/results/run_results.hpp"
 
 namespace clathra {
 namespace {
 
 constexpr int points = 200;
-
-/// The value at a strain; strains ascend.
-double value_at(std::vector<double> const& eps1, std::vector<double> const& values, double strain) {
-  auto const after = std::lower_bound(eps1.begin(), eps1.end(), strain);
-  if (after == eps1.begin()) return values.front();
-  if (after == eps1.end()) return values.back();
-  auto const i = static_cast<std::size_t>(after - eps1.begin());
-  double const part = (strain - eps1[i - 1]) / (eps1[i] - eps1[i - 1]);
-  return values[i - 1] + part * (values[i] - values[i - 1]);
-}
 
 void add_statistics(SeedBand& band) {
   for (std::size_t i = 0; i < band.eps1.size(); ++i) {

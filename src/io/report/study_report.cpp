@@ -9,107 +9,19 @@
 #include <span>
 
 #include "io/formats/text_file.hpp"
+#include "io/report/group_curves.hpp"
 #include "io/report/markup.hpp"
-#include "io/report/seed_bands.hpp"
 
 namespace clathra {
 namespace {
 
 constexpr double percent = 100, mega = 1e-6;
-constexpr char strain_axis[] = "axial strain ε₁ [%]";
 constexpr std::size_t most_seeds_drawn = 10, most_small_figures = 60;  // of one kind; a page stays below a few megabytes
 constexpr char saturation_key[] = "hydrate.saturation";
-
-/// What is shown of a band.
-struct Shown {
-  std::size_t column;  ///< in band_columns
-  char const *heading, *axis, *caption;
-  double factor;
-};
-constexpr Shown shown_bands[] = {
-    {0, "Stress and strain", "deviator stress q [MPa]", "Deviator stress on the walls.", mega},
-    {1, "Change of volume", "volumetric strain εᵥ [%]", "Compression is positive; a falling curve dilates.", percent},
-    {2, "Intact bonds", "intact bonds [% of those installed]", "Bonds that still hold, as a share of those installed.", 1},
-    {3, "Contacts", "mechanical coordination number", "Contacts of a disc, without those that carry nothing (Thornton 2000).", 1},
-    {4, "Broken in tension", "bonds broken in tension", "Those of the consolidation included.", 1},
-    {5, "Broken in compression", "bonds broken in compression", "Those of the consolidation included.", 1},
-    {6, "Broken in shear", "bonds broken in shear", "Those of the consolidation included.", 1},
-    {7, "Broken in rolling", "bonds broken in rolling", "Those of the consolidation included.", 1}};
-constexpr std::size_t multiplied = 3;  // of them are also shown group by group;
-
-/// A group with the curves of its finished members.
-struct GroupCurves {
-  std::string name;
-  std::vector<Setting> settings;
-  std::vector<SeedBand> bands;
-  Stroke stroke;
-};
-
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
-}
-
-std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<MemberResult> const& members,
-                                          std::vector<std::filesystem::path> const& folders) {
-  std::vector<GroupCurves> groups;
-  for (std::size_t g = 0; g < study.groups.size(); ++g) {
-    std::vector<std::filesystem::path> own;
-    for (std::size_t i = 0; i < members.size(); ++i)
-      if (members[i].group == g && members[i].state == MemberState::finished) own.push_back(folders[i]);
-    if (own.empty()) continue;
-    groups.push_back({study.groups[g].name, study.groups[g].settings, seed_bands(own), run_stroke(groups.size())});
-  }
-  return groups;
-}
-
-/// Whether a column says something: a clean sand has no bonds.
-bool says_something(GroupCurves const& group, std::size_t column) {
-  SeedBand const& band = group.bands[column];
-  return std::any_of(band.mean.begin(), band.mean.end(), [](double value) { return value != 0; });
-}
-
-/// Shares end at 100 %.
-Axis axis_of(Shown const& what, Range const& values) {
-  bool const share = std::string_view(band_columns[what.column]).ends_with("_pct");
-  return share ? Axis{what.axis, 0, percent} : values.axis(what.axis);
-}
-
-Area area_of(GroupCurves const& group, Shown const& what) {
-  SeedBand const& band = group.bands[what.column];
-  return {
-      group.name, scaled(band.eps1, percent), scaled(band.low, what.factor), scaled(band.high, what.factor), group.stroke.colour,
-      0.22};
-}
-
-Curve mean_of(GroupCurves const& group, Shown const& what) {
-  SeedBand const& band = group.bands[what.column];
-  return {group.name, scaled(band.eps1, percent), scaled(band.mean, what.factor), group.stroke};
-}
-
-/// The means of all groups with their bands in one figure.
-std::string overlay(std::vector<GroupCurves> const& groups, Shown const& what) {
-  Plot plot;
-  Range strains, values;
-  for (GroupCurves const& group : groups) {
-    if (!says_something(group, what.column)) continue;
-    plot.areas.push_back(area_of(group, what));
-    plot.curves.push_back(mean_of(group, what));
-    strains.include(plot.curves.back().x);
-    values.include(plot.areas.back().low);
-    values.include(plot.areas.back().high);
-    plot.description += fmt::format("{}: {:.3g} at the end. ", group.name, plot.curves.back().y.back());
-  }
-  if (plot.curves.empty()) return "";
-  plot.title = std::string(what.heading) + ", mean over the seeds";
-  plot.x = strains.exact_axis(strain_axis);
-  plot.y = axis_of(what, values);
-  return figure(what.heading, svg(plot) + legend(plot.curves),
-                std::string(what.caption) + " Lines: mean over the seeds; bands: its 95 % confidence interval at each strain.");
-}
+constexpr std::size_t multiplied = 3;  // of the shown bands are also shown group by group
 
 /// One group in a small figure: each seed thin, their mean and its band.
-std::string small_figure(GroupCurves const& group, Shown const& what, Axis const& x, Axis const& y) {
+std::string small_figure(GroupCurves const& group, ShownBand const& what, Axis const& x, Axis const& y) {
   Plot plot;
   SeedBand const& band = group.bands[what.column];
   plot.title = group.name + ": " + what.heading;
@@ -125,7 +37,7 @@ std::string small_figure(GroupCurves const& group, Shown const& what, Axis const
 }
 
 /// All groups beside each other on the same axes.
-std::string small_multiples(std::vector<GroupCurves> const& groups, Shown const& what) {
+std::string small_multiples(std::vector<GroupCurves> const& groups, ShownBand const& what) {
   Range strains, values;
   for (GroupCurves const& group : groups)
     for (std::vector<double> const& seed : group.bands[what.column].seeds)
@@ -133,7 +45,7 @@ std::string small_multiples(std::vector<GroupCurves> const& groups, Shown const&
   Axis const x = strains.exact_axis(strain_axis), y = axis_of(what, values);
   std::string figures;
   for (std::size_t i = 0; i < std::min(groups.size(), most_small_figures); ++i)
-    if (says_something(groups[i], what.column)) figures += small_figure(groups[i], what, x, y);
+    if (says_something(groups[i], what)) figures += small_figure(groups[i], what, x, y);
   return figures.empty() ? "" : "<div class=\"multiples\">\n" + figures + "</div>\n";
 }
 
@@ -141,15 +53,6 @@ struct Column {
   char const *number, *heading, *unit;
   double factor;
 };
-
-/// "3.04 ± 0.12": as many digits as the interval leaves sure.
-std::string with_interval(std::vector<double> const& values, double factor) {
-  MeanInterval const m = mean_interval(values);
-  if (!m.half_width) return with_minus(fmt::format("{:.3g}", m.mean * factor));
-  double const half = *m.half_width * factor;
-  int const digits = half > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6) : 3;
-  return with_minus(fmt::format("{:.{}f}", m.mean * factor, digits)) + fmt::format(" ± {:.{}f}", half, digits);
-}
 
 std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> const& columns, char const* what) {
   std::string head = fmt::format("<th>{}</th><th>seeds</th>", what), rows;
@@ -171,45 +74,6 @@ std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> c
   }
   return "<div class=\"scroll several sure\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows +
          "</tbody></table></div>\n";
-}
-
-/// A number of the envelopes against the saturation, with its interval as a vertical line.
-std::string strength_figure(std::vector<GroupNumbers> const& materials, char const* number, std::string const& heading,
-                            std::string const& axis, double factor) {
-  Plot plot;
-  Range saturations, values;
-  std::vector<std::pair<double, MeanInterval>> points;
-  for (GroupNumbers const& material : materials) {
-    auto const setting = std::find_if(material.settings.begin(), material.settings.end(),
-                                      [](Setting const& s) { return s.first == saturation_key; });
-    auto const found = material.values.find(number);
-    if (setting == material.settings.end() || found == material.values.end()) continue;
-    double const value = std::atof(setting->second.c_str());
-    points.emplace_back(setting->second.find('%') == std::string::npos ? value * percent : value, mean_interval(found->second));
-  }
-  std::set<double> distinct;
-  for (auto const& [saturation, mean] : points) distinct.insert(saturation);
-  if (distinct.size() < 2 || distinct.size() < points.size()) return "";  // several materials at one saturation have no one line
-  std::sort(points.begin(), points.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
-  Curve means{"mean over the seeds", {}, {}, {colours::vermilion, ""}, true};
-  for (auto const& [saturation, m] : points) {
-    means.x.push_back(saturation);
-    means.y.push_back(m.mean * factor);
-    plot.curves.push_back(
-        {"95 % interval", {saturation, saturation}, {m.low() * factor, m.high() * factor}, {colours::dark, "", 2}});
-    values.include(plot.curves.back().y);
-    plot.description +=
-        fmt::format("{:g} % hydrate: {:.3g} ± {:.2g}. ", saturation, m.mean * factor, m.half_width.value_or(0) * factor);
-  }
-  saturations.include(means.x);
-  values.include(means.y);
-  plot.curves.push_back(std::move(means));
-  plot.title = heading + " against hydrate saturation";
-  plot.x = saturations.axis("hydrate saturation [%]");
-  plot.y = values.axis(axis);
-  return figure(plot.title, svg(plot),
-                "One envelope for each seed, fitted to its tests at all confining stresses. Points: mean over the seeds; "
-                "vertical lines: its 95 % confidence interval.");
 }
 
 std::string strength_part(std::vector<GroupNumbers> const& materials) {
@@ -280,9 +144,9 @@ void write_study_report(Study const& study, std::vector<MemberResult> const& mem
       finished, groups.size(), escaped(varied_keys(study)));
   body += problems(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group");
   std::string overlays, multiples;
-  for (Shown const& what : shown_bands) overlays += overlay(curves, what);
+  for (ShownBand const& what : shown_bands) overlays += overlay(curves, what);
   body += "<h2>Curves</h2>\n" + side_by_side(overlays) + strength_part(envelopes_by_material(study, members));
-  for (Shown const& what : std::span(shown_bands).first(multiplied))
+  for (ShownBand const& what : std::span(shown_bands).first(multiplied))
     if (std::string const small = curves.size() > 1 ? small_multiples(curves, what) : ""; !small.empty())
       multiples += fmt::format("<h3>{} over {}</h3>\n", what.axis, strain_axis) + small;
   if (!multiples.empty())

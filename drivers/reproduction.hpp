@@ -1,0 +1,20 @@
+#pragma once
+/// The seed paper as a study: which tests, at which size.
+#include <filesystem>
+
+#include "io/results/paper_claims.hpp"
+#include "io/scene/study_file.hpp"
+
+namespace clathra {
+
+struct ReproductionSize {
+  std::int64_t discs = 20000;
+  int seeds = 5;
+};
+inline constexpr ReproductionSize full_size{}, quick_size{2000, 2};
+
+/// The tests of a design, each with seeds 1 to n, as groups named by paper_cell(). Writes what they share to FOLDER/scene.toml.
+/// @throws FileProblem where it cannot be written
+Study reproduction_study(PaperDesign const& design, ReproductionSize const& size, std::filesystem::path const& folder);
+
+}  // namespace clathra

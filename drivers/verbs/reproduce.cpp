@@ -1,0 +1,168 @@
+/// `clathra reproduce`: every figure and claim of the seed paper, from scratch.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "clathra_version.hpp"
+#include "domain/scene/sample_design.hpp"
+#include "duration.hpp"
+#include "interrupt.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/report/paper_report.hpp"
+#include "io/results/laboratory_data.hpp"
+#include "io/results/output_folder.hpp"
+#include "io/results/paper_numbers.hpp"
+#include "io/results/scorecard.hpp"
+#include "print.hpp"
+#include "reproduction.hpp"
+#include "scene_options.hpp"
+#include "study_forecast.hpp"
+#include "study_run.hpp"
+#include "verbs.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReproduceOptions {
+  std::string output = "out/reproduce", data, most_time;
+  std::vector<std::string> overrides;
+  std::int64_t discs = 0;
+  int seeds = 0, parallel = 0, threads = 0;
+  bool quick = false, dry_run = false, collect = false, screening = false;
+};
+
+ReproductionSize size_of(ReproduceOptions const& options) {
+  ReproductionSize size = options.quick ? quick_size : full_size;
+  if (options.discs > 0) size.discs = options.discs;
+  if (options.seeds > 0) size.seeds = options.seeds;
+  return size;
+}
+
+/// Four tests of bonded sand with their sands: enough to compare readings by.
+PaperDesign design_of(ReproduceOptions const& options) {
+  return options.screening ? PaperDesign{{26, 55}, {1, 3}, {}} : PaperDesign{};
+}
+
+std::map<std::string, std::string> facts_of(ReproduceOptions const& options, StudyPlan const& plan) {
+  ReproductionSize const size = size_of(options);
+  std::string settings, seeds;
+  for (std::string const& text : options.overrides) settings += (settings.empty() ? "" : "; ") + text;
+  for (std::uint64_t const seed : plan.study.seeds) seeds += fmt::format("{}{}", seeds.empty() ? "" : ", ", seed);
+  double cost = 0;
+  for (MemberResult const& member : plan.members) cost += member.wall_seconds;
+  return {{"discs", fmt::format("{}", size.discs)},
+          {"seeds", seeds},
+          {"settings", settings.empty() ? "the defaults" : settings},
+          {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
+          {"program", std::string("clathra ") + CLATHRA_VERSION + " (" + CLATHRA_GIT_HASH + ")"}};
+}
+
+std::optional<LaboratoryData> data_of(ReproduceOptions const& options) {
+  if (options.data.empty()) return {};
+  return read_laboratory_data(options.data);
+}
+
+/// Scorecard and report of what there is.
+ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::optional<LaboratoryData> const& data,
+                  ProgressLine& line) {
+  std::vector<fs::path> folders;
+  for (StudyTask const& task : plan.runs) folders.push_back(task.result);
+  PaperDesign const design = design_of(options);
+  std::size_t const last = plan.study.groups.size() - 1;
+  Scene const scene = member_scene(plan.study, plan.study.groups[last], 1, plan.overrides).scene;
+  double const d50 = design_sample(scene).grading.d50();
+  Scorecard const card{"The seed paper, claim by claim", facts_of(options, plan),
+                       paper_claims(design, numbers_of_members(plan.study, plan.members, folders), d50)};
+  fs::path const& out = plan.study.folder;
+  replace_text_file(out / "study.csv", study_csv(plan.study, plan.members));
+  replace_text_file(out / "scorecard.md", scorecard_markdown(card));
+  replace_text_file(out / "scorecard.json", scorecard_json(card));
+  auto const finished = std::count_if(plan.members.begin(), plan.members.end(),
+                                      [](MemberResult const& m) { return m.state == MemberState::finished; });
+  if (finished > 0)
+    write_paper_report({plan.study, plan.members, folders, design, card, scene, d50, data}, out / "reproduce.html");
+  line.repeat_warnings();
+  std::string text = fmt::format("tests     {} of {} finished\n", finished, plan.members.size());
+  for (std::size_t i = 0; i < plan.members.size(); ++i)
+    if (plan.members[i].state == MemberState::failed)
+      text += "failed    " + plan.runs[i].name + ": " + plan.members[i].message + "\n";
+  for (Claim const& claim : card.claims)
+    text += fmt::format("{:>5}     {:<13} {}\n", "(" + claim.id + ")", name_of(claim.verdict()), claim.words);
+  text += fmt::format("claims    {}\nresults   {}\n", tally(card.claims), (out / "scorecard.md").string());
+  if (options.quick) text += "two small specimens decide little: most claims need the full reproduction, without --quick\n";
+  print_result(text);
+  bool const failed =
+      std::any_of(plan.members.begin(), plan.members.end(), [](MemberResult const& m) { return m.state == MemberState::failed; });
+  return failed ? ExitCode::refused : finished == std::ssize(plan.members) ? ExitCode::done : ExitCode::to_be_resumed;
+}
+
+ExitCode reproduce(ReproduceOptions const& options) {
+  std::optional<LaboratoryData> const data = data_of(options);
+  fs::create_directories(options.output);
+  OutputFolder const lock(options.output);
+  StudyPlan plan = plan_study(reproduction_study(design_of(options), size_of(options), options.output), options.overrides);
+  for (std::size_t group = 0; group < plan.study.groups.size(); ++group)
+    for (std::uint64_t const seed : plan.study.seeds) add_member(plan, group, seed);
+  StudyLimits limits = usual_limits(plan, options.parallel, options.threads, {});
+  limits.options = {"--checkpoint-every", "10m"};
+  limits.most_seconds = options.most_time.empty() ? 0 : duration_of(options.most_time);
+  if (options.dry_run) return print_result(study_forecast(plan, limits.parallel, limits.threads));
+  if (options.collect) {
+    ProgressLine line;
+    for (std::size_t i = 0; i < plan.members.size(); ++i) find_finished(plan, i);
+    return conclude(plan, options, data, line);
+  }
+  print_result(study_forecast(plan, limits.parallel, limits.threads));
+  watch_for_interrupt();
+  StudyRun run(plan, limits);
+  ExitCode const code = run.run();
+  ExitCode const concluded = conclude(plan, options, data, run.line());
+  return code == ExitCode::done ? concluded : code;
+}
+
+void add_options(CLI::App& verb, ReproduceOptions& options) {
+  verb.add_flag("--quick", options.quick, "2,000 discs and two seeds: a few minutes");
+  verb.add_option("--output", options.output, "folder of the results; called again, it goes on where it was stopped")
+      ->capture_default_str()
+      ->type_name("DIR")
+      ->check(CLI::Validator(name_problem, ""));
+  verb.add_option("--particles", options.discs, "discs of each specimen (default: 20000)")
+      ->check(CLI::Range(100, 100000000))
+      ->type_name("N");
+  verb.add_option("--seeds", options.seeds, "seeds 1 to N of each test (default: 5)")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("N");
+  verb.add_option("--set", options.overrides,
+                  "override a key of the scene in all tests: another reading of the paper; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  verb.add_option("--data", options.data, "points of your own laboratory to be drawn into the figures (CSV; docs/reproduce.md)")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  verb.add_flag("--screening", options.screening, "only 26 and 55 % at 1 and 3 MPa with their sands, to compare readings");
+  verb.add_option("--parallel", options.parallel, "tests at a time (default: as many as cores and memory allow)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  verb.add_option("--threads", options.threads, "threads of each test")->check(CLI::Range(1, 4096))->type_name("N");
+  verb.add_option("--max-walltime", options.most_time, "stop after this time, tests with a checkpoint (3h50m, 90s)")
+      ->type_name("TIME")
+      ->check(CLI::Validator(duration_problem, ""));
+  auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what it will cost");
+  verb.add_flag("--collect", options.collect, "only scorecard and report of what there is")->excludes(dry);
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& program, Verb& chosen) {
+  auto const options = std::make_shared<ReproduceOptions>();
+  CLI::App* const verb =
+      program.add_subcommand("reproduce", "Every figure and claim of the seed paper, with intervals and a scorecard");
+  add_options(*verb, *options);
+  verb->footer("Example: clathra reproduce --quick");
+  verb->callback([options, &chosen] { chosen = [options] { return reproduce(*options); }; });
+}
+
+}  // namespace clathra

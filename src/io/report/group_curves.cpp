@@ -1,0 +1,141 @@
+#include "io/report/group_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "io/report/markup.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double percent = 100;
+constexpr char saturation_key[] = "hydrate.saturation";
+
+}  // namespace
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<MemberResult> const& members,
+                                          std::vector<std::filesystem::path> const& folders) {
+  std::vector<GroupCurves> groups;
+  for (std::size_t g = 0; g < study.groups.size(); ++g) {
+    std::vector<std::filesystem::path> own;
+    for (std::size_t i = 0; i < members.size(); ++i)
+      if (members[i].group == g && members[i].state == MemberState::finished) own.push_back(folders[i]);
+    if (own.empty()) continue;
+    groups.push_back({study.groups[g].name, study.groups[g].settings, seed_bands(own), run_stroke(groups.size())});
+  }
+  return groups;
+}
+
+/// Whether a column says something: a clean sand has no bonds.
+bool says_something(GroupCurves const& group, ShownBand const& what) {
+  SeedBand const& band = group.bands[what.column];
+  return std::any_of(band.mean.begin(), band.mean.end(), [](double value) { return value != 0; });
+}
+
+/// Shares end at 100 %.
+Axis axis_of(ShownBand const& what, Range const& values) {
+  bool const share = std::string_view(band_columns[what.column]).ends_with("_pct");
+  return share ? Axis{what.axis, 0, percent} : values.axis(what.axis);
+}
+
+Area area_of(GroupCurves const& group, ShownBand const& what) {
+  SeedBand const& band = group.bands[what.column];
+  return {
+      group.name, scaled(band.eps1, percent), scaled(band.low, what.factor), scaled(band.high, what.factor), group.stroke.colour,
+      0.22};
+}
+
+Curve mean_of(GroupCurves const& group, ShownBand const& what) {
+  SeedBand const& band = group.bands[what.column];
+  return {group.name, scaled(band.eps1, percent), scaled(band.mean, what.factor), group.stroke};
+}
+
+/// The means of all groups with their bands in one figure.
+std::string overlay(std::vector<GroupCurves> const& groups, ShownBand const& what, std::vector<Curve> const& more) {
+  Plot plot;
+  Range strains, values;
+  for (GroupCurves const& group : groups) {
+    if (!says_something(group, what)) continue;
+    plot.areas.push_back(area_of(group, what));
+    plot.curves.push_back(mean_of(group, what));
+    strains.include(plot.curves.back().x);
+    values.include(plot.areas.back().low);
+    values.include(plot.areas.back().high);
+    plot.description += fmt::format("{}: {:.3g} at the end. ", group.name, plot.curves.back().y.back());
+  }
+  if (plot.curves.empty()) return "";
+  for (Curve const& curve : more) {
+    strains.include(curve.x);
+    values.include(curve.y);
+    plot.curves.push_back(curve);
+  }
+  plot.title = std::string(what.heading) + ", mean over the seeds";
+  plot.x = strains.exact_axis(strain_axis);
+  plot.y = axis_of(what, values);
+  return figure(what.heading, svg(plot) + legend(plot.curves),
+                std::string(what.caption) + " Lines: mean over the seeds; bands: its 95 % confidence interval at each strain.");
+}
+
+/// "3.04 ± 0.12": as many digits as the interval leaves sure.
+std::string with_interval(std::vector<double> const& values, double factor) {
+  MeanInterval const m = mean_interval(values);
+  if (!m.half_width) return with_minus(fmt::format("{:.3g}", m.mean * factor));
+  double const half = *m.half_width * factor;
+  int const digits = half > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6) : 3;
+  return with_minus(fmt::format("{:.{}f}", m.mean * factor, digits)) + fmt::format(" ± {:.{}f}", half, digits);
+}
+
+/// A number of the envelopes against the saturation, with its interval as a vertical line.
+std::string strength_figure(std::vector<GroupNumbers> const& materials, char const* number, std::string const& heading,
+                            std::string const& axis, double factor, std::vector<Curve> const& more) {
+  Plot plot;
+  Range saturations, values;
+  std::vector<std::pair<double, MeanInterval>> points;
+  for (GroupNumbers const& material : materials) {
+    auto const setting = std::find_if(material.settings.begin(), material.settings.end(),
+                                      [](Setting const& s) { return s.first == saturation_key; });
+    auto const found = material.values.find(number);
+    if (setting == material.settings.end() || found == material.values.end()) continue;
+    double const value = std::atof(setting->second.c_str());
+    points.emplace_back(setting->second.find('%') == std::string::npos ? value * percent : value, mean_interval(found->second));
+  }
+  std::set<double> distinct;
+  for (auto const& [saturation, mean] : points) distinct.insert(saturation);
+  if (distinct.size() < 2 || distinct.size() < points.size()) return "";  // several materials at one saturation have no one line
+  std::sort(points.begin(), points.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
+  Curve means{"mean over the seeds", {}, {}, {colours::vermilion, ""}, true};
+  for (auto const& [saturation, m] : points) {
+    means.x.push_back(saturation);
+    means.y.push_back(m.mean * factor);
+    plot.curves.push_back(
+        {"95 % interval", {saturation, saturation}, {m.low() * factor, m.high() * factor}, {colours::dark, "", 2}});
+    values.include(plot.curves.back().y);
+    plot.description +=
+        fmt::format("{:g} % hydrate: {:.3g} ± {:.2g}. ", saturation, m.mean * factor, m.half_width.value_or(0) * factor);
+  }
+  saturations.include(means.x);
+  values.include(means.y);
+  plot.curves.push_back(std::move(means));
+  for (Curve const& curve : more) {
+    saturations.include(curve.x);
+    values.include(curve.y);
+    plot.curves.push_back(curve);
+  }
+  plot.title = heading + " against hydrate saturation";
+  plot.x = saturations.axis("hydrate saturation [%]");
+  plot.y = values.axis(axis);
+  return figure(plot.title, svg(plot),
+                "One envelope for each seed, fitted to its tests at all confining stresses. Points: mean over the seeds; "
+                "vertical lines: its 95 % confidence interval.");
+}
+
+}  // namespace clathra
