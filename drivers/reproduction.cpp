@@ -31,7 +31,10 @@ StudyGroup group_of(int saturation, int stress) {
   StudyGroup group{paper_cell(saturation, stress), {}, paper_material(saturation)};
   group.settings = {{saturation_key, saturation == 0 ? "0" : fmt::format("{} %", saturation)},
                     {confining_stress, fmt::format("{} MPa", stress)}};
-  if (saturation == 55 && stress == 3) group.settings.emplace_back(snapshots_key, snapshot_strains());
+  if (saturation == 55 && stress == 3) {
+    group.settings.emplace_back("output.snapshots", "1");  // the start, too
+    group.settings.emplace_back(snapshots_key, snapshot_strains());
+  }
   return group;
 }
 
@@ -58,7 +61,7 @@ Study reproduction_study(PaperDesign const& design, ReproductionSize const& size
   for (int const saturation : design.saturations)
     for (int const stress : design.stresses) study.groups.push_back(group_of(saturation, stress));
   for (double const thickness : design.thicknesses) study.groups.push_back(group_of(thickness));
-  study.keys = {saturation_key, confining_stress, snapshots_key, "bond.mode", "bond.critical_thickness"};
+  study.keys = {saturation_key, confining_stress, "output.snapshots", snapshots_key, "bond.mode", "bond.critical_thickness"};
   std::filesystem::create_directories(folder);
   replace_text_file(study.scene, shared_keys(size.discs));
   return study;

@@ -31,6 +31,7 @@ std::vector<GroupCurves> chosen(std::vector<GroupCurves> const& curves, std::vec
     if (found == curves.end()) continue;
     groups.push_back(*found);
     groups.back().stroke = run_stroke(groups.size() - 1);
+    groups.back().name = paper_label(cell);
   }
   return groups;
 }
@@ -108,7 +109,7 @@ std::string strength_curves(Reproduction const& r, std::string const& title, std
   plot.x = forces.axis("normal force of the bond [N/m]");
   plot.y = strengths.axis(axis);
   return figure(title, svg(plot) + legend(plot.curves),
-                beside_words("Laboratory envelopes: strength first rises with the normal force, then falls to nothing.",
+                beside_words("in the laboratory strength first rises with the normal force, then falls to nothing.",
                              "a bond across no gap between two grains of d50, by the law of these tests."));
 }
 
@@ -125,7 +126,7 @@ std::string critical_thickness_figure() {
     law.x.push_back(0.2 * i);
     law.y.push_back(critical_thickness_ratio(i / 500.0));
   }
-  Curve const images{"three images", {30, 50, 86.3}, {8.13 / 200, 15.6 / 200, 30.7 / 320}, {colours::vermilion, "1 400"}, true};
+  Curve const images{"three images", {30, 50, 86.3}, {8.13 / 200, 15.6 / 200, 30.7 / 320}, {colours::vermilion, "1 6"}, true};
   plot.title = "Figure 6: Critical thickness";
   plot.description = "Critical thickness over d50 against saturation.";
   plot.x = {"saturation [%]", 0, 100};

@@ -21,7 +21,7 @@ std::string row(std::string const& tag, std::vector<std::string> const& cells) {
 std::string table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows) {
   std::string body;
   for (std::vector<std::string> const& cells : rows) body += row("td", cells);
-  return "<div class=\"scroll\"><table><thead>" + row("th", head) + "</thead><tbody>\n" + body + "</tbody></table></div>\n";
+  return "<div class=\"scroll words\"><table><thead>" + row("th", head) + "</thead><tbody>\n" + body + "</tbody></table></div>\n";
 }
 
 std::string claims_table(std::vector<Claim> const& claims) {

@@ -14,6 +14,15 @@ std::string paper_material(int saturation) { return saturation == 0 ? "sand" : f
 std::string paper_cell(int saturation, int stress) { return fmt::format("{}_{}MPa", paper_material(saturation), stress); }
 std::string paper_cell(double thickness) { return fmt::format("h{:g}um_1MPa", std::round(thickness * 1e8) / 100); }
 
+std::string paper_label(std::string const& cell) {
+  std::size_t const bar = cell.find('_');
+  std::string const material = cell.substr(0, bar), stress = cell.substr(bar + 1);
+  std::string const words = material == "sand"   ? material
+                            : material[0] == 's' ? material.substr(1) + " %"
+                                                 : "h_max = " + material.substr(1, material.size() - 3) + " um";
+  return words + ", " + stress.substr(0, stress.size() - 3) + " MPa";
+}
+
 void PaperNumbers::add(std::string const& cell, std::uint64_t seed, std::map<std::string, double> const& numbers) {
   for (auto const& [name, value] : numbers)
     if (std::isfinite(value)) numbers_[cell][name][seed] = value;

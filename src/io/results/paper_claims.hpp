@@ -22,6 +22,8 @@ inline constexpr double paper_end = 0.1504;
 /// "sand_1MPa", "s55_3MPa", "h13.7um_1MPa": a group of tests.
 std::string paper_cell(int saturation, int stress);
 std::string paper_cell(double thickness);
+/// The cell in words: "55 %, 3 MPa", "sand, 1 MPa", "h_max = 13.7 um, 1 MPa".
+std::string paper_label(std::string const& cell);
 /// "sand", "s55": what has an envelope.
 std::string paper_material(int saturation);
 

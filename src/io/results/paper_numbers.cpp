@@ -4,11 +4,74 @@
 #include <cmath>
 #include <numbers>
 
+#include "domain/measurement/fabric.hpp"
+#include "domain/measurement/strain_field.hpp"
 #include "domain/measurement/strength_fit.hpp"
+#include "domain/measurement/test_numbers.hpp"
+#include "io/results/events.hpp"
 #include "io/results/run_results.hpp"
+#include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+/// How far the fabric points upward: F_yy - F_xx of the pairs that press or hold each other.
+double vertical_deviator(Rose const& rose) { return -0.5 * rose.normal_anisotropy * std::cos(2 * rose.normal_direction); }
+
+/// Of the major axis from the vertical [degrees], -90 to 90.
+double off_the_vertical(Rose const& rose) { return (rose.normal_direction - std::numbers::pi / 2) * degrees; }
+
+/// The snapshot of a run at an axial strain. @throws FileProblem
+std::optional<Snapshot> snapshot_at(std::vector<std::filesystem::path> const& files, double strain) {
+  constexpr double near = 5e-4;
+  for (std::filesystem::path const& file : files)
+    if (Snapshot snapshot = read_snapshot(file); std::abs(snapshot.eps1 - strain) < near) return snapshot;
+  return {};
+}
+
+void add_fabric(std::map<std::string, double>& numbers, Rose const& start, Snapshot const& now, std::string const& at) {
+  Rose const rose = rose_of(now);
+  numbers["fabric_growth_" + at] = vertical_deviator(rose) - vertical_deviator(start);
+  numbers["fabric_direction_" + at] = off_the_vertical(rose);
+}
+
+/// Bonds broken after a step for each bond that there was, inside over outside the shear bands: the discs whose shear strain at
+/// the end is above 1.5 times the mean of all. Each bond counts half for either of its discs.
+std::optional<double> breakage_in_bands(Snapshot const& end, std::vector<BreakEvent> const& events, std::int64_t from_step) {
+  constexpr double in_band = 1.5;
+  std::vector<float> const strains = shear_strain(end);
+  double sum = 0, count = 0;
+  for (float const strain : strains)
+    if (std::isfinite(strain)) sum += double(strain), count += 1;
+  if (!(count > 0)) return {};
+  std::map<int, std::size_t> place;
+  double bonds[2] = {0, 0}, broken[2] = {0, 0};
+  auto const inside = [&](std::size_t i) { return double(strains[i]) > in_band * sum / count ? 1 : 0; };
+  for (std::size_t i = 0; i < end.id.size(); ++i) place[end.id[i]] = i, bonds[inside(i)] += 0.5 * end.bonds_initial[i];
+  for (BreakEvent const& event : events)
+    if (event.step > from_step)
+      for (int const id : {event.id_a, event.id_b}) broken[inside(place.at(id))] += 0.5;
+  if (!(bonds[0] > 0 && bonds[1] > 0 && broken[0] > 0)) return {};
+  return (broken[1] / bonds[1]) / (broken[0] / bonds[0]);
+}
+
+/// Of the test that the paper looks into; nothing where it has no snapshots at the paper's strains.
+std::map<std::string, double> numbers_of_snapshots(std::filesystem::path const& folder, HistoryTable const& history) {
+  std::vector<std::filesystem::path> const files = snapshot_files(folder);
+  std::optional<Snapshot> const start = snapshot_at(files, 0), early = snapshot_at(files, paper_strains[0]),
+                                end = snapshot_at(files, paper_end);
+  std::map<std::string, double> numbers;
+  if (!start || !early || !end) return numbers;
+  Rose const first = rose_of(*start);
+  add_fabric(numbers, first, *early, "2.54");
+  add_fabric(numbers, first, *end, "15.04");
+  auto const peak_step = static_cast<std::int64_t>(history["step"][test_numbers(history.curves()).peak]);
+  if (auto const ratio = breakage_in_bands(*end, read_events(folder / "events.csv"), peak_step))
+    numbers["band_breakage_ratio"] = *ratio;
+  return numbers;
+}
 
 /// Tests of one material and seed at their peaks and in their residual state.
 struct SeedTests {
@@ -19,7 +82,7 @@ void add_envelope(std::map<std::string, double>& numbers, std::vector<FailureStr
   std::optional<Envelope> const fit = fitted_envelope(tests);
   if (!fit) return;
   numbers[state + "_cohesion_Pa"] = fit->cohesion;
-  numbers[state + "_friction_angle_deg"] = fit->friction_angle * 180 / std::numbers::pi;
+  numbers[state + "_friction_angle_deg"] = fit->friction_angle * degrees;
 }
 
 void add_envelopes(PaperNumbers& numbers, Study const& study, std::vector<MemberResult> const& members) {
@@ -46,7 +109,9 @@ PaperNumbers numbers_of_members(Study const& study, std::vector<MemberResult> co
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (members[i].state != MemberState::finished) continue;
     std::string const& cell = study.groups[members[i].group].name;
-    numbers.add(cell, members[i].seed, numbers_of_history(HistoryTable(folders[i] / "history.csv")));
+    HistoryTable const history(folders[i] / "history.csv");
+    numbers.add(cell, members[i].seed, numbers_of_history(history));
+    if (cell == paper_cell(55, 3)) numbers.add(cell, members[i].seed, numbers_of_snapshots(folders[i], history));
   }
   add_envelopes(numbers, study, members);
   return numbers;
