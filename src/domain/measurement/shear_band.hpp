@@ -1,6 +1,7 @@
 #pragma once
 /// How far breakage is gathered in shear bands.
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace clathra {
@@ -22,5 +23,23 @@ struct BandShares {
 };
 /// Of no points both are 0. Points that fill a box evenly give what a band of that width covers of it.
 BandShares band_shares(std::vector<double> const& x, std::vector<double> const& y, double width);
+
+/// A shear band in a field of shear strain. Places along its normal are from the middle of the points.
+struct BandProfile {
+  double inclination = 0;          ///< of the band from the horizontal [rad, 0 to pi], anticlockwise
+  double position = 0;             ///< of its middle along the normal [m]
+  double thickness = 0;            ///< of the band of even strain that would look the same [m]
+  double gaussian_deviation = 0;   ///< of the Gaussian across the band [m], as it looks, with what the window adds
+  double inside = 0, outside = 0;  ///< shear strain in the even band, and beside it
+  double explained = 0;            ///< share of the variance of the strains that the profile across the band explains
+};
+
+/// Fits a band to the shear strains of discs. Its direction is the one whose profile, mean strains of slices half a d50 wide,
+/// explains most of the variance; its thickness that of a box which, smoothed as strains are that were fitted over a square
+/// window, comes nearest to the profile.
+/// @param x,y,strain  of each disc [m]; strains that are not finite are left out;  @param window  side of the window [m]
+/// @return nothing for fewer than 50 discs, or where no band stands out
+std::optional<BandProfile> fit_band(std::vector<double> const& x, std::vector<double> const& y, std::vector<float> const& strain,
+                                    double d50, double window);
 
 }  // namespace clathra

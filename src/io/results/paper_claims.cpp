@@ -314,7 +314,7 @@ class Claims {
     return {"14",
             "Bonds break in the shear band, and the band thickens (55 %, 3 MPa)",
             {{"bonds broken after the peak, inside over outside the bands", "", of(55, 3, "band_breakage_ratio"), 3},
-             {"thickness of the band, 15.04 less 6.71 %", "d50", of(55, 3, "band_thickening_d50"), 0}}};
+             {"deviation of the Gaussian across the band, 15.04 less 6.71 %", "d50", of(55, 3, "band_thickening_d50"), 0}}};
   }
 
   Claim fabric() const {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "domain/measurement/fabric.hpp"
+#include "domain/measurement/shear_band.hpp"
 #include "domain/measurement/strain_field.hpp"
 #include "domain/measurement/strength_fit.hpp"
 #include "domain/measurement/test_numbers.hpp"
@@ -57,6 +59,14 @@ std::optional<double> breakage_in_bands(Snapshot const& end, std::vector<BreakEv
   return (broken[1] / bonds[1]) / (broken[0] / bonds[0]);
 }
 
+/// The Gaussian's deviation across the shear band, in d50.
+std::optional<double> band_deviation(Snapshot const& s) {
+  double const window =
+      strain_window * 2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
+  std::optional<BandProfile> const band = fit_band(s.x, s.y, shear_strain(s), s.d50, window);
+  return band ? std::optional(band->gaussian_deviation / s.d50) : std::nullopt;
+}
+
 /// Of the test that the paper looks into; nothing where it has no snapshots at the paper's strains.
 std::map<std::string, double> numbers_of_snapshots(std::filesystem::path const& folder, HistoryTable const& history) {
   std::vector<std::filesystem::path> const files = snapshot_files(folder);
@@ -67,6 +77,10 @@ std::map<std::string, double> numbers_of_snapshots(std::filesystem::path const& 
   Rose const first = rose_of(*start);
   add_fabric(numbers, first, *early, "2.54");
   add_fabric(numbers, first, *end, "15.04");
+  if (auto const softened = snapshot_at(files, paper_strains[2])) {
+    std::optional<double> const then = band_deviation(*softened), now = band_deviation(*end);
+    if (then && now) numbers["band_thickening_d50"] = *now - *then;
+  }
   auto const peak_step = static_cast<std::int64_t>(history["step"][test_numbers(history.curves()).peak]);
   if (auto const ratio = breakage_in_bands(*end, read_events(folder / "events.csv"), peak_step))
     numbers["band_breakage_ratio"] = *ratio;

@@ -1,0 +1,78 @@
+/// `clathra reproduce` as a user calls it.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "io/formats/text_file.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReproduceCommand : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove_all(folder); }
+  CommandResult reproduce(std::string const& name, std::string const& more = "") const {
+    return run_clathra(
+        "reproduce --particles 200 --set sample.void_ratio=0.26 --set test.inertial_number=9e-4 --set run.force=true "
+        "--output '" +
+        (folder / name).string() + "' " + more);
+  }
+  std::string content(std::string const& file) const { return read_text_file(folder / file, 1 << 25); }
+  /// Without the line that tells how long it took.
+  std::string scorecard(std::string const& name) const {
+    std::string text = content(name + "/scorecard.md");
+    std::size_t const at = text.find("- cost: ");
+    return text.erase(at, text.find('\n', at) - at);
+  }
+  fs::path const folder = fs::temp_directory_path() / ("clathra_reproduce_command_" + std::to_string(::getpid()));
+};
+
+TEST_F(ReproduceCommand, ScoresEachClaimWithNumbersAndDrawsEachFigure) {
+  CommandResult const result = reproduce("one");
+  ASSERT_EQ(result.code, 0) << result.output;
+  nlohmann::json const card = nlohmann::json::parse(content("one/scorecard.json"));
+  ASSERT_EQ(card.at("claims").size(), 17U);
+  for (nlohmann::json const& claim : card.at("claims"))
+    for (nlohmann::json const& part : claim.at("parts"))
+      EXPECT_TRUE(part.at("mean").is_number()) << claim.at("id") << ": " << part.at("what");
+  std::string const page = content("one/reproduce.html");
+  for (char const* const figure : {"Figure 6:", "Figure 8b", "Figure 9", "Figure 10", "Figure 11", "Figure 12 (26 %)",
+                                   "Figures 13", "Figure 14", "Figure 15 (3 MPa)", "Figure 16 (55 %)", "Figure 17a", "Figure 18a",
+                                   "Figure 18b", "Figure 19", "Figure 20", "Figure 21", "Tables 1 and 2", "Table 3"})
+    EXPECT_NE(page.find(figure), std::string::npos) << figure;
+}
+
+TEST_F(ReproduceCommand, GoesOnWhereItWasStoppedAndScoresTheSame) {
+  ASSERT_EQ(reproduce("one", "--screening --seeds 2").code, 0);
+  EXPECT_EQ(reproduce("two", "--screening --seeds 2 --max-walltime 1s").code, 75);
+  EXPECT_EQ(reproduce("two", "--screening --seeds 2").code, 0);
+  EXPECT_EQ(scorecard("two"), scorecard("one"));
+}
+
+TEST_F(ReproduceCommand, DrawsPointsOfALaboratoryAndNamesMistakesInThem) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "mine.csv") << "figure,name,saturation_pct,confining_stress_MPa,x,y\nq,my own triaxial test,26,1,1,2\n";
+  std::string const data = "--data '" + (folder / "mine.csv").string() + "'";
+  ASSERT_EQ(reproduce("one", "--screening --seeds 1 " + data).code, 0);
+  EXPECT_NE(content("one/reproduce.html").find("my own triaxial test"), std::string::npos);
+  std::ofstream(folder / "mine.csv", std::ios::app) << "q,b,26,1,two,2\n";
+  CommandResult const wrong = reproduce("one", "--screening --seeds 1 --collect " + data);
+  EXPECT_EQ(wrong.code, 65);
+  EXPECT_NE(wrong.output.find("line 3: column 'x' must be a number, got 'two'"), std::string::npos) << wrong.output;
+}
+
+TEST_F(ReproduceCommand, SaysBeforeWhatItWillCost) {
+  CommandResult const result = reproduce("one", "--seeds 2 --dry-run");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.output.find("28, "), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("2 to be made"), std::string::npos) << result.output;
+}
+
+}  // namespace
+}  // namespace clathra
