@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """Writes the study files that score readings of what the paper leaves open: a reading is a set of scene keys.
 
-  perf/readings/screen.py OUT            OUT/screen.toml, OUT/sand.toml: 144 readings, 2,000 discs, four cells, one seed (an hour)
-  clathra study OUT/screen.toml; clathra study OUT/sand.toml
+  perf/readings/screen.py OUT
+  for study in sand screen others; do clathra study OUT/$study.toml --output OUT/$study; done
+  build/release/perf/readings_score OUT/*/members
+
+144 readings in screen.toml, 16 in others.toml, their clean sands in sand.toml: 2,000 discs, four cells, one seed, an hour on two cores.
 """
 import itertools
 import pathlib
@@ -34,6 +37,34 @@ def readings():
         yield f"{composite}-{length}-{rod}-beta{shape}", settings
 
 
+BEST = {"bond.moment_ratio": 1 / 8, "bond.composite": "parallel", "grains.shape_factor": 1, "bond.after_consolidation": True}
+
+
+def others():
+    """(name, keys, whether its sand is another): one change at a time on the best of the 144, and floors where bonds replace contacts."""
+    best = "parallel-8th-printed-beta1"
+    for name, keys in {
+        "low": {"bond.after_consolidation": False},
+        "7th": {"bond.moment_ratio": 1 / 7},
+        "kn2": {"grains.kn_particle": "0.6 GPa"},
+    }.items():
+        yield f"{best.replace('beta1', name)}-beta1", BEST | keys, None
+    for name, keys in {
+        "e26": {"sample.void_ratio": 0.26},
+        "e28": {"sample.void_ratio": 0.28},
+        "damping1": {"run.damping": 0.1},
+        "damping7": {"run.damping": 0.7},
+        "beta1.5": {"grains.shape_factor": 1.5},
+    }.items():
+        yield f"{best}-{name}", BEST | keys, {"grains.shape_factor": 1} | keys
+    for composite, ratio, rod in [("replace", 1 / 8, "printed"), ("replace", 1 / 5, "printed"), ("replace", 1 / 10, "clamped"),
+                                  ("replace", 1 / 14, "scaled"), ("replace", 1 / 8, "scaled"), ("memory", 1 / 8, "printed"),
+                                  ("memory", 1 / 10, "clamped"), ("memory", 1 / 8, "scaled")]:
+        keys = {"bond.moment_ratio": ratio, "bond.composite": composite, "bond.rod_thickness": rod, "bond.friction_floor": True,
+                "grains.shape_factor": 1, "bond.after_consolidation": composite != "replace"}
+        yield f"{composite}-{round(1 / ratio)}th-{rod}-floor-beta1", keys, None
+
+
 def value(v):
     if isinstance(v, bool):
         return str(v).lower()
@@ -59,7 +90,9 @@ def main():
     (out / "scene.toml").write_text("")
     matrix = {"hydrate.saturation": ["26 %", "55 %"], "test.confining_stress": STRESSES}
     (out / "screen.toml").write_text(study(list(readings()), matrix))
+    (out / "others.toml").write_text(study([(name, keys) for name, keys, _ in others()], matrix))
     sand = [(f"beta{shape}", {"grains.shape_factor": shape}) for shape in SHAPES]
+    sand += [(name[name.index("beta1"):], keys) for name, _, keys in others() if keys]
     (out / "sand.toml").write_text(study(sand, {"hydrate.saturation": 0, "test.confining_stress": STRESSES}))
 
 
