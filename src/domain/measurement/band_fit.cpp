@@ -9,10 +9,10 @@ namespace clathra {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr std::size_t fewest_discs = 50;
+constexpr std::size_t fewest_strains = 50;
 constexpr double fewest_in_slice = 5;
 
-/// Discs with a strain, from their middle.
+/// Discs or cells with a strain, from their middle.
 struct Strained {
   std::vector<double> x, y, strain;
   double mean = 0, variance = 0;
@@ -122,15 +122,12 @@ double best_normal(Strained const& s, double slice) {
 }  // namespace
 
 std::optional<BandProfile> fit_band(std::vector<double> const& x, std::vector<double> const& y, std::vector<float> const& strain,
-                                    double d50, double window) {
+                                    double d50, double smoothing) {
   Strained const s = strained(x, y, strain);
-  if (s.x.size() < fewest_discs || !(s.variance > 0)) return {};
+  if (s.x.size() < fewest_strains || !(s.variance > 0)) return {};
   double const slice = d50 / 2, normal = best_normal(s, slice);
   Profile const p = profile_across(s, normal, slice);
   if (p.place.size() < 5) return {};
-  // A least-squares slope over a window weighs strains by a parabola, of variance window^2 / 20; between cells, a third of the
-  // window wide, they are interpolated.
-  double const smoothing = std::sqrt(window * window / 20 + window * window / 54);
   double const length = p.place.back() - p.place.front();
   Best const box = best_shape(p, d50, 0.7 * length, [&](double off, double width) {
     return (std::erf((off + width / 2) / (smoothing * std::numbers::sqrt2)) -

@@ -29,17 +29,19 @@ struct BandProfile {
   double inclination = 0;          ///< of the band from the horizontal [rad, 0 to pi], anticlockwise
   double position = 0;             ///< of its middle along the normal [m]
   double thickness = 0;            ///< of the band of even strain that would look the same [m]
-  double gaussian_deviation = 0;   ///< of the Gaussian across the band [m], as it looks, with what the window adds
+  double gaussian_deviation = 0;   ///< of the Gaussian across the band [m], as it looks, with what the field's smoothing adds
   double inside = 0, outside = 0;  ///< shear strain in the even band, and beside it
   double explained = 0;            ///< share of the variance of the strains that the profile across the band explains
 };
 
-/// Fits a band to the shear strains of discs. Its direction is the one whose profile, mean strains of slices half a d50 wide,
-/// explains most of the variance; its thickness that of a box which, smoothed as strains are that were fitted over a square
-/// window, comes nearest to the profile.
-/// @param x,y,strain  of each disc [m]; strains that are not finite are left out;  @param window  side of the window [m]
-/// @return nothing for fewer than 50 discs, or where no band stands out
+/// Fits a band to shear strains of discs or of cells of a grid. Its direction is the one whose profile, mean strains of slices
+/// half a d50 wide, explains most of the variance; its thickness that of a box which, smoothed as the field is, comes nearest to
+/// the profile.
+/// @param x,y,strain  of each disc or cell [m]; strains that are not finite are left out
+/// @param smoothing  deviation of the Gaussian that smooths as the field does [m], > 0: smoothing_of_shear_strain(),
+///                   StrainGrid::smoothing
+/// @return nothing for fewer than 50 strains, or where no band stands out
 std::optional<BandProfile> fit_band(std::vector<double> const& x, std::vector<double> const& y, std::vector<float> const& strain,
-                                    double d50, double window);
+                                    double d50, double smoothing);
 
 }  // namespace clathra

@@ -45,12 +45,15 @@ double shear_of(Moments const& m) {
   return stretches(1) > 0 ? std::log(stretches(0) / stretches(1)) : not_known;
 }
 
+/// Side of the window over which a strain is averaged [m].
+double window_of(Snapshot const& s) {
+  return strain_window * 2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
+}
+
 /// Square cells over the places where the discs were at first.
 struct Cells {
   explicit Cells(Snapshot const& s) {
-    double const mean_diameter =
-        2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
-    size = mean_diameter * strain_window / 3;
+    size = window_of(s) / 3;
     left = bottom = std::numeric_limits<double>::max();
     double right = -left, top = -left;
     for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -120,6 +123,11 @@ std::vector<float> shear_strain(Snapshot const& snapshot) {
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = static_cast<float>(interpolated(strains, cells, Cells::first_x(snapshot, i), Cells::first_y(snapshot, i)));
   return values;
+}
+
+double smoothing_of_shear_strain(Snapshot const& snapshot) {
+  double const window = window_of(snapshot);
+  return std::sqrt(window * window / 20 + window * window / 54);
 }
 
 }  // namespace clathra

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "domain/measurement/fabric.hpp"
 #include "domain/measurement/shear_band.hpp"
@@ -61,9 +60,7 @@ std::optional<double> breakage_in_bands(Snapshot const& end, std::vector<BreakEv
 
 /// The Gaussian's deviation across the shear band, in d50.
 std::optional<double> band_deviation(Snapshot const& s) {
-  double const window =
-      strain_window * 2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
-  std::optional<BandProfile> const band = fit_band(s.x, s.y, shear_strain(s), s.d50, window);
+  std::optional<BandProfile> const band = fit_band(s.x, s.y, shear_strain(s), s.d50, smoothing_of_shear_strain(s));
   return band ? std::optional(band->gaussian_deviation / s.d50) : std::nullopt;
 }
 
