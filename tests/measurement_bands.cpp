@@ -79,5 +79,57 @@ TEST(BandFit, SaysHowLittleItExplainsWhereThereIsNoBand) {
   EXPECT_FALSE(fit_band(line, line, std::vector<float>(1000, 0.1F), d50, 5 * d50)) << "the same strain everywhere";
 }
 
+/// A fit whose inside is so many times its outside.
+BandAt fit_at(double eps1, double inclination, double ratio, double outside = 0.04) {
+  BandProfile band;
+  band.inclination = inclination * degree, band.inside = ratio * outside, band.outside = outside;
+  return {eps1, band};
+}
+
+TEST(BandOnset, IsWhereTheStrainInsideBecomesTwiceThatBesideIt) {
+  // inside - 2 outside is -0.02, then 0.06: 0 at a quarter of the way
+  std::vector<BandAt> const series{fit_at(0.01, 60, 1), fit_at(0.02, 60, 1.5), fit_at(0.04, 60, 3.5), fit_at(0.08, 60, 8)};
+  ASSERT_TRUE(band_onset(series));
+  EXPECT_NEAR(*band_onset(series), 0.025, 1e-12);
+  for (double const onset : {0.021, 0.03, 0.0399}) {  // planted: inside = 2 outside + 3 (eps1 - onset)
+    std::vector<BandAt> planted;
+    for (double const eps1 : {0.005, 0.02, 0.04, 0.1}) planted.push_back(fit_at(eps1, 55, 2 + 3 * (eps1 - onset) / 0.04));
+    EXPECT_NEAR(*band_onset(planted), onset, 1e-12);
+  }
+}
+
+TEST(BandOnset, CountsFromWhereTheLastBandKeepsItsDirection) {
+  std::vector<BandAt> series{fit_at(0.01, 120, 4), fit_at(0.02, 118, 4), fit_at(0.03, 62, 4), fit_at(0.04, 66, 3),
+                             fit_at(0.05, 58, 4)};
+  EXPECT_EQ(*band_onset(series), 0.03) << "another band before: no line to draw";
+  series[3] = fit_at(0.04, 69, 3);
+  EXPECT_EQ(*band_onset(series), 0.05) << "11 degrees off the last one";
+  series[3] = fit_at(0.04, 60, 1);
+  EXPECT_NEAR(*band_onset(series), 0.04 + 0.01 / 3, 1e-12) << "it faded in between";
+  series[3] = {0.04, {}};
+  EXPECT_EQ(*band_onset(series), 0.05);
+  EXPECT_EQ(*band_onset({fit_at(0.01, 178, 4), fit_at(0.02, 3, 4)}), 0.01)
+      << "lying bands: 5 degrees apart, across the horizontal";
+}
+
+TEST(BandOnset, IsNothingWithoutABandAtTheEnd) {
+  EXPECT_FALSE(band_onset({}));
+  EXPECT_FALSE(band_onset({{0.01, {}}, {0.02, {}}}));
+  EXPECT_FALSE(band_onset({fit_at(0.01, 60, 3), fit_at(0.02, 60, 1.9)}));
+  EXPECT_FALSE(band_onset({fit_at(0.01, 60, 3), {0.02, {}}}));
+  EXPECT_FALSE(band_onset({fit_at(0.01, 60, 3, 0), fit_at(0.02, 60, 3, 0)})) << "no strain at all";
+  EXPECT_EQ(*band_onset({fit_at(0.02, 60, 2)}), 0.02);
+}
+
+TEST(BandOnset, OfPlantedBandsIsWhereTheyOutgrowTheStrainBesideThem) {
+  for (auto* const fitted : {&least_squares_band, &grain_band}) {
+    std::vector<BandAt> series{{0, fitted(PlantedBand{60 * degree, 8 * d50, 0, 0}.specimen())}};
+    for (double const shear : {0.1, 0.2, 0.4})
+      series.push_back({shear, fitted(PlantedBand{60 * degree, 8 * d50, 0.05 * d50, shear}.specimen())});
+    ASSERT_TRUE(band_onset(series));
+    EXPECT_LE(*band_onset(series), 0.2);
+  }
+}
+
 }  // namespace
 }  // namespace clathra

@@ -5,6 +5,17 @@
 #include <numbers>
 
 namespace clathra {
+namespace {
+
+/// Above 0 a band stands out: the strain inside less twice that beside it.
+double excess(BandProfile const& band) { return band.inside - 2 * band.outside; }
+
+bool same_direction(BandProfile const& a, BandProfile const& b) {
+  constexpr double near = 10 * std::numbers::pi / 180;
+  return std::abs(std::remainder(a.inclination - b.inclination, std::numbers::pi)) <= near;
+}
+
+}  // namespace
 
 bool Band::holds(double x, double y) const {
   double const across = std::cos(angle) * x + std::sin(angle) * y;
@@ -38,6 +49,19 @@ BandShares band_shares(std::vector<double> const& x, std::vector<double> const& 
   Band const second = best_band(rest_x, rest_y, width);
   double const all = static_cast<double>(x.size());
   return {static_cast<double>(first.points) / all, static_cast<double>(first.points + second.points) / all};
+}
+
+std::optional<double> band_onset(std::vector<BandAt> const& series) {
+  auto const directed = [&](BandAt const& at) { return at.band && same_direction(*at.band, *series.back().band); };
+  auto const stands_out = [&](BandAt const& at) { return directed(at) && at.band->inside > 0 && excess(*at.band) >= 0; };
+  std::size_t first = series.size();
+  if (series.empty() || !series.back().band) return {};
+  while (first > 0 && stands_out(series[first - 1])) --first;
+  if (first == series.size()) return {};
+  if (first == 0 || !directed(series[first - 1])) return series[first].eps1;
+  BandAt const &before = series[first - 1], &after = series[first];
+  double const missing = -excess(*before.band), reached = excess(*after.band);
+  return before.eps1 + (after.eps1 - before.eps1) * missing / (missing + reached);
 }
 
 }  // namespace clathra

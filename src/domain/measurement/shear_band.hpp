@@ -44,4 +44,19 @@ struct BandProfile {
 std::optional<BandProfile> fit_band(std::vector<double> const& x, std::vector<double> const& y, std::vector<float> const& strain,
                                     double d50, double smoothing);
 
+/// What was fitted at an axial strain of a test; nothing where no band was found.
+struct BandAt {
+  double eps1 = 0;
+  std::optional<BandProfile> band;
+};
+
+/// The axial strain from which on a test has its shear band: the first at which a band stands out (`inside` is twice `outside` or
+/// more) in the direction of the last one, within 10 degrees, and from which on that holds to the end. A field always has some
+/// best direction, and until past the peak faint bands come and go in several; the one that lasts is the one along which the
+/// specimen fails. Twice is where the band has taken as much strain of its own as all places have. Where the fit before already
+/// had that direction, inside - 2 outside is taken as linear between the two, and the onset is where it is 0; else it is the
+/// strain of the first that stands out, and the true one lies between that and the one before.
+/// @param series  in the order of the strains;  @return nothing where the last fit does not stand out
+std::optional<double> band_onset(std::vector<BandAt> const& series);
+
 }  // namespace clathra
