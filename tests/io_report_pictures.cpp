@@ -166,7 +166,7 @@ TEST(ReportRose, CountsContactsThatAreTooWeakForTheDigitsOfASnapshot) {
   fs::remove(file);
   EXPECT_GE(static_cast<std::size_t>(std::count(back.normal_force.begin(), back.normal_force.end(), 0.0)), weak + gone)
       << "they are rounded to 0";
-  Rose const rose = rose_of(back);
+  Rose const rose = rose_of(back, ContactSet::touching);
   EXPECT_EQ(rose.pairs, s.a.size() - gone);
   EXPECT_NEAR(rose.normals[0], 9, 0.1) << "across";
 }

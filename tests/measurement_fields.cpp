@@ -1,10 +1,9 @@
-/// Strain, fabric and stress of snapshots, against closed forms.
+/// Strain and stress of snapshots, against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "domain/measurement/fabric.hpp"
 #include "domain/measurement/principal_axes.hpp"
 #include "domain/measurement/strain_field.hpp"
 #include "domain/measurement/surroundings.hpp"
@@ -80,45 +79,6 @@ TEST(PrincipalStress, IsTheStressOfTheDiscsOverTheWholeBox) {
   EXPECT_NEAR(stress.minor / 1e6, solid, 1e-6);
   EXPECT_NEAR(stress.direction, std::acos(-1.0) / 2, 1e-9);
   EXPECT_EQ(principal_stress(Snapshot()).major, 0);
-}
-
-TEST(Rose, FindsTheFabricThatItWasGiven) {
-  Snapshot s;
-  double const a = 0.6, direction = 1.0, pi = std::acos(-1.0);
-  for (int n = 0; n < 20000; ++n) {  // normals whose density is 1 + a cos 2 (angle - direction), by its quantiles
-    double angle = pi * (n + 0.5) / 20000, from = 0, to = pi;
-    for (int k = 0; k < 50; ++k) {
-      double const middle = (from + to) / 2;
-      double const share = (middle + a / 2 * (std::sin(2 * (middle - direction)) + std::sin(2 * direction))) / pi;
-      (share < (n + 0.5) / 20000 ? from : to) = middle;
-    }
-    angle = from;
-    s.a.push_back(2 * n), s.b.push_back(2 * n + 1);
-    s.x.insert(s.x.end(), {0.0, std::cos(angle)}), s.y.insert(s.y.end(), {0.0, std::sin(angle)});
-  }
-  s.state.assign(s.a.size(), static_cast<std::uint8_t>(ContactState::contact));
-  s.normal_force.assign(s.a.size(), 1.0), s.gap.assign(s.a.size(), -1e-9);
-  Rose const rose = rose_of(s);
-  EXPECT_NEAR(rose.normal_anisotropy, a, 1e-4);
-  EXPECT_NEAR(rose.normal_direction, direction, 1e-4);
-}
-
-TEST(Rose, CountsContactsAndForcesByDirection) {
-  Snapshot s = made_up_lattice(30, 30);
-  for (std::size_t k = 0; k < s.a.size(); ++k)
-    if (s.b[k] != s.a[k] + 1) s.normal_force[k] = 3;  // upright
-  Rose const rose = rose_of(s);
-  EXPECT_EQ(rose.pairs, s.a.size());
-  EXPECT_NEAR(rose.normals[0], 9, 1e-9) << "half of the pairs in one of 18 bins";
-  EXPECT_NEAR(rose.normals[9], 9, 1e-9);
-  EXPECT_NEAR(rose.normal_anisotropy, 0, 1e-9);
-  EXPECT_NEAR(rose.forces[0], 0.5, 1e-6);
-  EXPECT_NEAR(rose.forces[9], 1.5, 1e-6);
-  EXPECT_GT(rose.force_anisotropy, 0.5);
-  EXPECT_NEAR(rose.force_direction, std::acos(-1.0) / 2, 0.1);
-  s.state.assign(s.a.size(), static_cast<std::uint8_t>(broken_in(BreakMode::shear)));
-  s.normal_force.assign(s.a.size(), 0.0), s.gap.assign(s.a.size(), 1e-9);
-  EXPECT_EQ(rose_of(s).pairs, 0u) << "bonds that are gone";
 }
 
 TEST(Surroundings, AreTheDiscsWithinADistanceAndThePairsBetweenThem) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "domain/measurement/principal_axes.hpp"
+#include "kernels/exact_sum.hpp"
 
 namespace clathra {
 namespace {
@@ -26,40 +28,69 @@ void fit_forces(Rose& rose) {
   rose.force_direction = direction_of(cosine, sine);
 }
 
-/// Whether the discs of a pair hold or press each other. That is why contacts and bonds are listed at all, however weak: their
-/// force may be rounded to 0. A pair whose bond broke is listed in any case; it presses where the discs overlap, and the sign of
-/// the gap says that also of one that is rounded to -0.
-bool carries(Snapshot const& s, std::size_t pair) {
-  auto const state = static_cast<ContactState>(s.state[pair]);
-  return state == ContactState::contact || state == ContactState::bonded || std::signbit(s.gap[pair]);
+/// The line through the centres of a pair, of length 1, in the upper half of the plane whichever disc comes first.
+struct Normal {
+  double x, y;
+  Normal(Snapshot const& s, std::size_t pair) {
+    auto const a = static_cast<std::size_t>(s.a[pair]), b = static_cast<std::size_t>(s.b[pair]);
+    double const dx = s.x[b] - s.x[a], dy = s.y[b] - s.y[a], length = std::hypot(dx, dy);
+    double const sign = dy < 0 || (dy == 0 && dx < 0) ? -1 : 1;
+    x = sign * dx / length, y = sign * dy / length;
+  }
+  /// Not of discs at the same place or nowhere.
+  bool known() const { return std::isfinite(x) && std::isfinite(y); }
+  std::size_t bin() const { return std::min(static_cast<std::size_t>(std::atan2(y, x) / bin_angle), Rose::bins - 1); }
+};
+
+/// Sums over the pairs of a set, in fixed point, so that their order does not matter.
+struct PairSums {
+  explicit PairSums(double force_unit) : force(force_unit), forces(Rose::bins, ExactSum(force_unit)) {}
+  void add(Normal const& n, double normal_force) {
+    std::size_t const bin = n.bin();
+    counts[bin] += 1, pairs += 1;
+    xx.add(n.x * n.x), yy.add(n.y * n.y), xy.add(n.x * n.y);
+    force.add(normal_force), forces[bin].add(normal_force);
+  }
+
+  ExactSum xx{1}, yy{1}, xy{1}, force;
+  std::vector<ExactSum> forces;
+  std::array<double, Rose::bins> counts{};
+  std::size_t pairs = 0;
+};
+
+Fabric fabric_of(PairSums& sums) {
+  double const pairs = static_cast<double>(sums.pairs);
+  Fabric f{sums.xx.over({}) / pairs, sums.yy.over({}) / pairs, sums.xy.over({}) / pairs};
+  PrincipalAxes const axes = principal_axes(f.xx, f.yy, f.xy);
+  f.deviator = axes.major - axes.minor, f.direction = axes.direction;
+  return f;
 }
 
 }  // namespace
 
-Rose rose_of(Snapshot const& s) {
+bool belongs(Snapshot const& s, std::size_t pair, ContactSet set) {
+  auto const state = static_cast<ContactState>(s.state[pair]);
+  bool const bonded = state == ContactState::bonded;
+  // A pair that was never bonded is listed because it touches, and the sign of the gap says it also of one rounded to -0.
+  bool const touching = state == ContactState::contact || std::signbit(s.gap[pair]);
+  return (set != ContactSet::bonded && touching) || (set != ContactSet::touching && bonded);
+}
+
+Rose rose_of(Snapshot const& s, ContactSet set) {
+  double largest = 0;
+  for (double const force : s.normal_force) largest = std::max(largest, std::abs(force));
+  PairSums sums(SumUnits::near(largest));
+  for (std::size_t k = 0; k < s.a.size(); ++k)
+    if (Normal const n(s, k); belongs(s, k, set) && n.known() && std::isfinite(s.normal_force[k])) sums.add(n, s.normal_force[k]);
   Rose rose;
-  std::array<double, Rose::bins> counts{}, sums{};
-  double xx = 0, yy = 0, xy = 0, force = 0;
-  for (std::size_t k = 0; k < s.a.size(); ++k) {
-    if (!carries(s, k)) continue;
-    auto const a = static_cast<std::size_t>(s.a[k]), b = static_cast<std::size_t>(s.b[k]);
-    double angle = std::atan2(s.y[b] - s.y[a], s.x[b] - s.x[a]);
-    if (angle < 0) angle += half_turn;
-    auto const bin = std::min(static_cast<std::size_t>(angle / bin_angle), Rose::bins - 1);
-    counts[bin] += 1, sums[bin] += s.normal_force[k];
-    double const nx = std::cos(angle), ny = std::sin(angle);
-    xx += nx * nx, yy += ny * ny, xy += nx * ny, force += s.normal_force[k];
-    ++rose.pairs;
-  }
+  rose.pairs = sums.pairs;
   if (rose.pairs == 0) return rose;
-  double const pairs = static_cast<double>(rose.pairs);
+  double const pairs = static_cast<double>(rose.pairs), force = sums.force.over({});
   for (std::size_t i = 0; i < Rose::bins; ++i) {
-    rose.normals[i] = counts[i] * static_cast<double>(Rose::bins) / pairs;
-    rose.forces[i] = counts[i] > 0 && force > 0 ? sums[i] / counts[i] / (force / pairs) : 0;
+    rose.normals[i] = sums.counts[i] * static_cast<double>(Rose::bins) / pairs;
+    rose.forces[i] = sums.counts[i] > 0 && force > 0 ? sums.forces[i].over({}) / sums.counts[i] / (force / pairs) : 0;
   }
-  PrincipalAxes const fabric = principal_axes(xx / pairs, yy / pairs, xy / pairs);
-  rose.normal_anisotropy = 2 * (fabric.major - fabric.minor);
-  rose.normal_direction = fabric.direction;
+  rose.fabric = fabric_of(sums);
   fit_forces(rose);
   return rose;
 }

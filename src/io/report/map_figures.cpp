@@ -126,7 +126,7 @@ std::string strain_figure(Shown const& shown) {
 
 std::string rose_figure(Shown const& shown) {
   Snapshot const& s = shown.snapshots[shown.peak];
-  Rose const now = rose_of(s), before = rose_of(shown.first());
+  Rose const now = rose_of(s, ContactSet::mechanical), before = rose_of(shown.first(), ContactSet::mechanical);
   if (now.pairs == 0) return "";
   PrincipalAxes const stress = principal_stress(s);
   std::string const label = run_label(shown.run) + ", " + strain_text(s);
@@ -141,7 +141,7 @@ std::string rose_figure(Shown const& shown) {
           "there, both relative to the mean over all directions (ring 1), at {}. Dashed: at the start. Red line: the fit "
           "1 + a cos 2(θ − θₐ), with a = {:.2f} at θₐ = {:.0f}° for the contacts and a = {:.2f} at {:.0f}° for the forces; "
           "90° is vertical. The mean stress of the grains is {:.4g} and {:.4g} MPa, the larger one at {:.0f}°.",
-          grouped(static_cast<double>(now.pairs)), strain_text(s), now.normal_anisotropy, now.normal_direction * to_degrees,
+          grouped(static_cast<double>(now.pairs)), strain_text(s), now.fabric.anisotropy(), now.fabric.direction * to_degrees,
           now.force_anisotropy, now.force_direction * to_degrees, stress.major * 1e-6, stress.minor * 1e-6,
           stress.direction * to_degrees));
 }

@@ -94,14 +94,14 @@ std::string strains_of(Looked const& looked) {
 }
 
 std::string roses_of(Looked const& looked) {
-  Rose const before = rose_of(looked.start);
+  Rose const before = rose_of(looked.start, ContactSet::touching);
   std::string roses = titled(normal_rose(before, before, "start"), strain_text(looked.start));
   std::string numbers;
   for (std::size_t const i : {std::size_t{0}, looked.at.size() - 1}) {
-    Rose const rose = rose_of(looked.at[i]);
+    Rose const rose = rose_of(looked.at[i], ContactSet::touching);
     roses += titled(normal_rose(rose, before, strain_text(looked.at[i])), strain_text(looked.at[i]));
-    numbers += fmt::format(" {}: a = {:.2f} at {:.0f}°.", strain_text(looked.at[i]), rose.normal_anisotropy,
-                           rose.normal_direction * degrees);
+    numbers += fmt::format(" {}: a = {:.2f} at {:.0f}°.", strain_text(looked.at[i]), rose.fabric.anisotropy(),
+                           rose.fabric.direction * degrees);
   }
   return figure("Figure 21: Directions of contacts", strip(roses),
                 beside_words("contacts turn to the vertical as the strain grows.",

@@ -82,7 +82,7 @@ std::string diagram(Values const& now, Values const& before, double anisotropy, 
 }  // namespace
 
 std::string normal_rose(Rose const& now, Rose const& before, std::string const& label) {
-  return diagram(now.normals, before.normals, now.normal_anisotropy, now.normal_direction,
+  return diagram(now.normals, before.normals, now.fabric.anisotropy(), now.fabric.direction,
                  "Directions of contact normals, " + label);
 }
 

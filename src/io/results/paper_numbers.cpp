@@ -18,11 +18,14 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// How far the fabric points upward: F_yy - F_xx of the pairs that press or hold each other.
-double vertical_deviator(Rose const& rose) { return -0.5 * rose.normal_anisotropy * std::cos(2 * rose.normal_direction); }
+/// The paper counts bonded contacts among all contacts, so its contacts are those that press or hold each other.
+constexpr ContactSet paper_contacts = ContactSet::mechanical;
+
+/// How far the fabric points upward.
+double vertical_deviator(Fabric const& fabric) { return fabric.yy - fabric.xx; }
 
 /// Of the major axis from the vertical [degrees], -90 to 90.
-double off_the_vertical(Rose const& rose) { return (rose.normal_direction - std::numbers::pi / 2) * degrees; }
+double off_the_vertical(Fabric const& fabric) { return (fabric.direction - std::numbers::pi / 2) * degrees; }
 
 /// The snapshot of a run at an axial strain. @throws FileProblem
 std::optional<Snapshot> snapshot_at(std::vector<std::filesystem::path> const& files, double strain) {
@@ -32,10 +35,10 @@ std::optional<Snapshot> snapshot_at(std::vector<std::filesystem::path> const& fi
   return {};
 }
 
-void add_fabric(std::map<std::string, double>& numbers, Rose const& start, Snapshot const& now, std::string const& at) {
-  Rose const rose = rose_of(now);
-  numbers["fabric_growth_" + at] = vertical_deviator(rose) - vertical_deviator(start);
-  numbers["fabric_direction_" + at] = off_the_vertical(rose);
+void add_fabric(std::map<std::string, double>& numbers, Fabric const& start, Snapshot const& now, std::string const& at) {
+  Fabric const fabric = rose_of(now, paper_contacts).fabric;
+  numbers["fabric_growth_" + at] = vertical_deviator(fabric) - vertical_deviator(start);
+  numbers["fabric_direction_" + at] = off_the_vertical(fabric);
 }
 
 /// Bonds broken after a step for each bond that there was, inside over outside the shear bands: the discs whose shear strain at
@@ -71,7 +74,7 @@ std::map<std::string, double> numbers_of_snapshots(std::filesystem::path const& 
                                 end = snapshot_at(files, paper_end);
   std::map<std::string, double> numbers;
   if (!start || !early || !end) return numbers;
-  Rose const first = rose_of(*start);
+  Fabric const first = rose_of(*start, paper_contacts).fabric;
   add_fabric(numbers, first, *early, "2.54");
   add_fabric(numbers, first, *end, "15.04");
   if (auto const softened = snapshot_at(files, paper_strains[2])) {
