@@ -63,6 +63,12 @@ thead th,td{white-space:normal;overflow-wrap:anywhere}
 @media print{body{max-width:none}.beside{grid-template-columns:1fr 1fr}}
 )css";
 
+std::string row(std::string const& tag, std::vector<std::string> const& cells) {
+  std::string text = "<tr>";
+  for (std::string const& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  return text + "</tr>\n";
+}
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
@@ -139,6 +145,12 @@ std::string picture(std::string const& png, Canvas const& canvas, std::string co
 std::string figure(std::string const& heading, std::string const& drawing, std::string const& caption, bool wide) {
   return fmt::format("<figure{}><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n", wide ? " class=\"wide\"" : "",
                      escaped(heading), drawing, escaped(caption));
+}
+
+std::string table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows) {
+  std::string body;
+  for (std::vector<std::string> const& cells : rows) body += row("td", cells);
+  return "<div class=\"scroll words\"><table><thead>" + row("th", head) + "</thead><tbody>\n" + body + "</tbody></table></div>\n";
 }
 
 std::string side_by_side(std::string const& contents) { return "<div class=\"beside\">\n" + contents + "</div>\n"; }

@@ -37,6 +37,9 @@ std::string picture(std::string const& png, Canvas const& canvas, std::string co
 /// A figure with a heading and a caption. @param wide  over the whole width of the page
 std::string figure(std::string const& heading, std::string const& drawing, std::string const& caption, bool wide = false);
 
+/// A table of words and numbers, escaped; its columns begin at the left.
+std::string table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows);
+
 /// Figures or pictures beside each other where there is room.
 std::string side_by_side(std::string const& contents);
 

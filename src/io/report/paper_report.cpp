@@ -12,18 +12,6 @@
 namespace clathra {
 namespace {
 
-std::string row(std::string const& tag, std::vector<std::string> const& cells) {
-  std::string text = "<tr>";
-  for (std::string const& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
-  return text + "</tr>\n";
-}
-
-std::string table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows) {
-  std::string body;
-  for (std::vector<std::string> const& cells : rows) body += row("td", cells);
-  return "<div class=\"scroll words\"><table><thead>" + row("th", head) + "</thead><tbody>\n" + body + "</tbody></table></div>\n";
-}
-
 std::string claims_table(std::vector<Claim> const& claims) {
   std::vector<std::vector<std::string>> rows;
   for (Claim const& claim : claims) {
