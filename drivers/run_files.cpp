@@ -25,7 +25,7 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
       if (events) events_.emplace(folder_ / "events.csv", before->events.bytes);
     } else {
       history_.emplace(folder_ / "history.csv", output_.energy);
-      if (events) events_.emplace(folder_ / "events.csv");
+      if (events) events_.emplace(folder_ / "events.csv", output_.event_details);
     }
   });
   if (!output_.takes_snapshots()) return;
@@ -41,10 +41,11 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
 
 /// The bonds that broke since the last call, into the rows and towards the next snapshot.
 void RunFiles::take_events(BiaxialTest& test) {
-  std::vector<BreakEvent> const broken = test.take_events();
+  BreakEvents const broken = test.take_events();
+  since_snapshot_.detailed = broken.detailed;
   on_root(ranks_, [&] {
     if (events_) events_->write(broken);
-    if (output_.takes_snapshots()) since_snapshot_.insert(since_snapshot_.end(), broken.begin(), broken.end());
+    if (output_.takes_snapshots()) since_snapshot_.add(broken);
   });
 }
 

@@ -38,10 +38,10 @@ class RunFiles {
   std::optional<HistoryFile> history_;  // on rank 0
   std::optional<EventsFile> events_;    // on rank 0
   std::optional<SnapshotSeries> snapshots_;
-  std::vector<BreakEvent> since_snapshot_;  // on rank 0
-  double interval_ = 0;                     // of the regular snapshots, in axial strain
-  int regular_ = 0;                         // of them have been written
-  std::size_t given_ = 0;                   // of those with a strain of their own lie behind
+  BreakEvents since_snapshot_;  // on rank 0
+  double interval_ = 0;         // of the regular snapshots, in axial strain
+  int regular_ = 0;             // of them have been written
+  std::size_t given_ = 0;       // of those with a strain of their own lie behind
 };
 
 /// The names of all files of a run's folder reach the disk, as their contents have before. @throws FileProblem io_error

@@ -70,7 +70,7 @@ void print_numbers(std::vector<RunResults> const& runs) {
 std::string shares_after_peak(RunResults const& run, double peak_step) {
   std::vector<double> x, y;
   if (!std::filesystem::exists(run.folder / "events.csv")) return "-";
-  for (BreakEvent const& event : read_events(run.folder / "events.csv")) {
+  for (BreakEvent const& event : read_events(run.folder / "events.csv").rows) {
     if (static_cast<double>(event.step) <= peak_step) continue;
     x.push_back(event.x);
     y.push_back(event.y);

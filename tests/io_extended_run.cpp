@@ -9,6 +9,7 @@
 
 #include "command.hpp"
 #include "io/formats/text_file.hpp"
+#include "io/results/events.hpp"
 #include "io/results/run_results.hpp"
 #include "io/results/snapshot_file.hpp"
 
@@ -45,8 +46,8 @@ TEST_F(ExtendedRun, HasSnapshotsAtTheVeryStepsThatTheirStrainsAreReachedIn) {
   for (fs::path const& file : snapshot_files(folder / "out")) {
     Snapshot const snapshot = read_snapshot(file);
     strains.push_back(snapshot.eps1);
-    events += snapshot.events.size();
-    for (BreakEvent const& event : snapshot.events) EXPECT_TRUE(before < event.step && event.step <= snapshot.step) << file;
+    events += snapshot.events.rows.size();
+    for (BreakEvent const& event : snapshot.events.rows) EXPECT_TRUE(before < event.step && event.step <= snapshot.step) << file;
     before = snapshot.step;
   }
   double const step = 2e-2 / record("out").at("stages").at("plan").at("steps").get<double>();
@@ -62,6 +63,43 @@ TEST_F(ExtendedRun, HasSnapshotsAtTheVeryStepsThatTheirStrainsAreReachedIn) {
   // They change nothing of what is computed or written elsewhere.
   ASSERT_EQ(run("plain", two + "--set output.energy=true").code, 0);
   for (char const* const file : {"history.csv", "events.csv"}) EXPECT_EQ(text("out", file), text("plain", file)) << file;
+}
+
+TEST_F(ExtendedRun, WithDetailsOfEventsIsTheSameButForTheirColumns) {
+  ASSERT_EQ(run("plain", two).code, 0);
+  ASSERT_EQ(run("out", two + "--set output.event_details=true").code, 0);
+  EXPECT_EQ(text("out", "history.csv"), text("plain", "history.csv"));
+  EXPECT_EQ(record("out").at("state_hash"), record("plain").at("state_hash"));
+  BreakEvents const plain = read_events(folder / "plain" / "events.csv"), events = read_events(folder / "out" / "events.csv");
+  EXPECT_FALSE(plain.detailed);
+  ASSERT_TRUE(events.detailed);
+  ASSERT_GT(events.rows.size(), 5u);
+  ASSERT_EQ(events.rows.size(), plain.rows.size());
+  HistoryTable const history(folder / "out" / "history.csv");
+  BreakEvents in_snapshots;
+  for (fs::path const& file : snapshot_files(folder / "out")) {
+    BreakEvents const some = read_snapshot(file).events;
+    EXPECT_TRUE(some.detailed) << file;
+    in_snapshots.detailed = true;
+    in_snapshots.add(some);
+  }
+  for (fs::path const& file : snapshot_files(folder / "plain")) EXPECT_FALSE(read_snapshot(file).events.detailed) << file;
+  ASSERT_EQ(in_snapshots.details.size(), events.details.size());
+  for (std::size_t k = 0; k < events.rows.size(); ++k) {
+    EXPECT_EQ(events.rows[k].step, plain.rows[k].step);
+    EXPECT_EQ(events.rows[k].x, plain.rows[k].x);
+    for (BreakDetailColumn const& column : break_detail_columns)
+      EXPECT_EQ(in_snapshots.details[k].*column.value, events.details[k].*column.value) << column.name;
+    EXPECT_GE(events.details[k].utilisation, 1);
+    auto const& steps = history["step"];
+    auto const after = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(events.rows[k].step)) - steps.begin();
+    EXPECT_GE(events.details[k].eps1, k > 0 ? events.details[k - 1].eps1 : 0);
+    EXPECT_LE(events.details[k].eps1, history["eps1"][static_cast<std::size_t>(after)]);
+  }
+  CommandResult const listed = run_clathra("events --csv " + (folder / "out").string());
+  EXPECT_NE(listed.output.find("eps1,step,id_a,id_b,mode,x_m,y_m,orientation_deg,"), std::string::npos) << listed.output;
+  CommandResult const unread = run("unread", one + "--set output.event_details=true --set output.events=false");
+  EXPECT_NE(unread.output.find("output.event_details has no effect"), std::string::npos) << unread.output;
 }
 
 TEST_F(ExtendedRun, TakesSnapshotsOnlyAtGivenStrainsWhereThereAreNoRegularOnes) {

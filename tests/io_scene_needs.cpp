@@ -1,5 +1,6 @@
 /// What each example scene keeps and launches, scene by scene: tests/golden/scene_needs.txt.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -24,8 +25,8 @@ std::string needs_of_examples() {
   std::ostringstream text;
   for (fs::path const& path : scenes) {
     SceneNeeds const needs = needs_of(load_scene(path).scene);
-    text << fs::relative(path, CLATHRA_EXAMPLES).string() << ": " << needs.bytes(false) << " a disc, " << needs.bytes(true)
-         << " an entry;";
+    text << fs::relative(path, CLATHRA_EXAMPLES).string() << ": " << needs.bytes(FieldOf::disc) << " a disc, "
+         << needs.bytes(FieldOf::entry) << " an entry;";
     for (NeededField const& field : needs.fields)
       if (field.asked_by != "every scene") text << ' ' << field.name;
     for (NeededKernel const& kernel : needs.kernels) text << "; " << kernel.name << ": " << kernel.does;
@@ -49,6 +50,12 @@ TEST(SceneNeeds, AreWhatInfoPrints) {
     EXPECT_NE(out.output.find(part), std::string::npos) << part;
   EXPECT_EQ(out.output.find("hydrate"), std::string::npos) << "nothing of bonds is there";
   EXPECT_EQ(run_clathra("info --cost nowhere.toml").code, 66);
+  fs::path const scene = fs::temp_directory_path() / ("clathra_needs_" + std::to_string(::getpid()) + ".toml");
+  std::ofstream(scene) << std::ifstream(CLATHRA_EXAMPLES "/quick.toml").rdbuf() << "event_details = true\n";
+  CommandResult const detailed = run_clathra("info --cost " + scene.string());
+  EXPECT_NE(detailed.output.find("56 bytes a bond"), std::string::npos) << detailed.output;
+  EXPECT_NE(detailed.output.find("output.event_details"), std::string::npos) << detailed.output;
+  fs::remove(scene);
 }
 
 }  // namespace

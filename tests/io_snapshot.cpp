@@ -45,7 +45,7 @@ class SnapshotFile : public testing::Test {
     area = sim.area();
     snapshot = take_snapshot(sim);
     snapshot.d50 = grain_d50;
-    snapshot.events = broken;
+    snapshot.events.rows = broken;
   }
   void TearDown() override { fs::remove_all(folder); }
 
@@ -106,7 +106,7 @@ TEST_F(SnapshotFile, ReadsBackWithinItsStatedResolution) {
   EXPECT_EQ(back.b, snapshot.b);
   EXPECT_EQ(back.state, snapshot.state);
   EXPECT_EQ(back.coordination, snapshot.coordination);
-  EXPECT_EQ(back.events.size(), snapshot.events.size());
+  EXPECT_EQ(back.events.rows.size(), snapshot.events.rows.size());
   double force = 0;
   for (double const f : snapshot.normal_force) force += std::abs(f) / static_cast<double>(snapshot.normal_force.size());
   for (std::size_t i = 0; i < back.x.size(); ++i) {

@@ -117,18 +117,18 @@ void expect_needs(std::string const& what, Scene const& scene) {
   sim.choose_time_step(scene.run.step_choice());
   sim.set_ledger(scene.output.energy);
   if (scene.output.takes_snapshots()) sim.mark_start();
-  EXPECT_EQ(bytes_per_entry(sim), static_cast<std::size_t>(needs.bytes(true))) << what;
+  EXPECT_EQ(bytes_per_entry(sim), static_cast<std::size_t>(needs.bytes(FieldOf::entry))) << what;
   // Rough walls keep theirs for the discs next to them alone.
   int const of_walls = scene.test.wall_friction > 0 ? 4 * sizeof(Real) : 0;
   SimulationState const state = sim.state();
   std::set<std::string> kept(state.disc_columns.begin(), state.disc_columns.end()), named;
   kept.insert("id");
   for (NeededField const& field : needs.fields)
-    if (!field.of_entry) named.insert(field.name);
+    if (field.of == FieldOf::disc) named.insert(field.name);
   EXPECT_EQ(kept, named) << what;
   std::size_t const places = sim.particles().x.extent(0), marks = (scene.output.takes_snapshots() ? 4 : 2) * sizeof(Coord);
   EXPECT_EQ(bytes(sim.particles()) + bytes(sim.energy_losses()) + marks * places,
-            static_cast<std::size_t>(needs.bytes(false) - of_walls) * places)
+            static_cast<std::size_t>(needs.bytes(FieldOf::disc) - of_walls) * places)
       << what;
   Launches const launches;
   for (int n = 0; n < 7; ++n) sim.step();
@@ -219,9 +219,10 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
 }
 
 TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
-  auto const sheared = [](bool events) {
+  auto const sheared = [](bool events, bool details = false) {
     Simulation sim = packing(hydrate_laws(Composite::parallel), true);
     sim.keep_break_events(events);
+    if (details) sim.keep_break_details();
     sim.loading.y = AxisDrive::at_rate(2000);
     sim.loading.x = AxisDrive::at_rate(-1500);
     for (int n = 0; n < 4000; ++n) sim.step();
@@ -236,6 +237,18 @@ TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
   EXPECT_TRUE(counted.break_events(0).empty());
   EXPECT_EQ(counted.hash(), logged.hash());
   EXPECT_GE(logged.bytes(), counted.bytes() + 41 * 100);  // of a bond
+  EXPECT_TRUE(logged.detailed_break_events(0).details.empty());
+  Simulation const detailed = sheared(true, true);
+  EXPECT_EQ(detailed.hash(), logged.hash());
+  EXPECT_EQ(static_cast<int>(detailed.detailed_break_events(0).details.size()), logged.broken_bonds());
+  Scene scene;
+  scene.hydrate.saturation = 0.55;
+  EXPECT_EQ(needs_of(scene).bytes(FieldOf::bond), 0);
+  scene.output.event_details = true;
+  auto const bonds = (logged.bytes() - counted.bytes()) / 33;
+  EXPECT_EQ(detailed.bytes() - logged.bytes(), static_cast<std::size_t>(needs_of(scene).bytes(FieldOf::bond)) * bonds);
+  scene.output.events = false;
+  EXPECT_EQ(needs_of(scene).bytes(FieldOf::bond), 0);
 }
 
 TEST(Features, WallsKeepShearOnlyWhereTheyAreRough) {

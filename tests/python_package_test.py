@@ -13,7 +13,7 @@ import numpy as np  # noqa: E402
 
 SCENE = {"sample": {"generator": "file", "file": os.path.join(PROJECT, "tests", "golden", "specimen-1.h5")},
          "hydrate": {"saturation": "55 %"}, "test": {"axial_strain": 0.02},
-         "output": {"records": 20, "snapshots": 2, "snapshots_at": ["0.5 %"], "energy": True}}
+         "output": {"records": 20, "snapshots": 2, "snapshots_at": ["0.5 %"], "energy": True, "event_details": True}}
 
 
 class Package(unittest.TestCase):
@@ -54,6 +54,17 @@ class Package(unittest.TestCase):
         self.assertEqual(sum(len(snapshot.events) for snapshot in run.snapshots), len(run.events))
         with self.assertRaises(AttributeError):
             last.nothing
+
+    def test_events_have_details_with_units(self):
+        run = self.run_of_scene
+        self.assertEqual(len(run.events.columns), 13)
+        units = run.events.attrs["units"]
+        self.assertEqual([units[name] for name in ("eps1", "orientation_deg", "width_m", "utilisation", "energy_J_per_m", "relative_rotation_rad")],
+                         ["", "deg", "m", "", "J/m", "rad"])
+        self.assertGreaterEqual(run.events["utilisation"].min(), 1)
+        energy = np.concatenate([snapshot.events["energy"] for snapshot in run.snapshots])
+        np.testing.assert_array_equal(energy, run.events["energy_J_per_m"])
+        self.assertEqual(run.snapshots[-1].events.units["energy"], "J/m")
 
     def test_specimens_are_arrays(self):
         final = self.run_of_scene.final

@@ -19,6 +19,28 @@ TEST(Checkpoint, TakesNothingFromTheGoldenState) {
   }
 }
 
+TEST(Checkpoint, KeepsTheDetailsOfBrokenBonds) {
+  Specimen const whole = bonded_patch(Composite::parallel), empty = without_discs(whole);
+  Simulation alone = ready(whole, Composite::parallel);
+  auto sim = std::make_unique<Simulation>(ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty));
+  alone.keep_break_details();
+  sim->keep_break_details();
+  for (int n = 0; n < 3000; ++n) {
+    if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->laws(), world());
+    sim->step();
+    alone.step();
+  }
+  EXPECT_EQ(sim->hash(), alone.hash());
+  BreakEvents const all = gathered(world(), sim->detailed_break_events(0)), one = alone.detailed_break_events(0);
+  EXPECT_TRUE(all.detailed);
+  if (!world().root()) return;
+  EXPECT_GT(one.rows.size(), 20u);
+  ASSERT_EQ(all.details.size(), one.details.size());
+  for (std::size_t k = 0; k < one.details.size(); ++k)
+    for (BreakDetailColumn const& column : break_detail_columns)
+      EXPECT_EQ(all.details[k].*column.value, one.details[k].*column.value) << column.heading << " of event " << k;
+}
+
 TEST(Checkpoint, KeepsAccountsAndDisplacements) {
   Specimen const whole = bonded_patch(Composite::parallel), empty = without_discs(whole);
   Simulation sim = ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "io/results/run_results.hpp"
 #include "kernels/break_mode.hpp"
@@ -27,6 +28,13 @@ struct EventsOptions {
 struct BreakRow {
   BreakEvent event;
   double eps1;
+  BreakDetails details;
+};
+
+/// Rows in the order of the file.
+struct BreakTable {
+  bool detailed = false;
+  std::vector<BreakRow> rows;
 };
 
 std::vector<std::string> mode_names() {
@@ -45,26 +53,40 @@ double strain_at(HistoryTable const& history, double step) {
   return strains[after - 1] + share * (strains[after] - strains[after - 1]);
 }
 
-std::vector<BreakRow> chosen_events(EventsOptions const& options, HistoryTable const& history) {
+/// Its strain as the file says it, or else between the records of the history.
+BreakRow row_of(BreakEvents const& events, std::size_t k, HistoryTable const& history) {
+  BreakEvent const& event = events.rows[k];
+  if (events.detailed) return {event, events.details[k].eps1, events.details[k]};
+  return {event, strain_at(history, static_cast<double>(event.step)), {}};
+}
+
+BreakTable chosen_events(EventsOptions const& options, HistoryTable const& history) {
   std::error_code error;
   if (!std::filesystem::exists(options.folder / "events.csv", error))
     throw FileProblem(ExitCode::file_missing, options.folder,
                       "has no events.csv: the sand is clean, or output.events is false in its scene");
-  std::vector<BreakRow> rows;
-  for (BreakEvent const& event : read_events(options.folder / "events.csv"))
-    rows.push_back({event, strain_at(history, static_cast<double>(event.step))});
-  std::erase_if(rows, [&](BreakRow const& row) {
+  BreakEvents const events = read_events(options.folder / "events.csv");
+  BreakTable table{events.detailed, {}};
+  for (std::size_t k = 0; k < events.rows.size(); ++k) table.rows.push_back(row_of(events, k, history));
+  std::erase_if(table.rows, [&](BreakRow const& row) {
     bool const other_mode = !options.mode.empty() && options.mode != break_mode_name(row.event.mode);
     return other_mode || row.eps1 * 100 < options.from || row.eps1 * 100 > options.to;
   });
-  return rows;
+  return table;
 }
 
-std::string csv_text(std::vector<BreakRow> const& rows) {
-  std::string text = "eps1,step,id_a,id_b,mode,x_m,y_m\n";
-  for (BreakRow const& row : rows)
-    text += fmt::format("{},{},{},{},{},{},{}\n", row.eps1, row.event.step, row.event.id_a, row.event.id_b,
+std::string csv_text(BreakTable const& table) {
+  // eps1 stands in front with or without details.
+  auto const more = std::span(break_detail_columns).subspan(table.detailed ? 1 : std::size(break_detail_columns));
+  std::string text = "eps1,step,id_a,id_b,mode,x_m,y_m";
+  for (BreakDetailColumn const& column : more) text += fmt::format(",{}", column.heading);
+  text += '\n';
+  for (BreakRow const& row : table.rows) {
+    text += fmt::format("{},{},{},{},{},{},{}", row.eps1, row.event.step, row.event.id_a, row.event.id_b,
                         break_mode_name(row.event.mode), row.event.x, row.event.y);
+    for (BreakDetailColumn const& column : more) text += fmt::format(",{}", row.details.*column.value);
+    text += '\n';
+  }
   return text;
 }
 
@@ -91,9 +113,10 @@ std::string count_text(std::vector<BreakRow> const& rows, double first, double l
 
 ExitCode show_events(EventsOptions const& options) {
   HistoryTable const history(options.folder / "history.csv");
-  std::vector<BreakRow> const rows = chosen_events(options, history);
+  BreakTable const table = chosen_events(options, history);
   double const last = std::min(options.to / 100, history["eps1"].back());
-  return print_result(options.csv ? csv_text(rows) : count_text(rows, std::max(options.from / 100, 0.0), last, options.parts));
+  return print_result(options.csv ? csv_text(table)
+                                  : count_text(table.rows, std::max(options.from / 100, 0.0), last, options.parts));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ std::string snapshot_text(Snapshot const& s) {
   text += row("box", fmt::format("{:.6g} mm x {:.6g} mm", (s.right - s.left) * 1e3, (s.top - s.bottom) * 1e3));
   for (std::size_t state = 0; state < pairs.size(); ++state)
     text += row(std::string(contact_state_name(static_cast<std::uint8_t>(state))).c_str(), fmt::format("{} pairs", pairs[state]));
-  text += row("events", fmt::format("{} bonds broke since the snapshot before", s.events.size()));
+  text += row("events", fmt::format("{} bonds broke since the snapshot before", s.events.rows.size()));
   return text;
 }
 
@@ -139,11 +139,13 @@ ExitCode info_of_run(std::filesystem::path const& file, bool only_hash) {
 std::string needs_text(Scene const& scene) {
   SceneNeeds const needs = needs_of(scene);
   std::string text;
-  for (bool const of_entry : {false, true}) {
-    text += fmt::format("{} bytes {}\n", needs.bytes(of_entry),
-                        of_entry ? "an entry of the neighbour rows (about 5 a disc)" : "a disc");
+  for (auto const& [of, name] : {std::pair{FieldOf::disc, "a disc"},
+                                 {FieldOf::entry, "an entry of the neighbour rows (about 5 a disc)"},
+                                 {FieldOf::bond, "a bond (about 2 a disc)"}}) {
+    if (needs.bytes(of) == 0) continue;
+    text += fmt::format("{} bytes {}\n", needs.bytes(of), name);
     for (NeededField const& field : needs.fields)
-      if (field.of_entry == of_entry) text += fmt::format("  {:<18} {}  {}\n", field.name, field.bytes, field.asked_by);
+      if (field.of == of) text += fmt::format("  {:<18} {}  {}\n", field.name, field.bytes, field.asked_by);
   }
   text += "kernels in each step\n";
   for (NeededKernel const& kernel : needs.kernels)

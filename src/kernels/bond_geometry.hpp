@@ -1,5 +1,7 @@
 #pragma once
-/// Shape of the hydrate between two discs (seed paper, section 2, Eqs. 2, 5 and 17).
+/// Shape of the hydrate between two discs (seed paper, section 2, Eqs. 2, 5 and 17), and which way it lies.
+#include <cmath>
+
 #include "kernels/lane.hpp"
 
 namespace clathra {
@@ -45,6 +47,13 @@ KOKKOS_INLINE_FUNCTION Real bond_area(Real radius, Real width, Real thickness, R
   // asin(y) = pi / 2 - 2 asin(sqrt((1 - y) / 2)) keeps the argument of the series below 1/2.
   Real const excess = y <= 0.5 ? arc_sine_excess(y) : 0.5 * pi - 2 * (std::sqrt(half) + arc_sine_excess(std::sqrt(half))) - y;
   return 0.5 * (critical_thickness + thickness) * width - 2 * radius * radius * excess;
+}
+
+/// Angle [deg] of a branch along (dx, dy) from the horizontal, anticlockwise, 0 <= .. < 180.
+KOKKOS_INLINE_FUNCTION Real angle_of_line(Real dx, Real dy) {
+  Real angle = std::atan2(dy, dx) * (180 / pi);
+  if (angle < 0) angle += 180;
+  return angle < 180 ? angle : angle - 180;
 }
 
 }  // namespace clathra

@@ -1,6 +1,7 @@
 #pragma once
 /// Strength of a hydrate bond: tension, compression and the F_n - F_s - M envelope (seed paper, Eqs. 9 to 15).
 #include <Kokkos_Core.hpp>
+#include <cmath>
 
 #include "kernels/break_mode.hpp"
 #include "kernels/elementary.hpp"
@@ -142,7 +143,21 @@ struct BondStrength {
     return lane_abs(of_shear) >= lane_abs(of_moment) ? BreakMode::shear : BreakMode::rolling;
   }
 
+  /// How far the forces that broke the bond lie beyond its strength, >= 1: -F_n / R_t in tension, F_n / R_c in compression, else
+  /// sqrt((F_s / R_s)^2 + (M / R_r)^2) at F_n; no_strength for a bond that has no strength there.
+  KOKKOS_INLINE_FUNCTION Real utilisation(BreakMode mode, Real normal, Real shear_force, Real moment) const {
+    if (mode == BreakMode::tension) return beyond(-normal, tension);
+    if (mode == BreakMode::compression) return beyond(normal, compression);
+    Real const of_shear = beyond(shear_force, shear(normal)), of_moment = beyond(moment, rolling(normal));
+    if (lane_max(of_shear, of_moment) >= no_strength) return no_strength;
+    return lane_max(Real(1), std::sqrt(of_shear * of_shear + of_moment * of_moment));  // 1 less a rounding is 1
+  }
+  static constexpr Real no_strength = 1e300;
+
  private:
+  KOKKOS_INLINE_FUNCTION static Real beyond(Real load, Real strength) {
+    return strength > 0 ? lane_abs(load) / strength : no_strength;
+  }
   KOKKOS_INLINE_FUNCTION Real shape(Real normal) const {
     Real const scale = compression + tension;
     return scale > 0 ? scale * envelope_shape((normal + tension) / scale) : 0;

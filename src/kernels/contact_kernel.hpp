@@ -260,9 +260,29 @@ struct ContactKernel {
       rows.formation_overlap(e) = no_bond;
       set_lane(broken, l, true);
       int const id = p.id(disc), other = p.id(rows.neighbour(e));
-      if (id < other) breaks.record(step, id, other, mode, lane(block.x, l), lane(block.y, l));  // the other side sees it too
+      if (id < other)  // the other side sees it too
+        breaks.record(step, id, other, mode, lane(block.x, l), lane(block.y, l),
+                      [&] { return details_of(block, l, strength, mode); });
     });
     return broken;
+  }
+
+  /// @param l  the lane of a bond that broke
+  CLATHRA_COLD_FUNCTION BreakDetails details_of(FailureCandidates const& block, int l, BondStrength const& strength,
+                                                BreakMode mode) const {
+    std::size_t const disc = block.first + static_cast<std::size_t>(l);
+    auto const other = static_cast<std::size_t>(rows.neighbour(block.entry + static_cast<std::size_t>(l)));
+    ContactForce<Real> const force{lane(block.normal, l), lane(block.shear, l), lane(block.moment, l)};
+    BreakDetails details;
+    details.eps1 = breaks.eps1;
+    details.orientation = angle_of_line(p.x(other) - p.x(disc), p.y(other) - p.y(disc));
+    details.thickness = lane(block.thickness, l);
+    details.width = lane(block.width, l);
+    details.utilisation = strength.utilisation(mode, force.normal, force.shear, force.moment);
+    ContactStiffness<Real> const stiffness = constants.bond.stiffness(details.width, details.thickness);
+    details.energy = spring_energy(force, stiffness);
+    details.relative_rotation = force.moment / lane_max(stiffness.rolling, 1e-300);
+    return details;
   }
 
   CLATHRA_COLD_FUNCTION void report_deep(std::size_t first, Mask const& deep) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// What kernels report besides forces: broken bonds, faults and energy losses.
 #include "kernels/bond_strength.hpp"
+#include "kernels/break_details.hpp"
 
 namespace clathra {
 
@@ -13,8 +14,13 @@ struct BreakLog {
   Field<int> id_a, id_b;        ///< [bonds] id_a < id_b
   Field<std::int8_t> mode;      ///< [bonds] BreakMode
   Field<Coord> x, y;            ///< [bonds] midpoint of the branch [m]
+  Field<BreakDetails> details;  ///< [bonds] empty where nobody asked for them
+  Real eps1 = 0;                ///< axial strain at the end of the present step, for the details
 
-  KOKKOS_INLINE_FUNCTION void record(std::int64_t at_step, int a, int b, BreakMode how, Coord at_x, Coord at_y) const {
+  /// @param details_of_it  computes them; not called where nobody asked for them
+  template <class DetailsOfIt>
+  KOKKOS_INLINE_FUNCTION void record(std::int64_t at_step, int a, int b, BreakMode how, Coord at_x, Coord at_y,
+                                     DetailsOfIt const& details_of_it) const {
     Kokkos::atomic_fetch_add(&by_mode(static_cast<std::size_t>(how)), std::int64_t(1));
     if (step.extent(0) == 0) return;
     auto const slot = static_cast<std::size_t>(Kokkos::atomic_fetch_add(&count(0), 1));
@@ -24,11 +30,12 @@ struct BreakLog {
     mode(slot) = static_cast<std::int8_t>(how);
     x(slot) = at_x;
     y(slot) = at_y;
+    if (details.extent(0) > 0) details(slot) = details_of_it();
   }
 };
 
-/// @param bonds  events that there is room for; 0 keeps none
-inline BreakLog make_break_log(std::size_t bonds) {
+/// @param bonds  events that there is room for; 0 keeps none;  @param detailed  whether there is room for details too
+inline BreakLog make_break_log(std::size_t bonds, bool detailed) {
   BreakLog log;
   log.by_mode = Field<std::int64_t>("breaks.by_mode", break_mode_count);
   log.count = Field<int>("breaks.count", 1);
@@ -38,12 +45,14 @@ inline BreakLog make_break_log(std::size_t bonds) {
   log.mode = uninitialised<std::int8_t>("breaks.mode", bonds);
   log.x = uninitialised<Coord>("breaks.x", bonds);
   log.y = uninitialised<Coord>("breaks.y", bonds);
+  if (detailed) log.details = uninitialised<BreakDetails>("breaks.details", bonds);
   return log;
 }
 
 inline std::size_t bytes(BreakLog const& log) {
   return log.by_mode.span() * sizeof(std::int64_t) + log.count.span() * sizeof(int) +
-         log.step.span() * (sizeof(std::int64_t) + 2 * sizeof(int) + sizeof(std::int8_t) + 2 * sizeof(Coord));
+         log.step.span() * (sizeof(std::int64_t) + 2 * sizeof(int) + sizeof(std::int8_t) + 2 * sizeof(Coord)) +
+         log.details.span() * sizeof(BreakDetails);
 }
 
 /// What can go wrong inside a kernel. Each holds the largest id of a disc that met it, or -1.

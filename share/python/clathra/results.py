@@ -8,7 +8,7 @@ import pandas
 
 from .states import Snapshot, Specimen
 
-_ENDINGS = {"Pa": "Pa", "s": "s", "J": "J/m", "m": "m", "m2": "m^2", "pct": "%", "deg": "deg"}
+_ENDINGS = {"Pa": "Pa", "s": "s", "J": "J/m", "m": "m", "m2": "m^2", "pct": "%", "deg": "deg", "rad": "rad"}
 
 
 def units_of(column):
@@ -18,6 +18,8 @@ def units_of(column):
         return "1/s"
     if column.endswith("_per_Pa"):
         return "1/Pa"
+    if column.endswith("_J_per_m"):
+        return "J/m"
     return _ENDINGS.get(column.rpartition("_")[2], "") if "_" in column else ""
 
 
@@ -65,7 +67,8 @@ class Run:
 
     @cached_property
     def events(self):
-        """Every broken bond: events.csv as a DataFrame. Raises FileNotFoundError where the run kept none."""
+        """Every broken bond: events.csv as a DataFrame, with more columns where output.event_details asked for them. Raises
+        FileNotFoundError where the run kept none."""
         return _table(os.path.join(self.folder, "events.csv"))
 
     @cached_property

@@ -73,21 +73,22 @@ EnergyRow BiaxialTest::energy() {
   return row;
 }
 
-std::vector<BreakEvent> BiaxialTest::take_events() {
-  std::vector<BreakEvent> events = state_->simulation->break_events(state_->events_taken);
-  state_->events_taken += static_cast<int>(events.size());
-  for (BreakEvent& event : events) event.step -= state_->first_step;
+BreakEvents BiaxialTest::take_events() {
+  BreakEvents events = state_->simulation->detailed_break_events(state_->events_taken);
+  state_->events_taken += static_cast<int>(events.rows.size());
+  for (BreakEvent& event : events.rows) event.step -= state_->first_step;
   return gathered(state_->ranks, std::move(events));
 }
 
-std::vector<BreakEvent> BiaxialTest::events_after(std::int64_t step) const {
-  std::vector<BreakEvent> later;
-  std::vector<BreakEvent> const all = state_->simulation->break_events(0);
+BreakEvents BiaxialTest::events_after(std::int64_t step) const {
+  BreakEvents all = state_->simulation->detailed_break_events(0), later;
+  later.detailed = all.detailed;
   std::vector<BreakEvent> const pending = state_->simulation->break_events(state_->events_taken);
-  for (BreakEvent event : all) {
+  for (std::size_t k = 0; k < all.rows.size(); ++k) {
+    BreakEvent& event = all.rows[k];
     if (!pending.empty() && !comes_before(event, pending.front())) break;
     event.step -= state_->first_step;
-    if (event.step > step) later.push_back(event);
+    if (event.step > step) later.add(all, k);
   }
   return gathered(state_->ranks, std::move(later));
 }

@@ -165,6 +165,7 @@ void BiaxialTest::State::begin_shear() {
   first_step = s.steps();
   start_time = s.time();
   record_interval = scene.test.axial_strain / scene.output.records;
+  if (scene.output.takes_event_details() && has_bonds(scene)) s.keep_break_details();
   events_taken = static_cast<int>(s.break_events(0).size());
   int const broken = s.broken_bonds();
   bonds0 = std::llround(s.measures().bonded) + broken;

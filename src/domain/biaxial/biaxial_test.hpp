@@ -38,17 +38,17 @@ class BiaxialTest {
   /// Makes at most so many steps towards the next history row. @param pause_at  axial strain at which it returns before
   /// @return whether the row is due;  @throws Diverged
   bool advance(std::int64_t most_steps, double pause_at = std::numeric_limits<double>::infinity());
-  HistoryRow record();                    ///< measured now
-  EnergyRow energy();                     ///< only with scene.output.energy
-  std::vector<BreakEvent> take_events();  ///< broken bonds since the last call (none without output.events and snapshots), sorted
-                                          ///< by (step, id_a, id_b); on rank 0 only
-  double axial_strain() const;            ///< eps_1
-  double strain_fraction() const;         ///< eps_1 / target
+  HistoryRow record();             ///< measured now
+  EnergyRow energy();              ///< only with scene.output.energy
+  BreakEvents take_events();       ///< broken bonds since the last call (none without output.events and snapshots), sorted
+                                   ///< by (step, id_a, id_b); on rank 0 only
+  double axial_strain() const;     ///< eps_1
+  double strain_fraction() const;  ///< eps_1 / target
   /// What was not quasi-static or overlapped too far in the shear so far, in words and in numbers (shear_watch.hpp). The checks
   /// have an interval of their own; preparation() holds the verdict `quasi_static`, 1 or 0, which they may take back.
   std::vector<std::string> shear_warnings() const;
   StageRecord shear_checks() const;
-  std::vector<BreakEvent> events_after(std::int64_t step) const;  ///< those already taken that came later; on rank 0 only
+  BreakEvents events_after(std::int64_t step) const;  ///< those already taken that came later; on rank 0 only
   std::int64_t disc_steps() const;
   double search_seconds() const;  ///< wall time of the neighbour searches since the bonds were installed, or since resuming
   std::uint64_t state_hash() const;

@@ -42,9 +42,10 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
   // more while neighbours are searched.
   int const numbers = 1 + (scene.grains.shape_factor > 0 || bonded ? 1 : 0) + (bonded ? 2 : 0) +
                       (bonded && scene.bond.composite == Composite::parallel ? 2 : 0);
-  constexpr double entries = 5.2;  // a disc, empty places of slices included
-  int const extras =
-      (scene.output.energy ? 5 : 0) + (scene.output.takes_snapshots() ? 2 : 0) + (scene.test.wall_friction > 0 ? 4 : 0);
+  constexpr double entries = 5.2;                                               // a disc, empty places of slices included
+  int const of_a_break = bonded && scene.output.takes_event_details() ? 7 : 0;  // a disc may break one bond or so
+  int const extras = (scene.output.energy ? 5 : 0) + (scene.output.takes_snapshots() ? 2 : 0) +
+                     (scene.test.wall_friction > 0 ? 4 : 0) + of_a_break;
   double const state = 8 * (18 + extras) + 4 + entries * (4 + 8 * numbers + 16);
   // Beside the state there is, in turns, the specimen that it was made from, a checkpoint and the last specimen; ranks also send
   // parts of these to each other.
@@ -74,9 +75,10 @@ StageRecord predict(Scene const& scene, int ranks) {
   p["disc_steps"] = p["steps"] * discs;
   p["generation_disc_steps"] = generation_disc_steps(scene, discs);
   p["memory_bytes"] = memory_of_run(scene, bonded, discs, ranks);
-  constexpr double checkpoint_bytes = 600;                               // a disc
-  double const snapshot_bytes = scene.output.full_precision ? 120 : 35;  // a disc, compressed
-  p["disk_bytes"] = discs * 2 * 150 + scene.output.records * 400 + (bonded ? discs * 40 : 0) +
+  constexpr double checkpoint_bytes = 600;                                                 // a disc
+  double const snapshot_bytes = scene.output.full_precision ? 120 : 35;                    // a disc, compressed
+  double const event_bytes = !bonded ? 0 : scene.output.takes_event_details() ? 130 : 40;  // a disc
+  p["disk_bytes"] = discs * 2 * 150 + scene.output.records * 400 + discs * event_bytes +
                     discs * snapshot_bytes * (scene.output.snapshots > 0 ? scene.output.snapshots + 1 : 0) +
                     discs * snapshot_bytes * static_cast<double>(scene.output.snapshots_at.size()) +
                     (scene.output.keep_checkpoint ? discs * checkpoint_bytes : 0);

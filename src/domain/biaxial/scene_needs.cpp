@@ -21,14 +21,14 @@ constexpr int bytes_of(View const&) {
 void add_discs(Scene const& scene, std::vector<NeededField>& fields) {
   ParticleSoA particles;
   auto const state = [&](DiscField const& about, auto const& field) {
-    fields.push_back({about.name, bytes_of(field), false, every_scene});
+    fields.push_back({about.name, bytes_of(field), FieldOf::disc, every_scene});
   };
   for_each_field(particles, state);
   for_each_derived_field(particles, state);
-  for (char const* const name : {"step_x", "step_y"}) fields.push_back({name, sizeof(Coord), false, every_scene});
+  for (char const* const name : {"step_x", "step_y"}) fields.push_back({name, sizeof(Coord), FieldOf::disc, every_scene});
   if (!scene.output.takes_snapshots()) return;
   for (char const* const name : {"start_x", "start_y"})
-    fields.push_back({name, sizeof(Coord), false, "output.snapshots, output.snapshots_at"});
+    fields.push_back({name, sizeof(Coord), FieldOf::disc, "output.snapshots, output.snapshots_at"});
 }
 
 void add_accounts(SimulationLaws const& laws, std::vector<NeededField>& fields) {
@@ -39,7 +39,7 @@ void add_accounts(SimulationLaws const& laws, std::vector<NeededField>& fields) 
                                                 {"lost_damping", "run.damping"}};
   EnergyLosses losses;
   for_each_account(losses, laws.losses(), [&](char const* name, Field<Accum> const& account, bool needed) {
-    if (needed) fields.push_back({name, bytes_of(account), false, "output.energy with " + with.at(name)});
+    if (needed) fields.push_back({name, bytes_of(account), FieldOf::disc, "output.energy with " + with.at(name)});
   });
 }
 
@@ -51,14 +51,14 @@ void add_entries(SimulationLaws const& laws, std::vector<NeededField>& fields) {
                                                 {"bond_shear", "bond.composite"},
                                                 {"bond_moment", "bond.composite"}};
   ContactRows rows;
-  fields.push_back({"neighbour", bytes_of(rows.neighbour), true, every_scene});
+  fields.push_back({"neighbour", bytes_of(rows.neighbour), FieldOf::entry, every_scene});
   for_each_possible_history(
       laws.features(),
       [&](HistoryField const& about, bool needed, auto const& field) {
-        if (needed) fields.push_back({about.name, bytes_of(field), true, keys.at(about.name)});
+        if (needed) fields.push_back({about.name, bytes_of(field), FieldOf::entry, keys.at(about.name)});
       },
       rows);
-  if (laws.features().bonds) fields.push_back({"width", bytes_of(rows.width), true, hydrate});
+  if (laws.features().bonds) fields.push_back({"width", bytes_of(rows.width), FieldOf::entry, hydrate});
 }
 
 /// The variant of the contact kernel that these laws run, in words.
@@ -89,8 +89,11 @@ SceneNeeds needs_of(Scene const& scene) {
   if (scene.output.energy) add_accounts(laws, needs.fields);
   if (laws.wall.friction > 0)
     for (char const* const wall : {"shear_left", "shear_right", "shear_bottom", "shear_top"})
-      needs.fields.push_back({wall, sizeof(Real), false, "test.wall_friction, of discs at the walls"});
+      needs.fields.push_back({wall, sizeof(Real), FieldOf::disc, "test.wall_friction, of discs at the walls"});
   add_entries(laws, needs.fields);
+  if (scene.output.takes_event_details() && has_bonds(scene))
+    needs.fields.push_back(
+        {"break_details", sizeof(BreakDetails), FieldOf::bond, "output.event_details, written where bonds break"});
   bool const damped = laws.motion.damping > 0;
   needs.kernels.push_back(
       {"kick_and_drift", damped ? "leapfrog, local damping" : "leapfrog", damped ? "every scene, run.damping" : every_scene});

@@ -7,10 +7,13 @@
 
 namespace clathra {
 
+/// What a field has a value of: a disc, an entry of the neighbour rows (about 5 a disc), or a bond (about 2 a disc).
+enum class FieldOf { disc, entry, bond };
+
 struct NeededField {
   std::string name;
-  int bytes;  ///< a disc, or an entry of the neighbour rows (about 5 a disc)
-  bool of_entry;
+  int bytes;  ///< of one value
+  FieldOf of;
   std::string asked_by;  ///< keys of the scene, or "every scene"
 };
 
@@ -23,10 +26,9 @@ struct SceneNeeds {
   std::vector<NeededField> fields;
   std::vector<NeededKernel>
       kernels;  ///< launched in each step; others run at neighbour searches, records and choices of the step
-  /// @param of_entry  an entry of the rows, else a disc
-  int bytes(bool of_entry) const {
+  int bytes(FieldOf of) const {
     int sum = 0;
-    for (NeededField const& field : fields) sum += field.of_entry == of_entry ? field.bytes : 0;
+    for (NeededField const& field : fields) sum += field.of == of ? field.bytes : 0;
     return sum;
   }
 };

@@ -47,7 +47,7 @@ struct Snapshot {
   std::vector<double> gap;                        ///< surface to surface [m], negative = overlap
   std::vector<double> width;                      ///< B of an intact bond [m], else 0
 
-  std::vector<BreakEvent> events;  ///< bonds broken since the snapshot before
+  BreakEvents events;  ///< bonds broken since the snapshot before
 };
 
 /// How finely a column is written unless all digits are asked for.

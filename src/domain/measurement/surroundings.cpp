@@ -47,7 +47,7 @@ Snapshot surroundings(Snapshot const& snapshot, double x, double y, double dista
   for_each_pair_column([&](auto const& column) {
     for (auto const list : column.parts) part.*list = kept(snapshot.*list, pairs);
   });
-  part.events.clear();
+  part.events = {};
   return part;
 }
 

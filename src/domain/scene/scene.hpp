@@ -108,9 +108,11 @@ struct OutputScene {
   std::vector<double> snapshots_at;  ///< axial strains of further snapshots, ascending, each once
   bool energy = false;               ///< keep the energy ledger
   bool events = true;                ///< events.csv: each broken bond
+  bool event_details = false;        ///< with further columns; only with events
   bool full_precision = false;       ///< snapshots as they are computed, not rounded
   bool keep_checkpoint = true;       ///< of the end of a test, to extend it
 
+  bool takes_event_details() const { return events && event_details; }
   bool takes_snapshots() const { return snapshots > 0 || !snapshots_at.empty(); }
 };
 

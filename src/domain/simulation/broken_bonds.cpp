@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace clathra {
@@ -17,12 +18,33 @@ std::string name_of_count(int mode) { return "broken_" + std::to_string(mode); }
 
 }  // namespace
 
+BreakEvents sorted(BreakEvents const& events, std::size_t first) {
+  BreakEvents all;
+  all.detailed = events.detailed;
+  if (first >= events.rows.size()) return all;
+  std::vector<std::size_t> order(events.rows.size() - first);
+  std::iota(order.begin(), order.end(), first);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t p, std::size_t q) { return comes_before(events.rows[p], events.rows[q]); });
+  for (std::size_t const k : order) all.add(events, k);
+  return all;
+}
+
+BreakLog const& BrokenBonds::log_at(Real height) {
+  if (detailed()) log_.eps1 = std::log(details_from_height / height);
+  return log_;
+}
+
 void BrokenBonds::make_room(std::size_t bonds) {
   std::size_t const room = keeps_events ? bonds : 0;
-  if (!has_log() || log_.step.extent(0) < room) log_ = make_break_log(room);
+  if (!has_log() || log_.step.extent(0) < room) log_ = make_break_log(room, detailed());
 }
 
 void BrokenBonds::collect() {
+  if (detailed() && !events_.detailed) {
+    events_.detailed = true;
+    events_.details.resize(events_.rows.size());  // of those before there are none
+  }
   if (!has_log()) return;
   auto const by_mode = download(log_.by_mode);
   for (std::size_t mode = 0; mode < break_mode_count; ++mode) counts_.number[mode] += by_mode(mode);
@@ -33,15 +55,10 @@ void BrokenBonds::collect() {
   auto const id_a = download(log_.id_a), id_b = download(log_.id_b);
   auto const mode = download(log_.mode);
   auto const x = download(log_.x), y = download(log_.y);
-  for (int k = 0; k < count; ++k) events_.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
+  auto const details = download(log_.details);
+  for (int k = 0; k < count; ++k) events_.rows.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
+  if (detailed()) events_.details.insert(events_.details.end(), details.data(), details.data() + count);
   Kokkos::deep_copy(log_.count, 0);
-}
-
-std::vector<BreakEvent> BrokenBonds::sorted_events(int first) const {
-  std::vector<BreakEvent> sorted;
-  if (static_cast<std::size_t>(first) < events_.size()) sorted.assign(events_.begin() + first, events_.end());
-  std::sort(sorted.begin(), sorted.end(), comes_before);
-  return sorted;
 }
 
 void BrokenBonds::write(SimulationState& state, Ranks const& ranks) const {
@@ -54,27 +71,35 @@ void BrokenBonds::read(SimulationState& state, Ranks const& ranks) {
   events_ = std::move(state.broken);
   for (int mode = 0; mode < break_mode_count; ++mode) {
     auto const counted = state.numbers.find(name_of_count(mode));
+    auto const is_of_mode = [&](BreakEvent const& e) { return e.mode == mode; };
     if (counted != state.numbers.end())
       counts_.number[mode] = ranks.root() ? std::llround(counted->second) : 0;
     else  // the first checkpoints have no counts, and all events
-      counts_.number[mode] = std::count_if(events_.begin(), events_.end(), [&](BreakEvent const& e) { return e.mode == mode; });
+      counts_.number[mode] = std::count_if(events_.rows.begin(), events_.rows.end(), is_of_mode);
   }
 }
 
-std::vector<BreakEvent> gathered(Ranks const& ranks, std::vector<BreakEvent> events) {
+BreakEvents gathered(Ranks const& ranks, BreakEvents events) {
   if (ranks.alone()) return events;
   std::vector<double> numbers;
-  for (BreakEvent const& e : events)
+  for (std::size_t k = 0; k < events.rows.size(); ++k) {
+    BreakEvent const& e = events.rows[k];
     numbers.insert(numbers.end(), {static_cast<double>(e.step), double(e.id_a), double(e.id_b), double(e.mode), e.x, e.y});
-  numbers = ranks.gather(numbers);
-  events.clear();
-  for (std::size_t k = 0; k < numbers.size(); k += 6) {
-    double const* const n = &numbers[k];
-    events.push_back(
-        {static_cast<std::int64_t>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3]), n[4], n[5]});
+    if (!events.detailed) continue;
+    for (BreakDetailColumn const& column : break_detail_columns) numbers.push_back(events.details[k].*column.value);
   }
-  std::sort(events.begin(), events.end(), comes_before);
-  return events;
+  numbers = ranks.gather(numbers);
+  BreakEvents all;
+  all.detailed = events.detailed;
+  for (auto n = numbers.begin(); n != numbers.end();) {
+    all.rows.push_back(
+        {static_cast<std::int64_t>(n[0]), static_cast<int>(n[1]), static_cast<int>(n[2]), static_cast<int>(n[3]), n[4], n[5]});
+    n += 6;
+    if (!all.detailed) continue;
+    BreakDetails& details = all.details.emplace_back();
+    for (BreakDetailColumn const& column : break_detail_columns) details.*column.value = *n++;
+  }
+  return sorted(all);
 }
 
 }  // namespace clathra

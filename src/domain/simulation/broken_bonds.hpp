@@ -15,22 +15,24 @@ namespace clathra {
 /// Those of one rank; each break is seen by one rank.
 class BrokenBonds {
  public:
-  /// What kernels write into. Bonds break once: a log as long as the number of intact bonds cannot overflow.
-  BreakLog const& log() const { return log_; }
+  /// What kernels write into in a step that ends with the box of this height [m]. Bonds break once: a log as long as the number
+  /// of intact bonds cannot overflow.
+  BreakLog const& log_at(Real height);
   bool has_log() const { return log_.count.extent(0) > 0; }
   void drop_log() { log_ = BreakLog(); }
   /// Has a log with room for so many bonds from now on, if their events are kept. What it holds must have been collected.
   void make_room(std::size_t bonds);
   /// From the next log on; without, only their numbers by mode are known.
   bool keeps_events = true;
+  /// Details of events are kept from the next log on, and their strains count from the box of this height [m]; 0: none are kept.
+  Real details_from_height = 0;
 
   /// Moves what kernels logged to the host.
   void collect();
   // As of the last collect():
   BreakCounts const& counts() const { return counts_; }
-  std::vector<BreakEvent> const& events() const { return events_; }  ///< in no particular order
   /// Those from the first-th on, sorted by (step, id_a, id_b).
-  std::vector<BreakEvent> sorted_events(int first) const;
+  BreakEvents sorted_events(int first) const { return sorted(events_, static_cast<std::size_t>(first)); }
 
   /// Events of this rank and counts of all, into a checkpoint.
   void write(SimulationState& state, Ranks const& ranks) const;
@@ -39,12 +41,14 @@ class BrokenBonds {
   std::size_t bytes() const { return clathra::bytes(log_); }
 
  private:
+  bool detailed() const { return details_from_height > 0; }
+
   BreakLog log_;  // since the last collect()
-  std::vector<BreakEvent> events_;
+  BreakEvents events_;
   BreakCounts counts_;
 };
 
 /// The events of all ranks on rank 0, sorted by (step, id_a, id_b); nothing elsewhere.
-std::vector<BreakEvent> gathered(Ranks const& ranks, std::vector<BreakEvent> events);
+BreakEvents gathered(Ranks const& ranks, BreakEvents events);
 
 }  // namespace clathra

@@ -55,7 +55,7 @@ void Simulation::step() {
   }
   WallReactions const before = reactions_;
   Kokkos::Timer const pushing;
-  compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, broken_bonds_.log(), losses_, faults_);
+  compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, broken_bonds_.log_at(height()), losses_, faults_);
   busy_seconds_ += pushing.seconds();
   if (!periodic()) {
     reactions_ = apply_wall_forces(time_step);
@@ -206,7 +206,7 @@ void Simulation::account_boundary_work(WallReactions const& before) {
 
 void Simulation::evaluate_forces() {
   if (rebuild_pending_) rebuild();
-  compute_forces(particles_, rows_, laws_.contact, 0, step_, broken_bonds_.log(), losses_, faults_);
+  compute_forces(particles_, rows_, laws_.contact, 0, step_, broken_bonds_.log_at(height()), losses_, faults_);
   if (!periodic()) reactions_ = apply_wall_forces(0);
 }
 
@@ -333,6 +333,13 @@ void Simulation::keep_break_events(bool on) {
   make_room_for_breaks();
 }
 
+void Simulation::keep_break_details() {
+  broken_bonds_.collect();
+  broken_bonds_.details_from_height = height();
+  broken_bonds_.drop_log();
+  make_room_for_breaks();
+}
+
 int Simulation::broken_bonds() const { return static_cast<int>(break_counts().total()); }
 
 BreakCounts Simulation::break_counts() const {
@@ -342,7 +349,7 @@ BreakCounts Simulation::break_counts() const {
   return counts;
 }
 
-std::vector<BreakEvent> Simulation::break_events(int first) const {
+BreakEvents Simulation::detailed_break_events(int first) const {
   broken_bonds_.collect();
   return broken_bonds_.sorted_events(first);
 }

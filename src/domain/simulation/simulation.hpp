@@ -98,6 +98,7 @@ class Simulation {
   }
   void set_ledger(bool on);                            ///< opens the ledger with all losses at zero, or closes it
   void keep_break_events(bool on);                     ///< from now on; without, only their numbers by mode are known
+  void keep_break_details();                           ///< of events, from now on, with strains that count from now
   void stretch_cell(Real rate) { cell_rate_ = rate; }  ///< periodic cell: isotropic closing strain rate [1/s]
   void stop_discs() { stop_motion(particles_); }
   void add_uniform_strain_rate(Real rate_x,
@@ -144,7 +145,8 @@ class Simulation {
   BreakCounts break_counts() const;  ///< so far
   /// Breaks that this rank has seen while events were kept, from the first-th on, sorted by (step, id_a, id_b). Each break is
   /// seen by one rank.
-  std::vector<BreakEvent> break_events(int first) const;
+  std::vector<BreakEvent> break_events(int first) const { return detailed_break_events(first).rows; }
+  BreakEvents detailed_break_events(int first) const;  ///< the same, with the details where these are kept
   /// Bytes of this rank's fields, with the ledger, the log of breaks and the most that a neighbour search has needed beside them.
   std::size_t bytes() const {
     return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) + broken_bonds_.bytes() +
@@ -198,6 +200,7 @@ class Simulation {
   std::vector<SpecimenContact> contacts_by_id() const;
   void account_boundary_work(WallReactions const& before);
   void make_room_for_breaks();
+  Real height() const { return periodic() ? cell_.height : walls_.height(); }
 
   Ranks ranks_;
   Summation sums_;

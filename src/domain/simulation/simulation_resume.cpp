@@ -70,7 +70,7 @@ void Simulation::for_each_number(Visit&& visit) {
   for_each_later_number(visit);
 }
 
-/// Those that the first versions of checkpoints lack: they had one time step for all time.
+/// Those that the first versions of checkpoints lack: they had one time step for all time, and no details of broken bonds.
 template <class Visit>
 void Simulation::for_each_later_number(Visit&& visit) {
   visit("added_mass", added_mass_);
@@ -83,6 +83,7 @@ void Simulation::for_each_later_number(Visit&& visit) {
   visit("time_step_due", following_.due);
   visit("time_step_renewals", renewals_);
   visit_walls("step_wall", step_mark_.walls, visit);
+  visit("break_details_from_height", broken_bonds_.details_from_height);
 }
 
 AuxiliaryFields Simulation::forces() {

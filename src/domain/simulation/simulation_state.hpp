@@ -20,7 +20,7 @@ struct SimulationState {
   std::vector<std::string> disc_columns;     ///< names of the numbers of a record between its id and the length of its row
   std::vector<std::string> history_columns;  ///< names of the numbers behind each neighbour's id
   DiscRecords discs;
-  std::vector<BreakEvent> broken;  ///< since the bonds were installed
+  BreakEvents broken;  ///< since the bonds were installed
 };
 
 }  // namespace clathra

@@ -73,14 +73,14 @@ std::size_t entries_of(SimulationState const& s) {
 }
 
 void write_events(Hdf5File& file, TestState const& state) {
-  std::vector<BreakEvent> const& events = state.simulation.broken;
+  BreakEvents const& events = state.simulation.broken;
   write_event_columns(file, events);
-  std::vector<std::uint8_t> taken(events.size());
-  std::vector<double> x(events.size()), y(events.size());
-  for (std::size_t k = 0; k < events.size(); ++k) {
-    taken[k] = k < state.events_taken ? 1 : 0;
-    x[k] = events[k].x;
-    y[k] = events[k].y;
+  std::vector<std::uint8_t> taken;
+  std::vector<double> x, y;
+  for (BreakEvent const& e : events.rows) {
+    taken.push_back(taken.size() < state.events_taken ? 1 : 0);
+    x.push_back(e.x);
+    y.push_back(e.y);
   }
   file.write("events/taken", taken, "1 = stands in events.csv");
   file.write("events/x", x, "m");
@@ -91,17 +91,19 @@ void read_events(Hdf5File const& file, TestState& state, Ranks const& ranks) {
   std::int64_t const count = file.integer_attribute("events");
   if (count < 0) file.fail(ExitCode::bad_input, fmt::format("claims {} events", count));
   RowRange const rows = rows_of_rank(count, ranks);
-  std::vector<BreakEvent> const events = read_event_columns(file, rows);
+  BreakEvents const events = read_event_columns(file, rows);
   auto const taken = file.read<std::uint8_t>("events/taken", rows);
   auto const x = file.read<double>("events/x", rows), y = file.read<double>("events/y", rows);
+  BreakEvents& broken = state.simulation.broken;
+  broken.detailed = events.detailed;
   for (bool const wanted : {true, false}) {  // those that were taken come first
-    for (std::size_t k = 0; k < events.size(); ++k) {
+    for (std::size_t k = 0; k < events.rows.size(); ++k) {
       if ((taken[k] != 0) != wanted) continue;
-      state.simulation.broken.push_back(events[k]);
-      state.simulation.broken.back().x = x[k];
-      state.simulation.broken.back().y = y[k];
+      broken.add(events, k);
+      broken.rows.back().x = x[k];
+      broken.rows.back().y = y[k];
     }
-    if (wanted) state.events_taken = state.simulation.broken.size();
+    if (wanted) state.events_taken = broken.rows.size();
   }
 }
 
@@ -173,7 +175,7 @@ void write_checkpoint_content(std::filesystem::path const& path, Scene const& sc
     file.set_attribute("precision", std::string("double"));
     file.set_attribute("particles", total(s.discs.size()));
     file.set_attribute("entries", total(entries_of(s)));
-    file.set_attribute("events", total(s.broken.size()));
+    file.set_attribute("events", total(s.broken.rows.size()));
     file.set_attribute("state_hash", hash_text(state.hash));
     file.write_text("about", about.dump());
     write_records(file, s);

@@ -82,7 +82,7 @@ std::map<std::string, double> numbers_of_snapshots(std::filesystem::path const& 
     if (then && now) numbers["band_thickening_d50"] = *now - *then;
   }
   auto const peak_step = static_cast<std::int64_t>(history["step"][test_numbers(history.curves()).peak]);
-  if (auto const ratio = breakage_in_bands(*end, read_events(folder / "events.csv"), peak_step))
+  if (auto const ratio = breakage_in_bands(*end, read_events(folder / "events.csv").rows, peak_step))
     numbers["band_breakage_ratio"] = *ratio;
   return numbers;
 }

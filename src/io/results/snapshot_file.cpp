@@ -128,7 +128,7 @@ void write_pairs(ColumnWriter const& out) {
 void write_events(Hdf5File& file, Snapshot const& s) {
   write_event_columns(file, s.events);
   std::vector<double> position;
-  for (BreakEvent const& e : s.events) position.insert(position.end(), {e.x, e.y});
+  for (BreakEvent const& e : s.events.rows) position.insert(position.end(), {e.x, e.y});
   file.write("events/position", position, "m", 2);
 }
 
@@ -171,8 +171,8 @@ void read_events(Hdf5File const& file, Snapshot& s) {
   s.events = read_event_columns(file, {count, 0, count});
   std::vector<double> const position = file.read<double>("events/position", count, 2);
   for (std::size_t k = 0; k < count; ++k) {
-    s.events[k].x = position[2 * k];
-    s.events[k].y = position[2 * k + 1];
+    s.events.rows[k].x = position[2 * k];
+    s.events.rows[k].y = position[2 * k + 1];
   }
 }
 

@@ -182,6 +182,11 @@ void check_output(Check& check) {
   if (name.empty() || name == ".." || name == ".")
     check.error({"output.folder"},
                 fmt::format("'output.folder' must name a folder of its own, got '{}'", check.scene.output.folder));
+  if (!check.scene.output.event_details) return;
+  if (!check.scene.output.events)
+    check.warn("output.event_details has no effect: output.events is false");
+  else if (!has_bonds(check.scene))
+    check.warn("output.event_details has no effect: the scene has no hydrate");
 }
 
 }  // namespace

@@ -107,6 +107,7 @@ Key const table[] = {
   {"output.snapshots_at", quantities, CLATHRA_FIELD(output, snapshots_at), "axial strains at which snapshots are taken besides, at the very step, as in [\"2.54 %\", \"3.38 %\"]", ratio, 1e-6, 0.5},
   {"output.energy", boolean, CLATHRA_FIELD(output, energy), "keep the energy ledger in history.csv"},
   {"output.events", boolean, CLATHRA_FIELD(output, events), "write every broken bond to events.csv"},
+  {"output.event_details", boolean, CLATHRA_FIELD(output, event_details), "with the strain, orientation, thickness, width, utilisation, energy and rotation of each at its break; only with events"},
   {"output.full_precision", boolean, CLATHRA_FIELD(output, full_precision), "write snapshots without rounding: forces, moments and gaps with all their digits"},
   {"output.keep_checkpoint", boolean, CLATHRA_FIELD(output, keep_checkpoint), "keep the last checkpoint of a finished test: `run --resume --set test.axial_strain=...` extends it; about 600 bytes a disc"},
 };
