@@ -10,7 +10,7 @@ fail() { echo "restart: $*"; cat log || true; exit 1; }
 
 "$clathra" generate "$scene" -o specimen.h5 >log 2>&1 || fail "no specimen"
 given=(run "$scene" --set sample.generator=file --set sample.file=specimen.h5 --set test.axial_strain=0.008
-  --set output.event_details=true --set output.records=60 --set output.snapshots=3 --set output.energy=true --set output.keep_checkpoint=false)
+  --set output.event_details=true --set bond.moment_ratio=0.04 --set output.records=60 --set output.snapshots=3 --set output.energy=true --set output.keep_checkpoint=false)
 begun=$(date +%s%N)
 "$clathra" "${given[@]}" --output alone >log 2>&1 || fail "the run that is left alone failed"
 [ "$(head -n 1 alone/events.csv | tr , '\n' | grep -c .)" = 13 ] || fail "events without details"

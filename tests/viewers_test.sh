@@ -12,11 +12,12 @@ finish() {
 trap finish EXIT
 
 # Starts the X server $1 on a display that is free and sets DISPLAY. The server says the number when it takes connections, so
-# nothing comes too late on a busy machine; when it ends instead, the number is empty.
+# nothing comes too late on a busy machine; when it ends instead, the number is empty. It must not begin anew when its last client leaves:
+# the next one may come in between.
 begin_display() {
   local number=
   mkfifo "$folder/number"
-  "$1" -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp 3>"$folder/number" >"$folder/server.log" 2>&1 &
+  "$1" -displayfd 3 -noreset -screen 0 1280x1024x24 -nolisten tcp 3>"$folder/number" >"$folder/server.log" 2>&1 &
   server=$!
   read -r number <"$folder/number" || true
   [ -n "$number" ] || { cat "$folder/server.log"; echo "$1 gave no display"; exit 1; }

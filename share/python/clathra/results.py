@@ -24,7 +24,7 @@ def units_of(column):
 
 
 def _table(path):
-    table = pandas.read_csv(path, keep_default_na=False, na_values=[""])
+    table = pandas.read_csv(path, keep_default_na=False, na_values=[""], float_precision="round_trip")
     for whole in {"seed", "n"} & set(table.columns):
         table[whole] = table[whole].astype("Int64")
     table.attrs["units"] = {name: units_of(name) for name in table.columns}
