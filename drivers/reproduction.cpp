@@ -56,7 +56,7 @@ Study reproduction_study(PaperDesign const& design, ReproductionSize const& size
   study.folder = folder;
   study.scene = folder / "scene.toml";
   study.file = study.scene;
-  for (int seed = 1; seed <= size.seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
+  for (int k = 0; k < size.seeds; ++k) study.seeds.push_back(size.first_seed + static_cast<std::uint64_t>(k));
   for (int const stress : design.stresses) study.groups.push_back(group_of(0, stress));
   for (int const saturation : design.saturations)
     for (int const stress : design.stresses) study.groups.push_back(group_of(saturation, stress));

@@ -10,10 +10,12 @@ namespace clathra {
 struct ReproductionSize {
   std::int64_t discs = 20000;
   int seeds = 5;
+  std::uint64_t first_seed = 1;
 };
 inline constexpr ReproductionSize full_size{}, quick_size{2000, 2};
 
-/// The tests of a design, each with seeds 1 to n, as groups named by paper_cell(). Writes what they share to FOLDER/scene.toml.
+/// The tests of a design, each with `seeds` seeds from the first one on, as groups named by paper_cell(). Writes what they share
+/// to FOLDER/scene.toml.
 /// @throws FileProblem where it cannot be written
 Study reproduction_study(PaperDesign const& design, ReproductionSize const& size, std::filesystem::path const& folder);
 

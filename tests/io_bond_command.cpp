@@ -14,7 +14,7 @@ namespace clathra {
 namespace {
 
 nlohmann::json bond(std::string const& arguments) {
-  CommandResult const result = run_clathra("bond --json " + arguments);
+  CommandResult const result = run_clathra("bond --reading first_crack --json " + arguments);
   EXPECT_EQ(result.code, 0) << result.output;
   return nlohmann::json::parse(result.output.substr(result.output.find('{')));  // after notes, which go to stderr
 }

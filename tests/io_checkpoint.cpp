@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 /// A hand-made specimen, sheared through breakage in some thousand steps.
 char const scene_text[] =
-    "[sample]\nparticles = 144\n[hydrate]\nsaturation = \"41 %\"\n[bond]\ncoefficients = \"printed\"\n[test]\naxial_strain = \"2 "
+    "[sample]\nparticles = 144\n[hydrate]\nsaturation = \"41 %\"\n[bond]\nreading = \"first_crack\"\ncoefficients = "
+    "\"printed\"\n[test]\naxial_strain = \"2 "
     "%\"\n"
     "inertial_number = 5e-3\nwall_friction = 0.2\n[output]\nrecords = 20\nenergy = true\n[run]\nforce = true\n";
 

@@ -123,12 +123,12 @@ TEST_F(ReportLikeness, WhatOnlyChoosesHowItIsComputedOrWrittenDoesNotPartTests) 
 TEST_F(ReportLikeness, AnyOtherDifferencePartsThemAndIsNamed) {
   for (auto const& [override, words] :
        std::vector<std::pair<std::string, std::string>>{{"grains.friction=0.3", "friction 0.3"},
-                                                        {"grains.shape_factor=1", "shape factor 1"},
+                                                        {"grains.shape_factor=1.5", "shape factor 1.5"},
                                                         {"hydrate.temperature=6 degC", "temperature 6 degC"},
                                                         {"hydrate.density=910 kg/m^3", "hydrate density 910 kg/m^3"},
                                                         {"test.inertial_number=5e-5", "inertial number 5e-05"},
                                                         {"sample.void_ratio=0.22", "void ratio 0.22"},
-                                                        {"bond.composite=replace", "bond composite replace"},
+                                                        {"bond.composite=memory", "bond composite memory"},
                                                         {"bond.stress=60 kPa", "bond stress 60 kPa"},
                                                         {"run.damping=0.2", "damping 0.2"}}) {
     std::string const page = page_on_pairs({{"a", {override}}});

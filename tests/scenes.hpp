@@ -126,9 +126,11 @@ inline SimulationLaws sand_laws(double friction = 0.5, double shape_factor = 2) 
   return laws;
 }
 
-/// A scene with hydrate, strength as printed.
+/// A scene with hydrate, strength and stiffness as printed, L_r = B/14.
 inline Scene hydrate_scene(double saturation, Composite composite, MomentScale scale = MomentScale::similitude) {
   Scene scene;
+  scene.bond.moment_ratio = 1.0 / 14;
+  scene.grains.particle_stiffness_ratio = 1;
   scene.hydrate.saturation = saturation;
   scene.bond.composite = composite;
   scene.bond.coefficients = CoefficientSource::printed;

@@ -30,6 +30,7 @@ struct ReproduceOptions {
   std::string output = "out/reproduce", data, most_time;
   std::vector<std::string> overrides;
   std::int64_t discs = 0;
+  std::uint64_t first_seed = 1;
   int seeds = 0, parallel = 0, threads = 0;
   bool quick = false, dry_run = false, collect = false, screening = false;
 };
@@ -38,6 +39,7 @@ ReproductionSize size_of(ReproduceOptions const& options) {
   ReproductionSize size = options.quick ? quick_size : full_size;
   if (options.discs > 0) size.discs = options.discs;
   if (options.seeds > 0) size.seeds = options.seeds;
+  size.first_seed = options.first_seed;
   return size;
 }
 
@@ -72,7 +74,7 @@ ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::o
   for (StudyTask const& task : plan.runs) folders.push_back(task.result);
   PaperDesign const design = design_of(options);
   std::size_t const last = plan.study.groups.size() - 1;
-  Scene const scene = member_scene(plan.study, plan.study.groups[last], 1, plan.overrides).scene;
+  Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front(), plan.overrides).scene;
   double const d50 = design_sample(scene).grading.d50();
   Scorecard const card{"The seed paper, claim by claim", facts_of(options, plan),
                        paper_claims(design, numbers_of_members(plan.study, plan.members, folders), d50)};
@@ -132,8 +134,10 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
   verb.add_option("--particles", options.discs, "discs of each specimen (default: 20000)")
       ->check(CLI::Range(100, 100000000))
       ->type_name("N");
-  verb.add_option("--seeds", options.seeds, "seeds 1 to N of each test (default: 5)")
-      ->check(CLI::Range(1, 10000))
+  verb.add_option("--seeds", options.seeds, "seeds of each test (default: 5)")->check(CLI::Range(1, 10000))->type_name("N");
+  verb.add_option("--first-seed", options.first_seed, "the first of the seeds, which follow one another")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   verb.add_option("--set", options.overrides,
                   "override a key of the scene in all tests: another reading of the paper; may be repeated")

@@ -25,7 +25,7 @@ RODS = ["printed", "clamped", "scaled"]
 COMPOSITES = ["parallel", "memory", "replace"]
 SHAPES = [1, 2]
 STRESSES = ["1 MPa", "3 MPa"]
-SHARED = {"sample.particles": 2000, "test.inertial_number": 2e-4, "output.snapshots": 0, "output.keep_checkpoint": False}
+SHARED = {"grains.particle_stiffness_ratio": 1, "sample.particles": 2000, "test.inertial_number": 2e-4, "output.snapshots": 0, "output.keep_checkpoint": False}
 
 
 def readings():
@@ -44,22 +44,24 @@ def others():
     """(name, keys, whether its sand is another): one change at a time on the best of the 144, and floors where bonds replace contacts."""
     best = "parallel-8th-printed-beta1"
     for name, keys in {
-        "low": {"bond.after_consolidation": False},
-        "7th": {"bond.moment_ratio": 1 / 7},
-        "kn2": {"grains.kn_particle": "0.6 GPa"},
+        "8th-printed-low": {"bond.after_consolidation": False},
+        "7th-printed": {"bond.moment_ratio": 1 / 7},
+        "8th-printed-kn2": {"grains.particle_stiffness_ratio": 2},  # a grain is twice as stiff as a contact of two in series
+        "6th-printed-kn2": {"bond.moment_ratio": 1 / 6, "grains.particle_stiffness_ratio": 2},
+        "5th-printed-kn2": {"bond.moment_ratio": 1 / 5, "grains.particle_stiffness_ratio": 2},
+        "4th-printed-kn2": {"bond.moment_ratio": 1 / 4, "grains.particle_stiffness_ratio": 2},
     }.items():
-        yield f"{best.replace('beta1', name)}-beta1", BEST | keys, None
+        yield f"parallel-{name}-beta1", BEST | keys, None
     for name, keys in {
         "e26": {"sample.void_ratio": 0.26},
         "e28": {"sample.void_ratio": 0.28},
         "damping1": {"run.damping": 0.1},
         "damping7": {"run.damping": 0.7},
-        "beta1.5": {"grains.shape_factor": 1.5},
+        "wider": {"grains.shape_factor": 1.5},
     }.items():
         yield f"{best}-{name}", BEST | keys, {"grains.shape_factor": 1} | keys
     for composite, ratio, rod in [("replace", 1 / 8, "printed"), ("replace", 1 / 5, "printed"), ("replace", 1 / 10, "clamped"),
-                                  ("replace", 1 / 14, "scaled"), ("replace", 1 / 8, "scaled"), ("memory", 1 / 8, "printed"),
-                                  ("memory", 1 / 10, "clamped"), ("memory", 1 / 8, "scaled")]:
+                                  ("replace", 1 / 14, "scaled"), ("replace", 1 / 8, "scaled")]:
         keys = {"bond.moment_ratio": ratio, "bond.composite": composite, "bond.rod_thickness": rod, "bond.friction_floor": True,
                 "grains.shape_factor": 1, "bond.after_consolidation": composite != "replace"}
         yield f"{composite}-{round(1 / ratio)}th-{rod}-floor-beta1", keys, None

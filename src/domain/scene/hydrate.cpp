@@ -115,7 +115,7 @@ BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness)
   set_moment_length(law.strength, scene.bond);
   set_rod(law.strength, scene, d50);
   law.modulus = solid.modulus;
-  law.particle_stiffness = scene.grains.kn_particle > 0 ? scene.grains.kn_particle : scene.grains.kn;
+  law.particle_stiffness = scene.grains.particle_stiffness_ratio * scene.grains.kn;
   law.critical_thickness = critical_thickness;
   law.thickness_partner = critical_thickness;
   if (scene.bond.law == BondLawKind::constant_thickness) {

@@ -30,11 +30,11 @@ struct SampleScene {
 
 /// `[grains]`
 struct GrainScene {
-  double density = 2600;      ///< [kg/m^3]
-  double kn = 3e8, ks = 2e8;  ///< contact stiffness [N/m per m]
-  double kn_particle = 0;     ///< k_n of Eq. 16 [N/m per m]; 0 = kn (as printed)
+  double density = 2600;                ///< [kg/m^3]
+  double kn = 3e8, ks = 2e8;            ///< contact stiffness [N/m per m]
+  double particle_stiffness_ratio = 2;  ///< k_n of one grain (Eq. 16) over kn: two grains in series make a contact
   double friction = 0.5;
-  double shape_factor = 2;     ///< beta
+  double shape_factor = 1;     ///< beta
   double contact_damping = 0;  ///< viscous damping ratio of contacts
 };
 
@@ -56,18 +56,19 @@ struct HydrateScene {
 
 /// `[bond]`
 struct BondScene {
+  std::string reading = "calibrated";  ///< of what the paper leaves open: io/scene/readings.hpp
   BondLawKind law = BondLawKind::thickness_dependent;
   Composite composite = Composite::parallel;
   MomentScale moment_scale = MomentScale::similitude;
-  double moment_ratio = 1.0 / 14;  ///< c_r of similitude, L_r = c_r B
+  double moment_ratio = 1.0 / 4;  ///< c_r of similitude, L_r = c_r B
   RodThickness rod_thickness = RodThickness::printed;
   bool friction_floor = false;  ///< R_s >= mu F_n, R_r >= F_n B_c / 6
   CoefficientSource coefficients = CoefficientSource::thm;
   BondingMode mode = BondingMode::eq3;
-  double critical_thickness = 0;     ///< h_max for mode given_thickness [m]
-  double plate_thickness = 0;        ///< t_0 of constant_thickness [m]; 0 = h_max / 2
-  double stress = 50e3;              ///< isotropic stress at which the specimen is generated and the hydrate forms [Pa]
-  bool after_consolidation = false;  ///< bond at the confining stress instead
+  double critical_thickness = 0;    ///< h_max for mode given_thickness [m]
+  double plate_thickness = 0;       ///< t_0 of constant_thickness [m]; 0 = h_max / 2
+  double stress = 50e3;             ///< isotropic stress at which the specimen is generated and the hydrate forms [Pa]
+  bool after_consolidation = true;  ///< bond at the confining stress instead
 };
 
 /// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it.

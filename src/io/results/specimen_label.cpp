@@ -48,7 +48,7 @@ constexpr Item items[] = {{"bond.stress", Part::making},
                           {"bond.friction_floor", Part::bonds},
                           {"hydrate.temperature", Part::climate},
                           {"hydrate.pore_pressure", Part::climate},
-                          {"grains.kn_particle", Part::climate}};
+                          {"grains.particle_stiffness_ratio", Part::climate}};
 
 bool is_of_bonds(Part part) { return part == Part::bonds || part == Part::climate; }
 

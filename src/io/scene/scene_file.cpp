@@ -9,6 +9,7 @@
 
 #include "io/formats/text_file.hpp"
 #include "io/scene/guarded_toml.hpp"
+#include "io/scene/readings.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_guard.hpp"
 #include "io/scene/scene_value.hpp"
@@ -76,6 +77,7 @@ class SceneReader {
 
   /// Cross-checks, then the scene; throws if anything is wrong.
   LoadedScene finish() {
+    complete_reading();
     // Stating a strain rate replaces the default inertial number.
     if (scene_.test.strain_rate > 0 && !given("test.inertial_number")) scene_.test.inertial_number = 0;
     complete_box(scene_.sample);
@@ -115,6 +117,14 @@ class SceneReader {
     for (std::string_view const key : keys)
       if (auto const found = places_.find(key); found != places_.end()) return found->second;
     return {file_};
+  }
+
+  /// What the reading says of keys that are not stated. A bond that replaces the contact, stated on its own, forms at the bonding
+  /// stress, whatever the reading has: it would drop the force of the contact.
+  void complete_reading() {
+    apply_reading(reading_of(scene_.bond.reading), scene_, [this](std::string_view key) { return places_.count(key) != 0; });
+    if (scene_.bond.composite == Composite::replace && places_.count("bond.after_consolidation") == 0)
+      scene_.bond.after_consolidation = false;
   }
 
   /// An override of one rate takes the place of the other one in the file; two overrides contradict each other.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "io/scene/readings.hpp"
+
 namespace clathra {
 namespace {
 
@@ -56,7 +58,7 @@ Key const table[] = {
   {"grains.density", quantity, CLATHRA_FIELD(grains, density), "density of the grains", density, 100, 30000},
   {"grains.kn", quantity, CLATHRA_FIELD(grains, kn), "normal stiffness of a contact, per metre thickness", stiffness, 1e4, 1e13},
   {"grains.ks", quantity, CLATHRA_FIELD(grains, ks), "shear stiffness of a contact, per metre thickness", stiffness, 1e4, 1e13},
-  {"grains.kn_particle", quantity, CLATHRA_FIELD(grains, kn_particle), "stiffness of one grain, two of which are in series with a bond (Eq. 16)", stiffness, 1e4, 1e13, "grains.kn, as printed"},
+  {"grains.particle_stiffness_ratio", quantity, CLATHRA_FIELD(grains, particle_stiffness_ratio), "stiffness of one grain, two of which are in series with a bond (Eq. 16), over kn: 2 since two grains in series make a contact, 1 as printed", ratio, 0.01, 100},
   {"grains.friction", quantity, CLATHRA_FIELD(grains, friction), "friction coefficient between grains", ratio, 0, 5},
   {"grains.shape_factor", quantity, CLATHRA_FIELD(grains, shape_factor), "beta: width of a grain contact over the common radius; 0 leaves out rolling resistance", ratio, 0, 4},
   {"grains.contact_damping", quantity, CLATHRA_FIELD(grains, contact_damping), "viscous damping of contacts, as a part of the critical one", ratio, 0, 1},
@@ -71,6 +73,7 @@ Key const table[] = {
   {"hydrate.density", quantity, CLATHRA_FIELD(hydrate, density), "density of the hydrate", density, 100, 2000},
   {"hydrate.allow_unstable", boolean, CLATHRA_FIELD(hydrate, allow_unstable), "go on where hydrate would dissociate"},
 
+  {"bond.reading", choice, CLATHRA_FIELD(bond, reading), "reading of what the seed paper leaves open, which stands in for the defaults of this section, of grains.shape_factor and of grains.particle_stiffness_ratio; a key that is stated keeps its value", ratio, 0, 0, {}, reading_names()},
   {"bond.law", choice, CLATHRA_CHOICE(bond, law), "bonds: none, of the thickness of their gap, or all of one thickness", ratio, 0, 0, {}, laws},
   {"bond.composite", choice, CLATHRA_CHOICE(bond, composite), "a bond replaces the grain contact, acts in parallel to it, or replaces it and keeps its force", ratio, 0, 0, {}, composites},
   {"bond.moment_scale", choice, CLATHRA_CHOICE(bond, moment_scale), "length L_r that Eq. 9b lacks: 1 m, 1 mm, or moment_ratio times the bond width", ratio, 0, 0, {}, moment_scales},
