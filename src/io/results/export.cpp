@@ -150,7 +150,7 @@ void append_header(std::string& text, Column const& column) {
 }
 template <class Column, class Text>
 void append_cells(std::string& text, Snapshot const& s, Column const& column, std::size_t i, Text const& text_of) {
-  for (auto const list : column.parts) text += "," + text_of((s.*list)[i]);
+  for (auto const list : column.parts) text += ',', text += text_of((s.*list)[i]);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 // clang-format off
 constexpr Reading table[] = {
-  {"calibrated", "what fits the words of the seed paper best: hydrate forms under the confining stress; bonds bend beside the grain contact up to the plastic moment of their section, L_r = B/4; a grain is twice as stiff as a contact; half the rolling width of the text calibrates the sand",
+  {"calibrated", "what fits the words of the seed paper best: hydrate forms under the confining stress; bonds act beside the grain contact and bend up to a quarter more than the plastic moment of their section, L_r = B/4; a grain is twice as stiff as a contact; half the rolling width of the text calibrates the sand",
    {{{"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "2"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.25"},
      {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "true"}}}},
   {"first_crack", "bonds fail in bending when their section cracks, L_r = B/14; hydrate forms at 50 kPa; stiffness of grains and rolling width of the text",
@@ -47,12 +47,15 @@ void apply_reading(Reading const& reading, Scene& scene, std::function<bool(std:
 }
 
 std::string readings_markdown() {
-  std::string text = "| reading |", rule = "|---|";
-  for (ReadingKey const& key : table[0].keys) text += fmt::format(" `{}` |", key.key), rule += "---|";
+  std::string text;
+  for (Reading const& reading : table) text += fmt::format("- `{}`: {}.\n", reading.name, reading.what);
+  std::string rule = "|---|";
+  text += "\n| key |";
+  for (Reading const& reading : table) text += fmt::format(" `{}` |", reading.name), rule += "---|";
   text += "\n" + rule + "\n";
-  for (Reading const& reading : table) {
-    text += fmt::format("| `{}` |", reading.name);
-    for (ReadingKey const& key : reading.keys) text += fmt::format(" {} |", key.value);
+  for (std::size_t k = 0; k < table[0].keys.size(); ++k) {
+    text += fmt::format("| `{}` |", table[0].keys[k].key);
+    for (Reading const& reading : table) text += fmt::format(" {} |", reading.keys[k].value);
     text += "\n";
   }
   return text;

@@ -34,7 +34,7 @@ Reading const& reading_of(std::string_view name);
 /// Sets the keys of a reading but for those that are `stated` otherwise.
 void apply_reading(Reading const& reading, Scene& scene, std::function<bool(std::string_view)> const& stated);
 
-/// The table of docs/paper.md: a row a reading, a column a key.
+/// What they are, and a table with a column a reading.
 std::string readings_markdown();
 
 }  // namespace clathra

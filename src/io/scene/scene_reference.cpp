@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "domain/scene/units.hpp"
+#include "io/scene/readings.hpp"
 #include "io/scene/scene_value.hpp"
 
 namespace clathra {
@@ -139,7 +140,10 @@ std::string schema_markdown() {
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.leaf(), key.help, kind_text(key), allowed_values(key),
                         default_text(key));
   }
-  return text;
+  return text +
+         "\n## Readings\n\nWhat the seed paper leaves open can be read in several ways; docs/paper.md says what speaks for "
+         "which. `bond.reading` names one; keys that a scene states itself keep their values.\n\n" +
+         readings_markdown();
 }
 
 std::string schema_json() {
