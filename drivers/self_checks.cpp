@@ -16,7 +16,8 @@
 namespace clathra {
 namespace {
 
-/// Equal discs of d50 = 0.1694 mm, strength as printed in Eq. 15; `share` is the gap over h_max, forces at F_n = 0. Five digits.
+/// Equal discs of d50 = 0.1694 mm, strength as printed in Eq. 15, k_n = 3e8 N/m/m in Eq. 16, too; `share` is the gap over h_max,
+/// forces at F_n = 0. Five digits.
 struct GoldenBond {
   double saturation, share, B, R_t, R_c, k_bn, k_bm, R_s, R_r_per_length;
 };
@@ -48,6 +49,7 @@ void compare(Comparison& same, GoldenBond const& golden) {
   Scene scene;
   scene.hydrate.saturation = golden.saturation;
   scene.bond.coefficients = CoefficientSource::printed;
+  scene.grains.particle_stiffness_ratio = 1;
   double const gap = golden.share * critical_thickness_ratio(golden.saturation) * median_diameter, radius = median_diameter / 2;
   BondCard const card = evaluate_bond(scene, median_diameter, radius, radius, gap, 0);
   same("B", card.B, golden.B);

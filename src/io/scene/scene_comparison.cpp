@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/scene/readings.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
 
@@ -26,7 +27,16 @@ bool same_file(std::string const& then, std::string const& now, fs::path const& 
          fs::weakly_canonical(fs::absolute(then, ignored), ignored) == here;
 }
 
-/// What a scene meant that was kept before it could state the key: its default, or what was done then.
+/// What a key was that a scene left unstated: its default, or, before there were readings, that of what was computed then.
+Scene defaults_of(SceneTexts const& kept) {
+  Scene defaults;
+  if (kept.count("bond.reading") != 0) return defaults;
+  defaults.bond.reading = "first_crack";
+  apply_reading(reading_of(defaults.bond.reading), defaults, [](std::string_view) { return false; });
+  return defaults;
+}
+
+/// What a scene meant that was kept before it could state the key.
 std::string unstated(Key const& key, Scene const& defaults) {
   return key.name == "run.time_step" ? "\"bound\"" : value_text(key, defaults);
 }
@@ -49,7 +59,7 @@ SceneTexts scene_texts(Scene const& scene, fs::path const& folder) {
 }
 
 std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path const& folder, Agreement agreement) {
-  Scene const defaults;
+  Scene const defaults = defaults_of(then);
   std::string text;
   for (Key const& key : schema()) {
     if (may_differ(key) || (agreement == Agreement::further && may_grow(key))) continue;
