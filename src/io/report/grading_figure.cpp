@@ -56,9 +56,9 @@ std::optional<Curve> target_curve(RunResults const& run) {
   return curve;
 }
 
-std::string grading_figure(std::vector<Curve> const& curves) {
+std::string grading_figure(std::string const& title, std::vector<Curve> const& curves) {
   Plot plot;
-  plot.title = "Grading curve";
+  plot.title = title;
   plot.description = "Percent of the mass in finer grains against the diameter.";
   plot.x = diameter_axis(curves);
   plot.y = {"finer by mass [%]", 0, percent};

@@ -15,7 +15,7 @@ Curve grading_curve(std::vector<float> const& radii, std::string const& name, St
 /// The curve that the scene asks for; nothing where it is in a file of its own, which may have changed since.
 std::optional<Curve> target_curve(RunResults const& run);
 
-/// The curves over a logarithmic diameter. HTML.
-std::string grading_figure(std::vector<Curve> const& curves);
+/// The curves over a logarithmic diameter, under a title. HTML.
+std::string grading_figure(std::string const& title, std::vector<Curve> const& curves);
 
 }  // namespace clathra

@@ -46,8 +46,7 @@ std::optional<Looked> looked_at(Reproduction const& r) {
 }
 
 std::string grading_of(Looked const& looked) {
-  std::string const html = grading_figure({grading_curve(looked.start.radius, "our discs", run_stroke(0))});
-  return "<h3>Figure 9: Grading</h3>\n" + html;
+  return grading_figure("Figure 9: Grading", {grading_curve(looked.start.radius, "our discs", run_stroke(0))});
 }
 
 std::string specimen_of(Looked const& looked) {

@@ -65,7 +65,7 @@ std::string pictures(std::vector<RunResults> const& runs, std::size_t room) {
     gradings.push_back(std::move(figures.grading));
   }
   if (std::optional<Curve> target = target_curve(runs[shown.front()])) gradings.push_back(std::move(*target));
-  return text + part("Grading", side_by_side(grading_figure(gradings))) + note;
+  return text + part("Grading", side_by_side(grading_figure("Grading curve", gradings))) + note;
 }
 
 }  // namespace
