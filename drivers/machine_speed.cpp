@@ -60,10 +60,11 @@ void keep(fs::path const& file, std::string const& key, double rate) {
   }
 }
 
-double measured(int threads, bool bonded) {
+double measured(int threads, bool bonded, std::string const& precision) {
   print_error("clathra: measuring the speed of this machine, once (a few seconds)");
-  std::string const json = output_of_own_program({"bench", "--json", "--case", bonded ? "bonded" : "rolling", "--discs", "2000",
-                                                  "--seconds", "0.7", "--threads", fmt::format("{}", threads)});
+  std::string const json =
+      output_of_own_program({"bench", "--json", "--case", bonded ? "bonded" : "rolling", "--discs", "2000", "--seconds", "0.7",
+                             "--precision", precision, "--threads", fmt::format("{}", threads)});
   return Json::parse(json).at("disc_steps_per_second").get<double>();
 }
 
@@ -73,13 +74,14 @@ MachineSpeed machine_speed(Scene const& scene, int ranks, bool may_measure) {
   int const threads = thread_count(scene.run.threads);
   bool const bonded = has_bonds(scene);
   fs::path const file = cache_file();
-  std::string const key = fmt::format("{} {},{}, {} threads, {}", CLATHRA_VERSION, CLATHRA_GIT_HASH, processor(), threads,
-                                      bonded ? "bonded" : "rolling");
+  std::string const precision = precision_names[static_cast<int>(scene.run.precision)];
+  std::string const key = fmt::format("{} {},{}, {} threads, {}, {}", CLATHRA_VERSION, CLATHRA_GIT_HASH, processor(), threads,
+                                      bonded ? "bonded" : "rolling", precision);
   Json const all = kept(file);
   double rate = 0;
   if (auto const found = all.find(key); found != all.end() && found->is_number()) rate = found->get<double>();
   if (!(rate > 0) && may_measure) {
-    rate = measured(threads, bonded);
+    rate = measured(threads, bonded, precision);
     keep(file, key, rate);
   }
   if (!(rate > 0)) return {assumed_rate * threads * ranks, "assumed"};

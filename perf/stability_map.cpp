@@ -205,8 +205,8 @@ Course move(Simulation&& sim, double dt, int steps) {
   double const elastic = sim.measures().grain_energy + sim.measures().bond_energy;
   ParticleSoA const& p = sim.particles();
   for (int i = 0; i < p.owned; ++i) {
-    p.vx(i) = trace * (uniform_random(7, 1, i) - 0.5);
-    p.omega(i) = trace / p.radius(i) * (uniform_random(7, 2, i) - 0.5);
+    p.vx.set(i, trace * (uniform_random(7, 1, i) - 0.5));
+    p.omega.set(i, trace / p.radius(i) * (uniform_random(7, 2, i) - 0.5));
   }
   Course m;
   std::vector<double> logs;

@@ -37,6 +37,8 @@ Options read_options(int argc, char** argv) {
       options.setup.relaxation_steps = std::atoi(value.c_str());
     else if (name == "--seconds")
       options.seconds = std::atof(value.c_str());
+    else if (name == "--precision" && (value == "double" || value == "mixed"))
+      options.setup.precision = value == "mixed" ? Precision::mixed : Precision::full;
     else if (name == "--skin")
       options.setup.skin = std::atof(value.c_str());
     else if (name == "--repeat")

@@ -17,6 +17,7 @@ namespace {
 
 struct BenchOptions {
   std::string what = "bonded";
+  std::string precision = precision_names[0];
   ThroughputSetup setup;
   double seconds = 3;
   int threads = 0;
@@ -27,9 +28,10 @@ nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simul
                             double arithmetic) {
   double const moved = t.disc_steps_per_second * t.moved_per_step;
   return {{"case", options.what},
+          {"precision", options.precision},
           {"discs", simulation.discs()},
           {"threads", ExecutionSpace().concurrency()},
-          {"lanes", lane_count},
+          {"lanes", options.setup.precision == Precision::full ? lane_count : lane_count_of<float>},
           {"disc_steps_per_second", t.disc_steps_per_second},
           {"contact_steps_per_s", t.contact_steps_per_s},
           {"bytes_per_disc", t.bytes_per_disc},
@@ -51,7 +53,7 @@ nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simul
 std::string card_text(nlohmann::ordered_json const& c) {
   auto const number = [&](char const* key) { return c.at(key).get<double>(); };
   return fmt::format(
-      "{} discs, {}, {} threads, {} lanes, {}\n"
+      "{} discs, {}, {} precision, {} threads, {} lanes, {}\n"
       "disc-steps        {:.4g} million a second\n"
       "contact steps     {:.4g} million a second (pairs that touch or are bonded)\n"
       "memory            {:.0f} bytes a disc\n"
@@ -59,16 +61,18 @@ std::string card_text(nlohmann::ordered_json const& c) {
       "least)\n"
       "arithmetic        {:.3g} % of the {:.3g} GFLOP/s that products and sums reach\n"
       "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
-      c.at("discs").dump(), c.at("case").get<std::string>(), c.at("threads").dump(), c.at("lanes").dump(),
-      c.at("backend").get<std::string>(), number("disc_steps_per_second") * 1e-6, number("contact_steps_per_s") * 1e-6,
-      number("bytes_per_disc"), number("bandwidth_share") * 100, number("bandwidth_bytes_per_s") * 1e-9,
-      number("bytes_moved_per_disc_and_step"), number("flop_share") * 100, number("arithmetic_limit_flops_per_s") * 1e-9,
-      number("rebuild_share") * 100, number("steps") / std::max(1.0, number("rebuilds")));
+      c.at("discs").dump(), c.at("case").get<std::string>(), c.at("precision").get<std::string>(), c.at("threads").dump(),
+      c.at("lanes").dump(), c.at("backend").get<std::string>(), number("disc_steps_per_second") * 1e-6,
+      number("contact_steps_per_s") * 1e-6, number("bytes_per_disc"), number("bandwidth_share") * 100,
+      number("bandwidth_bytes_per_s") * 1e-9, number("bytes_moved_per_disc_and_step"), number("flop_share") * 100,
+      number("arithmetic_limit_flops_per_s") * 1e-9, number("rebuild_share") * 100,
+      number("steps") / std::max(1.0, number("rebuilds")));
 }
 
 ExitCode bench(BenchOptions options) {
   set_up_threads(options.threads);
   auto const named = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), options.what);
+  options.setup.precision = options.precision == precision_names[0] ? Precision::full : Precision::mixed;
   options.setup.what = static_cast<ThroughputCase>(named - std::begin(throughput_case_names));
   KokkosSession const kokkos;
   Simulation simulation = throughput_simulation(options.setup);
@@ -87,6 +91,9 @@ void add_bench(CLI::App& program, Verb& chosen) {
   verb->add_option("--case", options->what,
                    "grains with rolling resistance, bonded with 55 % hydrate, or sheared until bonds break")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(throughput_case_names), std::end(throughput_case_names))))
+      ->capture_default_str();
+  verb->add_option("--precision", options->precision, "numbers of the steps, as run.precision")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(precision_names), std::end(precision_names))))
       ->capture_default_str();
   verb->add_option("--discs", options->setup.discs, "number of discs, about")
       ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))

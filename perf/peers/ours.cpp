@@ -81,8 +81,8 @@ void write_discs(Simulation const& simulation, std::string const& folder) {
     std::fprintf(discs, "%d %.17g %.17g %.17g\n", specimen.id[i], specimen.x[i], specimen.y[i], specimen.radius[i]);
   ParticleSoA const& p = simulation.particles();
   auto const id = on_host(p.id);
-  auto const fx = on_host(p.force_x), fy = on_host(p.force_y);
-  for (std::size_t i = 0; i < specimen.size(); ++i) std::fprintf(forces, "%d %.17g %.17g\n", id(i), fx(i), fy(i));
+  std::vector<double> const fx = on_host(p.force_x, specimen.size()), fy = on_host(p.force_y, specimen.size());
+  for (std::size_t i = 0; i < specimen.size(); ++i) std::fprintf(forces, "%d %.17g %.17g\n", id(i), fx[i], fy[i]);
   if (std::fclose(discs) + std::fclose(forces) != 0) throw std::runtime_error("cannot write into " + folder);
 }
 

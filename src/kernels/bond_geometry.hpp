@@ -9,7 +9,7 @@ namespace clathra {
 /// Rbar = 2 r1 r2 / (r1 + r2) [m], the harmonic mean of two radii [m] (0 for two radii of zero, the padding discs).
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L common_radius(L const& r1, L const& r2) {
-  return L(2) * r1 * r2 / lane_max(r1 + r2, L(1e-300));
+  return L(2) * r1 * r2 / lane_max(r1 + r2, L(least_divisor<scalar_of<L>>));
 }
 
 /// Bond width B = sqrt(4 r^2 - (2 r - g)^2) with g = h_max - h_cr (Eq. 2), in the form sqrt(g (4 r - g)), which does not cancel.
@@ -25,7 +25,7 @@ KOKKOS_FORCEINLINE_FUNCTION L bond_width(L const& radius, L const& room) {
 /// Effective bond thickness h_0 = (h_cr + h_max) / 2 [m] (below Eq. 17); the plate model passes its own thickness twice.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L effective_thickness(L const& thickness, L const& critical_thickness) {
-  return (thickness + critical_thickness) * L(0.5);
+  return (thickness + critical_thickness) * constant<L>(0.5);
 }
 
 /// asin(y) - y for 0 <= y <= 1/2 by its series, without the cancellation and without libm.

@@ -10,5 +10,6 @@ enum class Composite : std::int8_t { replace, parallel, memory };
 
 /// Stands for the overlap at bond formation u_0 [m] where there is no bond; overlaps above half of it mean none.
 inline constexpr double no_bond = 1e300;
+inline constexpr float no_bond_single = 1e20F;  ///< the same mark where the overlap is kept in single precision
 
 }  // namespace clathra

@@ -8,24 +8,29 @@
 
 namespace clathra {
 
+/// The mark of no bond, in numbers R.
+template <class R>
+inline constexpr R no_bond_of = static_cast<R>(sizeof(R) == sizeof(double) ? no_bond : no_bond_single);
+
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION auto is_bonded(L const& formation_overlap) {
-  return formation_overlap < L(0.5 * no_bond);
+  using R = scalar_of<L>;
+  return formation_overlap < L(R(0.5) * no_bond_of<R>);
 }
 
 /// Everything one bond needs besides its pair: numbers of the hydrate and of the variant, the same for all bonds of a specimen.
-struct BondLaw {
-  BondStrengthLaw strength;
-  Real modulus = 2.89e8;            ///< E_m [Pa]
-  Real particle_stiffness = 3.0e8;  ///< k_n of one grain in Eq. 16
-  Real critical_thickness = 0;      ///< h_max [m]
-  Real thickness_partner = 0;       ///< h_0 = (h_cr + partner) / 2 [m]: h_max, or the plate thickness t_0
-  Real thickness_weight =
-      1;  ///< h_cr = thickness_weight * max(0, -u_0) + plate_thickness; 1 and 0 for the thickness-dependent law,
-  Real plate_thickness = 0;          ///< 0 and t_0 for the earlier constant-thickness law
-  Real preload_stiffness = 0;        ///< `memory`: k_n, which keeps the force of a contact that was loaded when the bond formed
-  Real least_shape_of_shear = 1.16;  ///< lower bounds of f_s and f_r over the gaps 0 .. h_max, for the quick test
-  Real least_shape_of_rolling = 1.13;
+template <class R>
+struct BondLawOf {
+  BondStrengthLawOf<R> strength;
+  R modulus = R(2.89e8);            ///< E_m [Pa]
+  R particle_stiffness = R(3.0e8);  ///< k_n of one grain in Eq. 16
+  R critical_thickness = 0;         ///< h_max [m]
+  R thickness_partner = 0;          ///< h_0 = (h_cr + partner) / 2 [m]: h_max, or the plate thickness t_0
+  R thickness_weight = 1;  ///< h_cr = thickness_weight * max(0, -u_0) + plate_thickness; 1 and 0 for the thickness-dependent law,
+  R plate_thickness = 0;   ///< 0 and t_0 for the earlier constant-thickness law
+  R preload_stiffness = 0;           ///< `memory`: k_n, which keeps the force of a contact that was loaded when the bond formed
+  R least_shape_of_shear = R(1.16);  ///< lower bounds of f_s and f_r over the gaps 0 .. h_max, for the quick test
+  R least_shape_of_rolling = R(1.13);
 
   /// Thickness h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
   template <class L>
@@ -47,6 +52,16 @@ struct BondLaw {
     return bond_stiffness(particle_stiffness, modulus, width, effective_thickness(thickness, L(thickness_partner)));
   }
 };
+using BondLaw = BondLawOf<Real>;
+
+/// The same law in the numbers of a kernel.
+template <class R>
+BondLawOf<R> in_numbers(BondLaw const& law) {
+  return {in_numbers<R>(law.strength),  R(law.modulus),           R(law.particle_stiffness),
+          R(law.critical_thickness),    R(law.thickness_partner), R(law.thickness_weight),
+          R(law.plate_thickness),       R(law.preload_stiffness), R(law.least_shape_of_shear),
+          R(law.least_shape_of_rolling)};
+}
 
 /// Forces of an intact bond and what they follow from.
 template <class L>
@@ -56,21 +71,32 @@ struct BondForce {
   L width, thickness;
 };
 
-/// F_n = k_bn (u_n - u_0), F_s += k_bs Delta u_s, M += k_bm Delta theta (Eq. 7). With `memory` F_n keeps k_n u_0 of a loaded
-/// contact.
-/// @param formation_overlap  u_0 [m];  @param width  B [m];  @param shear,moment  bond F_s [N/m] and M [N m/m] of the last step
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLaw const& law, ContactMotion<L> const& motion,
-                                                      L const& formation_overlap, L const& width, L const& shear,
-                                                      L const& moment) {
+/// F_n = k_bn (u_n - u_0), and what a step adds to the others: k_bs Delta u_s, k_bm Delta theta (Eq. 7). With `memory` F_n keeps
+/// k_n u_0 of a loaded contact.
+/// @param formation_overlap  u_0 [m];  @param width  B [m]
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_increment(BondLawOf<R> const& law, ContactMotion<L> const& motion,
+                                                        L const& formation_overlap, L const& width) {
   BondForce<L> bond;
   bond.thickness = law.bond_thickness(formation_overlap);
   bond.width = width;
   bond.stiffness = law.stiffness(bond.width, bond.thickness);
   bond.force.normal =
       bond.stiffness.normal * (motion.overlap - formation_overlap) + law.preload_stiffness * lane_max(formation_overlap, L(0));
-  bond.force.shear = shear + bond.stiffness.shear * motion.shear_increment;
-  bond.force.moment = moment + bond.stiffness.rolling * motion.relative_rotation;
+  bond.force.shear = bond.stiffness.shear * motion.shear_increment;
+  bond.force.moment = bond.stiffness.rolling * motion.relative_rotation;
+  return bond;
+}
+
+/// The forces after a step: F_s += k_bs Delta u_s, M += k_bm Delta theta.
+/// @param shear,moment  bond F_s [N/m] and M [N m/m] of the last step
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLawOf<R> const& law, ContactMotion<L> const& motion,
+                                                      L const& formation_overlap, L const& width, L const& shear,
+                                                      L const& moment) {
+  BondForce<L> bond = bond_increment(law, motion, formation_overlap, width);
+  bond.force.shear = shear + bond.force.shear;
+  bond.force.moment = moment + bond.force.moment;
   return bond;
 }
 

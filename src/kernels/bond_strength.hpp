@@ -10,60 +10,70 @@
 namespace clathra {
 
 /// Micro-bond strength of the hydrate: three times the strength of a macroscopic sample (Eq. 12).
-struct BondStrengthLaw {
-  Real tensile_stress = 1.421e7;      ///< 3 q_max,t [Pa]
-  Real compressive_stress = 2.571e7;  ///< 3 q_max,c [Pa]
-  Real moment_length = 0;             ///< L_r = moment_length + moment_width_ratio * B [m]: the length scale that Eq. 9b lacks
-  Real moment_width_ratio = 1.0 / 14;
+template <class R>
+struct BondStrengthLawOf {
+  R tensile_stress = R(1.421e7);      ///< 3 q_max,t [Pa]
+  R compressive_stress = R(2.571e7);  ///< 3 q_max,c [Pa]
+  R moment_length = 0;                ///< L_r = moment_length + moment_width_ratio * B [m]: the length scale that Eq. 9b lacks
+  R moment_width_ratio = R(1.0 / 14);
   // How a bond between grains is read off the bonds between rods that were tested, 0.6 mm thick and more (Eqs. 10, 11).
-  Real rod_scale = 1;            ///< thickness of the bond between rods over that between grains
-  Real rod_share = 1;            ///< what counts of the addends of Eq. 11: rod_share + rod_share_per_width B
-  Real rod_share_per_width = 0;  ///< [1/m]
-  Real least_rod_thickness = 0;  ///< [m]; thinner ones are taken for this thick
+  R rod_scale = 1;            ///< thickness of the bond between rods over that between grains
+  R rod_share = 1;            ///< what counts of the addends of Eq. 11: rod_share + rod_share_per_width B
+  R rod_share_per_width = 0;  ///< [1/m]
+  R least_rod_thickness = 0;  ///< [m]; thinner ones are taken for this thick
   // A bonded contact is never weaker than an unbonded one: R_s >= mu F_n, R_r >= (B_c / 6) F_n with B_c the width of the grain
   // contact. 0 and 0: as printed, without.
-  Real floor_friction = 0;      ///< mu
-  Real floor_shape_factor = 0;  ///< beta: B_c = beta times the common radius
+  R floor_friction = 0;      ///< mu
+  R floor_shape_factor = 0;  ///< beta: B_c = beta times the common radius
 };
+using BondStrengthLaw = BondStrengthLawOf<Real>;
+
+/// The same law in the numbers of a kernel.
+template <class R>
+BondStrengthLawOf<R> in_numbers(BondStrengthLaw const& law) {
+  return {R(law.tensile_stress), R(law.compressive_stress), R(law.moment_length),       R(law.moment_width_ratio),
+          R(law.rod_scale),      R(law.rod_share),          R(law.rod_share_per_width), R(law.least_rod_thickness),
+          R(law.floor_friction), R(law.floor_shape_factor)};
+}
 
 /// Thickness [m] of the bond between rods that stands for one of thickness h_cr [m] between grains: Eqs. 10 and 11 are functions
 /// of it.
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L rod_thickness(BondStrengthLaw const& law, L const& thickness) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L rod_thickness(BondStrengthLawOf<R> const& law, L const& thickness) {
   return lane_max(L(law.rod_scale) * thickness, L(law.least_rod_thickness));
 }
 
 /// What Eqs. 11a and 11b add to the strength of the hydrate [N/m] at the thickness h [m] of a bond between rods.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L tension_addend(L const& thickness) {
-  return L(2.67e5) * thickness - L(160.2);
+  return constant<L>(2.67e5) * thickness - constant<L>(160.2);
 }
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L compression_addend(L const& thickness) {
-  return -(L(4.18e6) * thickness - L(2508.0));
+  return -(constant<L>(4.18e6) * thickness - constant<L>(2508.0));
 }
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L share_of_addends(BondStrengthLaw const& law, L const& width) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L share_of_addends(BondStrengthLawOf<R> const& law, L const& width) {
   return law.rod_share + law.rod_share_per_width * width;
 }
 
 /// R_t = 3 B q_max,t + 2.67e5 (h - 0.6 mm) [N/m] (Eqs. 11a, 12a; with the printed stress this is Eq. 15a). Can be <= 0: such a
 /// bond is not formed (see domain/generation/bonding.hpp).
 /// @param width  bond width B [m];  @param thickness  h [m], rod_thickness(): as printed h_cr
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L tensile_strength(BondStrengthLaw const& law, L const& width, L const& thickness) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L tensile_strength(BondStrengthLawOf<R> const& law, L const& width, L const& thickness) {
   return law.tensile_stress * width + share_of_addends(law, width) * tension_addend(thickness);
 }
 
 /// R_c = 3 B q_max,c - 4.18e6 (h - 0.6 mm) [N/m] (Eqs. 11b, 12b; Eq. 15b).
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L compressive_strength(BondStrengthLaw const& law, L const& width, L const& thickness) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L compressive_strength(BondStrengthLawOf<R> const& law, L const& width, L const& thickness) {
   return law.compressive_stress * width + share_of_addends(law, width) * compression_addend(thickness);
 }
 
 /// L_r [m], the length that turns Eq. 9b into a moment.
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L moment_length(BondStrengthLaw const& law, L const& width) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L moment_length(BondStrengthLawOf<R> const& law, L const& width) {
   return law.moment_length + law.moment_width_ratio * width;
 }
 
@@ -72,11 +82,11 @@ KOKKOS_FORCEINLINE_FUNCTION L moment_length(BondStrengthLaw const& law, L const&
 /// strength.)
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L shear_slope(L const& thickness) {
-  return lane_max(L(0), L(0.41) - L(61.07) * thickness);
+  return lane_max(L(0), constant<L>(0.41) - constant<L>(61.07) * thickness);
 }
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L rolling_slope(L const& thickness) {
-  return lane_max(L(0), L(0.83) - L(146.36) * thickness);
+  return lane_max(L(0), constant<L>(0.83) - constant<L>(146.36) * thickness);
 }
 
 /// f_s and f_r (Eqs. 10a, 10c), dimensionless; smallest (1.16 and 1.13) at a thickness of 1.15 mm.
@@ -101,10 +111,12 @@ KOKKOS_INLINE_FUNCTION Real envelope_shape(Real x) {
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L envelope_lower_bound(L const& part, L const& scale) {
   // Minima in pairs: a chain of them would be the longest dependency of the contact kernel.
-  L const low = lane_min(L(1.9931) * part, L(1.264849) * part + L(0.029130) * scale);
-  L const rising = lane_min(L(0.706626) * part + L(0.112860) * scale, L(0.173959) * part + L(0.299290) * scale);
-  L const falling = lane_min(L(0.624130) * scale - L(0.367461) * part, L(1.144500) * scale - L(1.017960) * part);
-  return lane_min(lane_min(low, rising), lane_min(falling, L(2.826300) * (scale - part)));
+  L const low = lane_min(constant<L>(1.9931) * part, constant<L>(1.264849) * part + constant<L>(0.029130) * scale);
+  L const rising = lane_min(constant<L>(0.706626) * part + constant<L>(0.112860) * scale,
+                            constant<L>(0.173959) * part + constant<L>(0.299290) * scale);
+  L const falling = lane_min(constant<L>(0.624130) * scale - constant<L>(0.367461) * part,
+                             constant<L>(1.144500) * scale - constant<L>(1.017960) * part);
+  return lane_min(lane_min(low, rising), lane_min(falling, constant<L>(2.826300) * (scale - part)));
 }
 
 /// The exact strength envelope of one bond under its bond forces (Eq. 9, combined as an ellipse at fixed F_n:

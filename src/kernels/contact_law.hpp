@@ -29,10 +29,10 @@ struct ContactStiffness {
 /// Energy of linear springs, F_n^2/2k_n + F_s^2/2k_s + M^2/2k_m [J/m]; one without stiffness carries no force and holds none.
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION L spring_energy(ContactForce<L> const& force, ContactStiffness<L> const& stiffness) {
-  L const floor(1e-300);
-  return L(0.5) * (force.normal * force.normal / lane_max(stiffness.normal, floor) +
-                   force.shear * force.shear / lane_max(stiffness.shear, floor) +
-                   force.moment * force.moment / lane_max(stiffness.rolling, floor));
+  L const floor(least_divisor<scalar_of<L>>);
+  return constant<L>(0.5) * (force.normal * force.normal / lane_max(stiffness.normal, floor) +
+                             force.shear * force.shear / lane_max(stiffness.shear, floor) +
+                             force.moment * force.moment / lane_max(stiffness.rolling, floor));
 }
 
 }  // namespace clathra

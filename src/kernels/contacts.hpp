@@ -10,59 +10,93 @@
 
 namespace clathra {
 
-/// What a scene needs stored for each row entry.
+/// How the history of rows is kept: forces and moments in fixed point in mixed precision, where what a step adds is far below the
+/// ulp of a float; their units are powers of two. Overlaps and widths in single precision.
+struct HistoryFormat {
+  Precision precision = Precision::full;
+  Real force_unit = 1;   ///< [N/m]
+  Real moment_unit = 1;  ///< [N m/m]
+  bool operator==(HistoryFormat const&) const = default;
+
+  KOKKOS_INLINE_FUNCTION int slice_shift() const {
+    return precision == Precision::full ? log2_of(slice_width_of<double>) : log2_of(slice_width_of<float>);
+  }
+  KOKKOS_INLINE_FUNCTION int slice_width() const { return 1 << slice_shift(); }
+  KOKKOS_INLINE_FUNCTION int lanes() const { return precision == Precision::full ? lane_count_of<double> : lane_count_of<float>; }
+  KOKKOS_INLINE_FUNCTION int slice_count(int discs) const { return (discs + slice_width() - 1) / slice_width(); }
+
+ private:
+  KOKKOS_INLINE_FUNCTION static constexpr int log2_of(int width) {
+    int log = 0;
+    while (width >> (log + 1) > 0) ++log;
+    return log;
+  }
+};
+
+/// What a scene needs stored for each row entry, and how.
 struct ContactFeatures {
   bool shear = true;           ///< F_s of grain contacts with friction, or of bonds in their place (`replace`)
   bool rolling = true;         ///< contact moments
   bool bonds = false;          ///< bond formation_overlap
   bool separate_bond = false;  ///< `parallel`: the bond has a history of its own beside the grain contact
+  HistoryFormat format;
   bool operator==(ContactFeatures const&) const = default;
 };
 
 /// The place of entry k of a disc's row among all entries.
 template <class SliceStart>
-KOKKOS_INLINE_FUNCTION std::size_t entry_in(SliceStart const& slice_start, int disc, int k) {
-  return static_cast<std::size_t>(slice_start(disc / slice_width) + k) * slice_width +
-         static_cast<std::size_t>(disc % slice_width);
+KOKKOS_INLINE_FUNCTION std::size_t entry_in(SliceStart const& slice_start, HistoryFormat const& format, int disc, int k) {
+  int const shift = format.slice_shift();
+  return (static_cast<std::size_t>(slice_start(disc >> shift) + k) << shift) |
+         static_cast<std::size_t>(disc & ((1 << shift) - 1));
 }
 
-/// Full rows (each pair stands in both rows) in sliced ELLPACK: `slice_width` discs form a slice, entry k of its discs lies side
+/// Full rows (each pair stands in both rows) in sliced ELLPACK: slice_width() discs form a slice, entry k of its discs lies side
 /// by side. Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where
 /// discs are stored. Both sides of a pair hold equal `shear` and `formation_overlap` and exactly opposite `moment`.
 struct ContactRows {
   ContactFeatures features;
-  Field<int> slice_start;         ///< [slices + 1] in units of slice_width entries
-  Field<int> length;              ///< [owned] entries in use
-  Field<int> neighbour;           ///< [entries] index of the other disc, or the padding disc
-  Field<Real> shear;              ///< [entries] F_s [N/m]; as the following, empty where no feature needs it
-  Field<Real> moment;             ///< [entries] M on the row's own disc [N m/m]
-  Field<Real> formation_overlap;  ///< [entries] u_0 of the bond [m], no_bond without one
-  Field<Real> bond_shear;         ///< [entries] F_s of a separate bond [N/m]
-  Field<Real> bond_moment;        ///< [entries] M of a separate bond [N m/m]
+  Field<int> slice_start;       ///< [slices + 1] in units of slice_width() entries
+  Field<int> length;            ///< [owned] entries in use
+  Field<int> neighbour;         ///< [entries] index of the other disc, or the padding disc
+  RealField shear;              ///< [entries] F_s [N/m]; as the following, empty where no feature needs it
+  RealField moment;             ///< [entries] M on the row's own disc [N m/m]
+  RealField formation_overlap;  ///< [entries] u_0 of the bond [m], no_bond without one
+  RealField bond_shear;         ///< [entries] F_s of a separate bond [N/m]
+  RealField bond_moment;        ///< [entries] M of a separate bond [N m/m]
   // Derived, not part of the state: set by prepare_rows().
-  Field<Real> width;            ///< [entries] B of the bond [m], 0 without one
+  RealField width;              ///< [entries] B of the bond [m], 0 without one
   Field<std::uint64_t> active;  ///< [groups of lanes] bit k: entries k of the group may carry a history and must be evaluated
 
-  KOKKOS_INLINE_FUNCTION std::size_t entry(int disc, int k) const { return entry_in(slice_start, disc, k); }
+  KOKKOS_INLINE_FUNCTION std::size_t entry(int disc, int k) const { return entry_in(slice_start, features.format, disc, k); }
 };
 
 /// What there is to know of a field of the history beside its values.
 struct HistoryField {
+  enum class Quantity { force, moment, length };
   char const* name;
+  Quantity quantity;
   Real empty = 0;    ///< value of an entry without history
   bool odd = false;  ///< the two sides of a pair hold opposite values, else equal ones
 };
+/// How a field of the history is kept.
+inline NumberFormat kept(HistoryFormat const& format, HistoryField::Quantity quantity) {
+  if (format.precision == Precision::full) return {};
+  if (quantity == HistoryField::Quantity::length) return {Storage::as_float};
+  return {Storage::as_fixed, quantity == HistoryField::Quantity::force ? format.force_unit : format.moment_unit};
+}
 
 /// The history of an entry, field by field, here and in kernels: visit(HistoryField, whether the features need it, the field of
 /// each of the rows, which have the same features). It drives allocation, the way through a neighbour search, the hash of the
 /// state, files, other ranks and byte counts.
 template <class Visit, class... Rows>
 KOKKOS_INLINE_FUNCTION void for_each_possible_history(ContactFeatures const& f, Visit&& visit, Rows&... rows) {
-  visit(HistoryField{"shear"}, f.shear, rows.shear...);
-  visit(HistoryField{"moment", 0, true}, f.rolling || f.bonds, rows.moment...);
-  visit(HistoryField{"formation_overlap", no_bond}, f.bonds, rows.formation_overlap...);
-  visit(HistoryField{"bond_shear"}, f.separate_bond, rows.bond_shear...);
-  visit(HistoryField{"bond_moment", 0, true}, f.separate_bond, rows.bond_moment...);
+  using enum HistoryField::Quantity;
+  visit(HistoryField{"shear", force}, f.shear, rows.shear...);
+  visit(HistoryField{"moment", moment, 0, true}, f.rolling || f.bonds, rows.moment...);
+  visit(HistoryField{"formation_overlap", length, no_bond}, f.bonds, rows.formation_overlap...);
+  visit(HistoryField{"bond_shear", force}, f.separate_bond, rows.bond_shear...);
+  visit(HistoryField{"bond_moment", moment, 0, true}, f.separate_bond, rows.bond_moment...);
 }
 
 /// Those that the features need, visit(HistoryField, field...). No other exists.

@@ -16,8 +16,19 @@ struct ContactLaws {
   bool ledger = false;
 };
 
+/// How rows keep what contacts under these laws remember. In mixed precision the units leave room, twice over, for the force of a
+/// grain contact whose disc has its centre in the other and for the moment of a bond that is bent by a radian. What is beyond
+/// that is a fault (Fault::out_of_range), found at the next neighbour search: there is room for twice as much before a number
+/// wraps.
+HistoryFormat history_format(Precision precision, ContactLaws const& laws, Real largest_radius);
+
 /// Derives what the rows keep beside the history. To be called after a neighbour search and whenever history or law changed.
 void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law);
+
+/// compute_forces() in one precision.
+template <class P>
+void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
+                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults);
 
 /// Sets force and torque of every owned disc from its contacts and bonds, advances their history by one step of length `dt` [s],
 /// and breaks bonds. Each disc sums its own row; both sides of a pair get exact opposites, so no atomics touch a force.

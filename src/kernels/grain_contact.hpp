@@ -4,41 +4,49 @@
 
 namespace clathra {
 
-/// Constants of the unbonded law. Stiffness in N/m per metre thickness.
-struct GrainLaw {
-  Real normal_stiffness = 3.0e8;  ///< k_n
-  Real shear_stiffness = 2.0e8;   ///< k_s
-  Real friction = 0.5;            ///< mu
-  Real shape_factor = 2.0;        ///< beta; contact width B_c = beta * common radius; 0 = no rolling resistance
-  Real damping_ratio = 0.0;       ///< xi of the optional normal dashpot, fraction of critical
+/// Constants of the unbonded law, in numbers R. Stiffness in N/m per metre thickness.
+template <class R>
+struct GrainLawOf {
+  R normal_stiffness = R(3.0e8);  ///< k_n
+  R shear_stiffness = R(2.0e8);   ///< k_s
+  R friction = R(0.5);            ///< mu
+  R shape_factor = 2;             ///< beta; contact width B_c = beta * common radius; 0 = no rolling resistance
+  R damping_ratio = 0;            ///< xi of the optional normal dashpot, fraction of critical
 
   /// k_m / common_radius^2 = k_n beta^2 / 12 [N/m] (Jiang, Yu, Harris 2005; the bond analogue is Eq. 21).
-  KOKKOS_INLINE_FUNCTION Real rolling_factor() const { return normal_stiffness * shape_factor * shape_factor / 12; }
+  KOKKOS_INLINE_FUNCTION R rolling_factor() const { return normal_stiffness * shape_factor * shape_factor / 12; }
 };
+using GrainLaw = GrainLawOf<Real>;
+
+/// The same law in the numbers of a kernel.
+template <class R>
+GrainLawOf<R> in_numbers(GrainLaw const& law) {
+  return {R(law.normal_stiffness), R(law.shear_stiffness), R(law.friction), R(law.shape_factor), R(law.damping_ratio)};
+}
 
 /// Rolling stiffness k_m = k_n B_c^2 / 12 [N m/rad per m] of a contact with the given common radius [m].
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L rolling_stiffness(GrainLaw const& law, L const& common_radius) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L rolling_stiffness(GrainLawOf<R> const& law, L const& common_radius) {
   return law.rolling_factor() * common_radius * common_radius;
 }
 
 /// F_n = k_n u_n of a contact with overlap u_n > 0 [N/m] (Eq. 8); no force where it is not positive.
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L spring_force(GrainLaw const& law, L const& overlap) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L spring_force(GrainLawOf<R> const& law, L const& overlap) {
   return law.normal_stiffness * overlap;
 }
 
 /// The tangent of forces and moment, at this overlap > 0 [m] with this common radius [m].
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> grain_stiffness(GrainLaw const& law, [[maybe_unused]] L const& overlap,
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> grain_stiffness(GrainLawOf<R> const& law, [[maybe_unused]] L const& overlap,
                                                                 L const& common_radius) {
   return {L(law.normal_stiffness), L(law.shear_stiffness), rolling_stiffness(law, common_radius)};
 }
 
 /// Elastic energy of a contact under these forces, without dashpot part [J/m].
 /// @param stiffness  grain_stiffness() of the contact
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L grain_energy([[maybe_unused]] GrainLaw const& law, ContactForce<L> const& elastic,
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L grain_energy([[maybe_unused]] GrainLawOf<R> const& law, ContactForce<L> const& elastic,
                                            ContactStiffness<L> const& stiffness) {
   return spring_energy(elastic, stiffness);
 }
@@ -47,21 +55,21 @@ KOKKOS_FORCEINLINE_FUNCTION L grain_energy([[maybe_unused]] GrainLaw const& law,
 struct Undamped {};
 
 /// The normal force, >= 0 [N/m]; 0 for u_n <= 0.
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L> const& motion, Undamped) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLawOf<R> const& law, ContactMotion<L> const& motion, Undamped) {
   return lane_max(spring_force(law, motion.overlap), L(0));
 }
 
 /// The same with a dashpot [N s/m per m]; the sum of both is never tensile.
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLaw const& law, ContactMotion<L> const& motion, L const& dashpot) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L normal_force(GrainLawOf<R> const& law, ContactMotion<L> const& motion, L const& dashpot) {
   L const damped = lane_max(L(0), spring_force(law, motion.overlap) + dashpot * motion.closing_velocity);
   return select(motion.overlap > L(0), damped, L(0));
 }
 
 /// What the dashpot takes out in a step, from a normal force that it has a part in [J/m].
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L dashpot_loss(GrainLaw const& law, ContactMotion<L> const& motion, L const& normal, Real dt) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L dashpot_loss(GrainLawOf<R> const& law, ContactMotion<L> const& motion, L const& normal, R dt) {
   return (normal - normal_force(law, motion, Undamped())) * (motion.closing_velocity * dt);
 }
 
@@ -69,8 +77,8 @@ KOKKOS_FORCEINLINE_FUNCTION L dashpot_loss(GrainLaw const& law, ContactMotion<L>
 /// @param trial_shear,trial_moment  F_s + k_s Delta u_s and M + k_m Delta theta before the limits; for a bond that broke in
 ///                                  this step its own last forces, which are clipped to the limits and not reset
 /// @param dashpot                   viscous normal coefficient [N s/m per m] or Undamped
-template <bool Rolling, bool Friction = true, class L, class Dashpot>
-KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLaw const& law, ContactMotion<L> const& motion,
+template <bool Rolling, bool Friction = true, class R, class L, class Dashpot>
+KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLawOf<R> const& law, ContactMotion<L> const& motion,
                                                                 L const& trial_shear, L const& trial_moment,
                                                                 Dashpot const& dashpot) {
   ContactForce<L> force;
@@ -84,9 +92,9 @@ KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLaw const& 
 }
 
 /// One step of an unbonded contact, without rolling resistance or friction where the law has none, with history F_s, M (Eq. 8).
-template <bool Rolling, bool Friction = true, class L, class Dashpot>
-KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> grain_contact(GrainLaw const& law, ContactMotion<L> const& motion, L const& shear,
-                                                          L const& moment, Dashpot const& dashpot) {
+template <bool Rolling, bool Friction = true, class R, class L, class Dashpot>
+KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> grain_contact(GrainLawOf<R> const& law, ContactMotion<L> const& motion,
+                                                          L const& shear, L const& moment, Dashpot const& dashpot) {
   L trial_shear(0), trial_moment(0);
   if constexpr (Friction) trial_shear = shear + law.shear_stiffness * motion.shear_increment;
   if constexpr (Rolling) trial_moment = moment + rolling_stiffness(law, motion.common_radius) * motion.relative_rotation;
@@ -94,8 +102,8 @@ KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> grain_contact(GrainLaw const& law, C
 }
 
 /// Dashpot coefficient 2 xi sqrt(k_n m_eff) for two masses given by their inverses [N s/m per m]; m_eff = m1 m2 / (m1 + m2).
-template <class L>
-KOKKOS_FORCEINLINE_FUNCTION L dashpot_coefficient(GrainLaw const& law, L const& inverse_mass_a, L const& inverse_mass_b) {
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L dashpot_coefficient(GrainLawOf<R> const& law, L const& inverse_mass_a, L const& inverse_mass_b) {
   return (2 * law.damping_ratio) * lane_sqrt(law.normal_stiffness / (inverse_mass_a + inverse_mass_b));
 }
 

@@ -3,6 +3,9 @@
 /// numbers on a GPU (one disc a thread). Every operation is exact IEEE arithmetic lane by lane: the width never changes a bit.
 #include <Kokkos_Core.hpp>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include "kernels/real.hpp"
 
@@ -10,7 +13,10 @@
 #if !defined(CLATHRA_SCALAR_LANES) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && \
     !defined(KOKKOS_ENABLE_SYCL) && !(defined(__clang__) && defined(__AVX512F__)) && __has_include(<experimental/simd>)
 #define CLATHRA_SIMD 1
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"  // of GCC 12's own header of AVX-512, which has results that it leaves undefined
 #include <experimental/simd>
+#pragma GCC diagnostic pop
 #endif
 
 /// A function that is rarely called, kept out of the code around the call so that its arguments need no memory there.
@@ -22,74 +28,161 @@
 
 namespace clathra {
 
-// The scalar instance of the vocabulary: `double` is a lane of width one, `bool` its mask.
-KOKKOS_FORCEINLINE_FUNCTION Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
+/// The vector of numbers R that the machine works on side by side, or one number.
+#ifdef CLATHRA_SIMD
+namespace stdx = std::experimental;
+template <class R>
+using LanesOf = stdx::native_simd<R>;
+template <class R>
+inline constexpr int lane_count_of = static_cast<int>(LanesOf<R>::size());
+#else
+template <class R>
+using LanesOf = R;
+template <class R>
+inline constexpr int lane_count_of = 1;
+#endif
+using Lanes = LanesOf<Real>;
+using FloatLanes = LanesOf<float>;
+template <class L>
+using MaskOf = decltype(std::declval<L>() < std::declval<L>());
+using Mask = MaskOf<Lanes>;
+inline constexpr int lane_count = lane_count_of<Real>;
+
+/// The number type of a lane type, one number being a lane of width one.
+template <class L>
+struct ScalarOf {
+  using Type = L;
+};
+#ifdef CLATHRA_SIMD
+template <class R, class Abi>
+struct ScalarOf<stdx::simd<R, Abi>> {
+  using Type = R;
+};
+#endif
+template <class L>
+using scalar_of = typename ScalarOf<L>::Type;
+
+/// A number of the equations, in the precision of the lanes.
+template <class L>
+KOKKOS_FORCEINLINE_FUNCTION constexpr L constant(double value) {
+  return L(static_cast<scalar_of<L>>(value));
+}
+/// A divisor that stands for zero: above 0, far below whatever is measured in SI units, and its square is a number still.
+template <class R>
+inline constexpr R least_divisor = static_cast<R>(sizeof(R) == sizeof(double) ? 1e-300 : 1e-35);
+
+// The scalar instance of the vocabulary: a number is a lane of width one, `bool` its mask.
+KOKKOS_FORCEINLINE_FUNCTION double select(bool mask, double yes, double no) { return mask ? yes : no; }
+KOKKOS_FORCEINLINE_FUNCTION float select(bool mask, float yes, float no) { return mask ? yes : no; }
 KOKKOS_FORCEINLINE_FUNCTION bool any(bool mask) { return mask; }
 /// Calls visit(l) for each lane l of the mask that is set, in order.
 template <class Visit>
 KOKKOS_FORCEINLINE_FUNCTION void for_each_set(bool mask, Visit const& visit) {
   if (mask) visit(0);
 }
-KOKKOS_FORCEINLINE_FUNCTION Real lane_sqrt(Real a) { return std::sqrt(a); }
-KOKKOS_FORCEINLINE_FUNCTION Real lane_abs(Real a) { return std::fabs(a); }
+KOKKOS_FORCEINLINE_FUNCTION double lane_sqrt(double a) { return std::sqrt(a); }
+KOKKOS_FORCEINLINE_FUNCTION float lane_sqrt(float a) { return std::sqrt(a); }
+KOKKOS_FORCEINLINE_FUNCTION double lane_abs(double a) { return std::fabs(a); }
+KOKKOS_FORCEINLINE_FUNCTION float lane_abs(float a) { return std::fabs(a); }
 // Of equal zeros, and beside a NaN, the second operand counts: written so, either is one instruction with the same bits in
 // scalars and in vectors.
-KOKKOS_FORCEINLINE_FUNCTION Real lane_max(Real a, Real b) { return a > b ? a : b; }
-KOKKOS_FORCEINLINE_FUNCTION Real lane_min(Real a, Real b) { return a < b ? a : b; }
+KOKKOS_FORCEINLINE_FUNCTION double lane_max(double a, double b) { return a > b ? a : b; }
+KOKKOS_FORCEINLINE_FUNCTION float lane_max(float a, float b) { return a > b ? a : b; }
+KOKKOS_FORCEINLINE_FUNCTION double lane_min(double a, double b) { return a < b ? a : b; }
+KOKKOS_FORCEINLINE_FUNCTION float lane_min(float a, float b) { return a < b ? a : b; }
 
 #ifdef CLATHRA_SIMD
-namespace stdx = std::experimental;
-using Lanes = stdx::native_simd<Real>;
-using Mask = Lanes::mask_type;
-inline constexpr int lane_count = static_cast<int>(Lanes::size());
+template <class R, class Abi>
+using Simd = stdx::simd<R, Abi>;
 /// The compiler's own vector, for what std::experimental::simd leaves open (and does differ on): min and max of zeros and NaN.
-using PlainVector [[gnu::vector_size(sizeof(Lanes))]] = Real;
+template <class R>
+struct PlainVectorOf {
+  using Type [[gnu::vector_size(sizeof(LanesOf<R>))]] = R;
+};
+template <class R>
+using PlainVector = typename PlainVectorOf<R>::Type;
 
-KOKKOS_FORCEINLINE_FUNCTION Lanes select(Mask const& mask, Lanes const& yes, Lanes const& no) {
-  Lanes result = no;
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> select(stdx::simd_mask<R, Abi> const& mask, Simd<R, Abi> const& yes,
+                                                Simd<R, Abi> const& no) {
+  Simd<R, Abi> result = no;
   stdx::where(mask, result) = yes;
   return result;
 }
-KOKKOS_FORCEINLINE_FUNCTION bool any(Mask const& mask) { return stdx::any_of(mask); }
-template <class Visit>
-KOKKOS_FORCEINLINE_FUNCTION void for_each_set(Mask mask, Visit const& visit) {
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION bool any(stdx::simd_mask<R, Abi> const& mask) {
+  return stdx::any_of(mask);
+}
+template <class R, class Abi, class Visit>
+KOKKOS_FORCEINLINE_FUNCTION void for_each_set(stdx::simd_mask<R, Abi> mask, Visit const& visit) {
   while (stdx::any_of(mask)) {
-    int const l = stdx::find_first_set(mask) & (lane_count - 1);  // so that GCC sees it within the lanes
+    int const l = stdx::find_first_set(mask) & (lane_count_of<R> - 1);  // so that GCC sees it within the lanes
     visit(l);
     mask[static_cast<std::size_t>(l)] = false;
   }
 }
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_sqrt(Lanes const& a) { return stdx::sqrt(a); }
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_abs(Lanes const& a) { return stdx::abs(a); }
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_sqrt(Simd<R, Abi> const& a) {
+  return stdx::sqrt(a);
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_abs(Simd<R, Abi> const& a) {
+  return stdx::abs(a);
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_max(Simd<R, Abi> const& a, Simd<R, Abi> const& b) {
+  auto const x = static_cast<PlainVector<R>>(a), y = static_cast<PlainVector<R>>(b);
 #if defined(__AVX512F__)  // GCC makes a comparison and a choice of the general form where one side is a constant
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) {
-  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
-  return Lanes(PlainVector(_mm512_mask_max_pd(x, 0xff, x, y)));
-}
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) {
-  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
-  return Lanes(PlainVector(_mm512_mask_min_pd(x, 0xff, x, y)));
-}
+  if constexpr (std::is_same_v<R, double>)
+    return Simd<R, Abi>(PlainVector<R>(_mm512_mask_max_pd(x, 0xff, x, y)));
+  else
+    return Simd<R, Abi>(PlainVector<R>(_mm512_mask_max_ps(x, 0xffff, x, y)));
 #else
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_max(Lanes const& a, Lanes const& b) {
-  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
-  return Lanes(x > y ? x : y);
-}
-KOKKOS_FORCEINLINE_FUNCTION Lanes lane_min(Lanes const& a, Lanes const& b) {
-  auto const x = static_cast<PlainVector>(a), y = static_cast<PlainVector>(b);
-  return Lanes(x < y ? x : y);
-}
+  return Simd<R, Abi>(PlainVector<R>(x > y ? x : y));
 #endif
-KOKKOS_FORCEINLINE_FUNCTION Lanes load(Real const* from) { return Lanes(from, stdx::element_aligned); }
-KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Lanes const& value) { value.copy_to(to, stdx::element_aligned); }
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_min(Simd<R, Abi> const& a, Simd<R, Abi> const& b) {
+  auto const x = static_cast<PlainVector<R>>(a), y = static_cast<PlainVector<R>>(b);
+#if defined(__AVX512F__)
+  if constexpr (std::is_same_v<R, double>)
+    return Simd<R, Abi>(PlainVector<R>(_mm512_mask_min_pd(x, 0xff, x, y)));
+  else
+    return Simd<R, Abi>(PlainVector<R>(_mm512_mask_min_ps(x, 0xffff, x, y)));
+#else
+  return Simd<R, Abi>(PlainVector<R>(x < y ? x : y));
+#endif
+}
+KOKKOS_FORCEINLINE_FUNCTION Lanes load(double const* from) { return Lanes(from, stdx::element_aligned); }
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes load(float const* from) { return FloatLanes(from, stdx::element_aligned); }
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION void store(R* to, Simd<R, Abi> const& value) {
+  value.copy_to(to, stdx::element_aligned);
+}
 /// From and to single precision.
 KOKKOS_FORCEINLINE_FUNCTION Lanes load_float(float const* from) { return Lanes(from, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION void store_float(float* to, Lanes const& value) { value.copy_to(to, stdx::element_aligned); }
-KOKKOS_FORCEINLINE_FUNCTION Real lane(Lanes const& value, int l) { return value[static_cast<std::size_t>(l)]; }
-KOKKOS_FORCEINLINE_FUNCTION bool lane(Mask const& mask, int l) { return mask[static_cast<std::size_t>(l)]; }
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION R lane(Simd<R, Abi> const& value, int l) {
+  return value[static_cast<std::size_t>(l)];
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION bool lane(stdx::simd_mask<R, Abi> const& mask, int l) {
+  return mask[static_cast<std::size_t>(l)];
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(Simd<R, Abi>& value, int l, R to) {
+  value[static_cast<std::size_t>(l)] = to;
+}
 KOKKOS_FORCEINLINE_FUNCTION void set_lane(Lanes& value, int l, Real to) { value[static_cast<std::size_t>(l)] = to; }
-KOKKOS_FORCEINLINE_FUNCTION void set_lane(Mask& mask, int l, bool to) { mask[static_cast<std::size_t>(l)] = to; }
-KOKKOS_FORCEINLINE_FUNCTION Real largest(Lanes const& value) { return stdx::hmax(value); }
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(stdx::simd_mask<R, Abi>& mask, int l, bool to) {
+  mask[static_cast<std::size_t>(l)] = to;
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION R largest(Simd<R, Abi> const& value) {
+  return stdx::hmax(value);
+}
 /// The mask of the lanes 0 .. count - 1.
 KOKKOS_FORCEINLINE_FUNCTION Mask first_lanes(int count) {
   return Lanes([](auto l) { return Real(l); }) < Lanes(count);
@@ -113,43 +206,61 @@ KOKKOS_FORCEINLINE_FUNCTION int pack_set(Mask const& mask, int const* from, int*
 }
 #endif
 /// Asks for a value that will be loaded soon.
-KOKKOS_FORCEINLINE_FUNCTION void prefetch(Real const* from) { __builtin_prefetch(from); }
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void prefetch(T const* from) {
+  __builtin_prefetch(from);
+}
 /// The values of a field at the discs named by `index[0 .. lane_count)`.
-KOKKOS_FORCEINLINE_FUNCTION Lanes gather(Real const* field, int const* index) {
-  return Lanes([&](auto l) { return field[index[l]]; });
+template <class R>
+KOKKOS_FORCEINLINE_FUNCTION LanesOf<R> gather(R const* field, int const* index) {
+  return LanesOf<R>([&](auto l) { return field[index[l]]; });
 }
 #else
-using Lanes = Real;
-using Mask = bool;
-inline constexpr int lane_count = 1;
-
-KOKKOS_FORCEINLINE_FUNCTION Real load(Real const* from) { return *from; }
-KOKKOS_FORCEINLINE_FUNCTION void store(Real* to, Real value) { *to = value; }
+KOKKOS_FORCEINLINE_FUNCTION double load(double const* from) { return *from; }
+KOKKOS_FORCEINLINE_FUNCTION float load(float const* from) { return *from; }
+KOKKOS_FORCEINLINE_FUNCTION void store(double* to, double value) { *to = value; }
+KOKKOS_FORCEINLINE_FUNCTION void store(float* to, float value) { *to = value; }
 KOKKOS_FORCEINLINE_FUNCTION Real load_float(float const* from) { return *from; }
 KOKKOS_FORCEINLINE_FUNCTION void store_float(float* to, Real value) { *to = static_cast<float>(value); }
-KOKKOS_FORCEINLINE_FUNCTION Real lane(Real value, int) { return value; }
-KOKKOS_FORCEINLINE_FUNCTION bool lane(bool mask, int) { return mask; }
-KOKKOS_FORCEINLINE_FUNCTION void set_lane(Real& value, int, Real to) { value = to; }
-KOKKOS_FORCEINLINE_FUNCTION void set_lane(bool& mask, int, bool to) { mask = to; }
-KOKKOS_FORCEINLINE_FUNCTION Real largest(Real value) { return value; }
+template <class R>
+KOKKOS_FORCEINLINE_FUNCTION R lane(R value, int) {
+  return value;
+}
+template <class R>
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(R& value, int, std::type_identity_t<R> to) {
+  value = to;
+}
+template <class R>
+KOKKOS_FORCEINLINE_FUNCTION R largest(R value) {
+  return value;
+}
 KOKKOS_FORCEINLINE_FUNCTION bool first_lanes(int count) { return count > 0; }
 KOKKOS_FORCEINLINE_FUNCTION int pack_set(bool mask, int const* from, int* to) {
   if (mask) *to = *from;
   return mask ? 1 : 0;
 }
-KOKKOS_FORCEINLINE_FUNCTION void prefetch(Real const*) {}
-KOKKOS_FORCEINLINE_FUNCTION Real gather(Real const* field, int const* index) { return field[*index]; }
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void prefetch(T const*) {}
+template <class R>
+KOKKOS_FORCEINLINE_FUNCTION R gather(R const* field, int const* index) {
+  return field[*index];
+}
 #endif
 
-/// Discs whose rows lie side by side in memory (contacts.hpp): a multiple of `lane_count`. Nobody's bits know it.
+/// Discs whose rows lie side by side in memory (contacts.hpp): a multiple of the lanes of the contact kernel, whose numbers are
+/// R. Nobody's bits know it.
+template <class R>
 #ifdef CLATHRA_SLICE_WIDTH
-inline constexpr int slice_width = CLATHRA_SLICE_WIDTH;
+inline constexpr int slice_width_of = CLATHRA_SLICE_WIDTH;
 #elif defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
-inline constexpr int slice_width = 32;  // the threads that load together
+inline constexpr int slice_width_of = 32;  // the threads that load together
 #else
-inline constexpr int slice_width = lane_count;
+inline constexpr int slice_width_of = lane_count_of<R>;
 #endif
-static_assert(slice_width % lane_count == 0, "a slice holds whole groups of lanes");
+static_assert(slice_width_of<float> % lane_count_of<float> == 0 && slice_width_of<double> % lane_count_of<double> == 0,
+              "a slice holds whole groups of lanes");
+static_assert(slice_width_of<float> % lane_count == 0, "and whole groups of the kernels that work in double precision on it");
+inline constexpr int widest_slice = slice_width_of<float>;
 
 /// `value` clamped to [-limit, limit]; limit >= 0. Odd in `value` even at limit 0, so both sides of a pair get exact
 /// opposites. What comes of a NaN depends on the machine: integrate() finds the motion that made it.
@@ -160,7 +271,12 @@ KOKKOS_FORCEINLINE_FUNCTION L clamp_to(L const& value, L const& limit) {
 #if defined(CLATHRA_SIMD) && defined(__AVX512DQ__)
 /// The same bits by one instruction: the smaller magnitude with the sign of `value`.
 KOKKOS_FORCEINLINE_FUNCTION Lanes clamp_to(Lanes const& value, Lanes const& limit) {
-  return Lanes(PlainVector(_mm512_range_pd(static_cast<PlainVector>(value), static_cast<PlainVector>(limit), 2)));
+  return Lanes(
+      PlainVector<double>(_mm512_range_pd(static_cast<PlainVector<double>>(value), static_cast<PlainVector<double>>(limit), 2)));
+}
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes clamp_to(FloatLanes const& value, FloatLanes const& limit) {
+  return FloatLanes(
+      PlainVector<float>(_mm512_range_ps(static_cast<PlainVector<float>>(value), static_cast<PlainVector<float>>(limit), 2)));
 }
 #endif
 

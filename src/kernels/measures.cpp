@@ -154,7 +154,7 @@ struct HashDisc {
       std::uint64_t pair = chain(chain(2, p.id(i)), p.id(rows.neighbour(e)));
       bool empty = true;
       auto const add = [&](HistoryField const& about, bool, auto const& field) {
-        Real const value = field.extent(0) > 0 ? field(e) : about.empty;
+        Real const value = field.extent(0) > 0 ? Real(field(e)) : about.empty;
         empty = empty && value == about.empty;
         pair = chain(pair, value);
       };

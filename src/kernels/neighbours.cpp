@@ -1,9 +1,9 @@
 #include "kernels/neighbours.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "kernels/cell_grid.hpp"
 
@@ -106,6 +106,7 @@ struct Search {
   CellGrid grid;
   Candidates candidates;
   Real bonded_reach;  // beyond touching, of any bond [m]
+  Real slack;         // rounding_slack()
   OldRows old;
   Field<int> slot;
 
@@ -130,7 +131,7 @@ struct Search {
                                             int& others) const {
     Lanes const dx = load(&candidates.x(k)) - p.x(i), dy = load(&candidates.y(k)) - p.y(i);
     Lanes const touch = load(&candidates.radius(k)) + p.radius(i), distance2 = dx * dx + dy * dy;
-    Lanes const reach = touch + (load(&candidates.verlet_skin(k)) + p.verlet_skin(i)), bonded = touch + bonded_reach;
+    Lanes const reach = touch + (load(&candidates.verlet_skin(k)) + p.verlet_skin(i) + slack), bonded = touch + bonded_reach;
     auto const candidate = first_lanes(end - k), in_touch = candidate && distance2 < touch * touch;
     auto const apart = candidate && !in_touch && distance2 < reach * reach;
     touching += pack_set(in_touch, &candidates.disc(k), found.in_touch + touching);
@@ -177,7 +178,7 @@ struct CountNeighbours {
 
 struct ScanSlices {
   Field<int> length, slice_start;
-  int discs;
+  int discs, slice_width;
   KOKKOS_FUNCTION void operator()(int slice, std::int64_t& sum, bool const final) const {
     int longest = 0;
     for (int l = 0; l < slice_width; ++l) {
@@ -198,7 +199,7 @@ struct FillRows {
   Field<int> source;  // [entries] the old entry with the history of each new one, -1 for none
 
   KOKKOS_FUNCTION void operator()(int slot) const {
-    int const slice = slot / slice_width;
+    int const slice = slot >> rows.features.format.slice_shift();
     int const width = rows.slice_start(slice + 1) - rows.slice_start(slice);
     bool const real = slot < search.p.owned;
     int const used = real ? fill(slot) : 0;
@@ -250,61 +251,41 @@ struct CarryHistory {
   Field<int> source;
   int entries_here;
   T empty;
+  Field<int> neighbour, id;
+  Faults faults;
   KOKKOS_FUNCTION void operator()(int e) const {
     int const from = source(e);
-    to(e) = from < 0 ? empty : from < entries_here ? here(from) : arrived(from - entries_here);
-  }
-};
-
-/// Of the rows of one group of discs.
-struct WidestBondedGap {
-  ParticleSoA p;
-  ContactRows rows;
-  KOKKOS_FUNCTION void operator()(int group, Real& widest) const {
-    auto const i = static_cast<std::size_t>(group) * lane_count;
-    int const slice = group / (slice_width / lane_count);
-    Lanes const x = load(&p.x(i)), y = load(&p.y(i)), radius = load(&p.radius(i));
-    Lanes widest_here(0);
-    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
-      std::size_t const e = static_cast<std::size_t>(k) * slice_width + i % slice_width;
-      auto const bonded = is_bonded(load(&rows.formation_overlap(e)));
-      if (!any(bonded)) continue;
-      int const* const other = &rows.neighbour(e);
-      Lanes const dx = gather(p.x.data(), other) - x, dy = gather(p.y.data(), other) - y;
-      Lanes const gap = lane_sqrt(dx * dx + dy * dy) - (radius + gather(p.radius.data(), other));
-      widest_here = lane_max(widest_here, select(bonded, gap, Lanes(0)));
-    }
-    widest = lane_max(widest, largest(widest_here));
-  }
-};
-
-struct CountOwnBonds {
-  ParticleSoA p;
-  ContactRows rows;
-  KOKKOS_FUNCTION void operator()(int i, int& bonds) const {
-    for (int k = 0; k < rows.length(i); ++k) {
-      std::size_t const e = rows.entry(i, k);
-      if (is_bonded(rows.formation_overlap(e)) && p.id(i) < p.id(rows.neighbour(e))) ++bonds;
+    T const value = from < 0 ? empty : from < entries_here ? here(from) : arrived(from - entries_here);
+    to(e) = value;
+    if constexpr (std::is_integral_v<T>) {
+      constexpr T most = static_cast<T>(most_units);
+      if (value > most || value < -most) faults.report(Fault::out_of_range, id(neighbour(e)));
     }
   }
 };
 
 /// Brings the history of the old rows into the order of `found`, field by field through the storage that the one before left
 /// free, so that a search needs room for one field and not for a second set of rows.
-void carry_history(OldRows old, ContactRows& found, Field<int> const& source, std::size_t entries) {
+void carry_history(OldRows old, ContactRows& found, Field<int> const& source, std::size_t entries, Field<int> const& id,
+                   Faults const& faults) {
   std::size_t const size = found.neighbour.extent(0);
-  std::tuple<Field<float>, Field<double>> free;
-  auto const carry = [&](HistoryField const& about, auto& field, auto const& arrived) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    auto& room = std::get<Field<T>>(free);
-    if (room.extent(0) != size) {
-      room = Field<T>();
-      room = uninitialised<T>(about.name, size);
+  std::vector<RealField> free;  // one of each format
+  auto const carry = [&](HistoryField const& about, RealField& field, RealField const& arrived) {
+    NumberFormat const format = kept(old.here.features.format, about.quantity);
+    auto room = std::find_if(free.begin(), free.end(), [&](RealField const& f) { return f.format() == format; });
+    if (room == free.end()) room = free.insert(free.end(), RealField("", 0, format));
+    if (room->extent(0) != size) {
+      *room = RealField("", 0, format);
+      *room = RealField(about.name, size, format, false);
     }
-    Kokkos::parallel_for("carry_history", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(entries)),
-                         CarryHistory<T>{field, arrived, room, source, old.entries_here, static_cast<T>(about.empty)});
+    visit_as_kept(*room, [&]<class T>(Field<T> const& to) {
+      T const empty = std::is_same_v<T, float> ? static_cast<T>(RealField::to_single(about.empty)) : static_cast<T>(about.empty);
+      Kokkos::parallel_for(
+          "carry_history", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(entries)),
+          CarryHistory<T>{field.as<T>(), arrived.as<T>(), to, source, old.entries_here, empty, found.neighbour, id, faults});
+    });
     Kokkos::fence();
-    std::swap(field, room);
+    std::swap(field, *room);
   };
   for_each_history(old.here.features, carry, old.here, old.arrived);
   old.here.slice_start = found.slice_start;
@@ -321,8 +302,9 @@ OldRows take_as_old(ParticleSoA const& particles, ContactRows const& rows) {
   old.arrived.features = rows.features;
   old.slots_here = static_cast<int>(rows.length.extent(0));
   if (old.slots_here > 0) {
-    Kokkos::deep_copy(old.entries_here, Kokkos::subview(rows.slice_start, slice_count(old.slots_here)));
-    old.entries_here *= slice_width;
+    HistoryFormat const& format = rows.features.format;
+    Kokkos::deep_copy(old.entries_here, Kokkos::subview(rows.slice_start, format.slice_count(old.slots_here)));
+    old.entries_here *= format.slice_width();
   }
   Kokkos::parallel_for("name_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, old.entries_here),
                        NameNeighbours{particles, rows});
@@ -335,55 +317,44 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old) {
   return slot;
 }
 
-int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows) {
-  int bonds = 0;
-  if (rows.formation_overlap.extent(0) > 0)
-    Kokkos::parallel_reduce("count_own_bonds", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                            CountOwnBonds{particles, rows}, bonds);
-  return bonds;
-}
-
-Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows) {
-  if (rows.formation_overlap.extent(0) == 0 || rows.length.extent(0) == 0) return 0;
-  Real widest = 0;
-  Kokkos::parallel_reduce("widest_bonded_gap", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
-                          WidestBondedGap{particles, rows}, Kokkos::Max<Real>(widest));
-  return lane_max(widest, Real(0));
-}
-
 std::size_t find_neighbours(ParticleSoA const& particles, Real largest_skin, OldRows const& old, Field<int> const& slot,
                             ContactRows& rows, Faults const& faults, Real bonded_gap) {
   auto const owned = static_cast<std::size_t>(particles.owned);
-  auto const slices = static_cast<std::size_t>(slice_count(particles.owned));
+  HistoryFormat const& format = old.here.features.format;
+  auto const slices = static_cast<std::size_t>(format.slice_count(particles.owned));
+  std::size_t const slice_width = static_cast<std::size_t>(format.slice_width());
   Real const bonded_reach = bonded_gap * (1 + 1e-9);
-  Real const cell = 2 * largest_radius(particles, particles.all()) + lane_max(2 * largest_skin, bonded_reach);
-  Search search{particles, bin_particles(particles, particles.all(), cell), {}, bonded_reach, old, slot};
+  Real const radius = largest_radius(particles, particles.all()), slack = rounding_slack(particles, radius);
+  Real const cell = 2 * radius + lane_max(2 * largest_skin + slack, bonded_reach);
+  Search search{particles, bin_particles(particles, particles.all(), cell), {}, bonded_reach, slack, old, slot};
   search.candidates = line_up(particles, search.grid);
   Found near;
   near.neighbour = Kokkos::View<int**, MemorySpace>(Kokkos::view_alloc("found", Kokkos::WithoutInitializing), owned, Found::most);
   ContactRows found;
+  found.features = old.here.features;
   found.length = uninitialised<int>("rows.length", owned);
   found.slice_start = uninitialised<int>("rows.slice_start", slices + 1);
   Kokkos::parallel_for("count_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        CountNeighbours{search, near, found.length, faults});
   std::int64_t total = 0;
   Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices)),
-                        ScanSlices{found.length, found.slice_start, particles.owned}, total);
-  require_countable(total * slice_width, particles.all());
+                        ScanSlices{found.length, found.slice_start, particles.owned, format.slice_width()}, total);
+  require_countable(total * format.slice_width(), particles.all());
   std::size_t const entries = static_cast<std::size_t>(total) * slice_width, held = rows.neighbour.extent(0);
   // A little more than needed, so that the next search finds fields of the right size; never nothing.
   std::size_t const wanted = std::max<std::size_t>(entries, slice_width);
   std::size_t const size = held >= wanted && held <= wanted + wanted / 8 ? held : wanted + wanted / 16;
   found.neighbour = uninitialised<int>("rows.neighbour", size);
   Field<int> const source = uninitialised<int>("rows.source", size);
-  Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices) * slice_width),
+  Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices * slice_width)),
                        FillRows{search, near, found, source});
   std::size_t const lists = near.neighbour.span() * sizeof(int) + bytes(search.candidates) + bytes(search.grid);
   near = Found();
   search = Search();
-  carry_history(old, found, source, entries);
+  carry_history(old, found, source, entries, particles.id, faults);
   rows = found;
-  return size * 2 * sizeof(int) + std::max(lists, size * sizeof(Real));  // the lists are gone when the history is carried
+  std::size_t const room = rows.features.format.precision == Precision::full ? sizeof(double) : 2 * sizeof(float);
+  return size * 2 * sizeof(int) + std::max(lists, size * room);  // the lists are gone when the history is carried
 }
 
 }  // namespace clathra

@@ -1,6 +1,7 @@
 #include "kernels/particles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -14,11 +15,25 @@ struct FillPadding {
   ParticleSoA p;
   int first;
   KOKKOS_FUNCTION void operator()(int k) const {
-    auto const fill = [i = first + k](DiscField const& about, auto const& field) {
-      field(i) = static_cast<typename std::decay_t<decltype(field)>::value_type>(about.padding);
+    auto const set_padding = [i = static_cast<std::size_t>(first + k)](DiscField const& about, auto const& field) {
+      set(field, i, about.padding);
     };
-    for_each_field(p, fill);
-    for_each_derived_field(p, fill);
+    for_each_field(p, set_padding);
+    for_each_derived_field(p, set_padding);
+  }
+};
+
+struct UpdateMirror {
+  ParticleSoA p;
+  int first;
+  Real per_tick;
+  KOKKOS_FUNCTION void operator()(int k) const {
+    auto const i = static_cast<std::size_t>(first + k);
+    bool const padding = first + k >= p.owned + p.ghosts;
+    float* const row = p.mirror.numbers() + DiscMirror::row * i;
+    row[0] = from_bits_of_one(padding ? 0 : DiscMirror::ticks(p.x(i), per_tick));
+    row[1] = from_bits_of_one(padding ? 0 : DiscMirror::ticks(p.y(i), per_tick));
+    row[2] = padding ? p.mirror.padding_radius : static_cast<float>(p.radius(i));
   }
 };
 
@@ -27,8 +42,8 @@ struct AddAffineVelocity {
   Real rate_x, rate_y;
   Coord centre_x, centre_y;
   KOKKOS_FUNCTION void operator()(int i) const {
-    p.vx(i) -= rate_x * (p.x(i) - centre_x);
-    p.vy(i) -= rate_y * (p.y(i) - centre_y);
+    p.vx.add(i, -(rate_x * (p.x(i) - centre_x)));
+    p.vy.add(i, -(rate_y * (p.y(i) - centre_y)));
   }
 };
 
@@ -44,8 +59,55 @@ struct ScalePositions {
 
 }  // namespace
 
-ParticleSoA allocate_particles(int discs) {
+Real DiscMirror::tick_for(Real largest_diameter) {
+  return largest_diameter > 0 ? std::ldexp(Real(1), std::ilogb(largest_diameter) - 25) : 1;
+}
+
+Real rounding_slack(ParticleSoA const& particles, Real largest_radius) {
+  if (particles.precision == Precision::full) return 0;
+  constexpr Real half_ulp = 0x1p-24;
+  return 1.5 * particles.mirror.tick + 8 * half_ulp * (2 * largest_radius);
+}
+
+namespace {
+
+/// Takes these rows for the mirror, and its columns for the fields that have their place in it.
+void set_mirror(ParticleSoA& particles, Field<std::uint32_t> const& rows) {
+  particles.mirror.rows = rows;
+  for_each_field(particles, [&](DiscField const& about, auto& field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(field)>, RealField>)
+      if (about.mirror_at >= 0) field = RealField::column(rows, DiscMirror::row, about.mirror_at);
+  });
+}
+
+struct GatherRows {
+  Field<std::uint32_t> from, to;
+  Field<int> order;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    for (std::size_t n = 0; n < DiscMirror::row; ++n)
+      to(DiscMirror::row * static_cast<std::size_t>(i) + n) = from(DiscMirror::row * static_cast<std::size_t>(order(i)) + n);
+  }
+};
+
+void permute_mirror(ParticleSoA& particles, Field<int> const& order) {
+  if (particles.precision == Precision::full) return;
+  Field<std::uint32_t> const rows = like(particles.mirror.rows, "mirror", particles.mirror.rows.extent(0), false);
+  Kokkos::parallel_for("permute_mirror", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                       GatherRows{particles.mirror.rows, rows, order});
+  set_mirror(particles, rows);
+}
+
+}  // namespace
+
+ParticleSoA allocate_particles(int discs, Precision precision, Real largest_radius) {
   ParticleSoA particles;
+  particles.precision = precision;
+  particles.mirror.tick = DiscMirror::tick_for(2 * largest_radius);
+  particles.mirror.padding_radius = static_cast<float>(-4 * largest_radius);
+  auto const choose = [format = kept_by_discs(precision)](DiscField const&, RealField& field) {
+    field = RealField("", 0, format);
+  };
+  for_each_force(particles, choose);
   reserve(particles, discs);
   particles.owned = discs;
   fill_padding(particles);
@@ -53,40 +115,51 @@ ParticleSoA allocate_particles(int discs) {
 }
 
 void reserve(ParticleSoA& particles, int discs) {
-  std::size_t const wanted = static_cast<std::size_t>(slice_count(discs) + 1) * slice_width + 1;
+  std::size_t const wanted = static_cast<std::size_t>(group_count(discs, widest_slice) + 1) * widest_slice + 1;
   if (particles.x.extent(0) >= wanted) return;
   std::size_t const size = particles.x.extent(0) == 0 ? wanted : wanted + wanted / 8;
+  bool const mixed = particles.precision == Precision::mixed;
+  auto const kept_discs = static_cast<std::size_t>(particles.owned);
   auto const grow = [&](DiscField const& about, auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    Field<T> larger((std::string(about.name)), size);
-    if (particles.owned > 0) {
-      auto const range = std::pair<std::size_t, std::size_t>(0, static_cast<std::size_t>(particles.owned));
-      Kokkos::deep_copy(Kokkos::subview(larger, range), Kokkos::subview(field, range));
-    }
+    if (mixed && about.mirror_at >= 0) return;
+    auto const larger = like(field, about.name, size);
+    if (kept_discs > 0) copy_first(field, larger, kept_discs);
     field = larger;
   };
   for_each_field(particles, grow);
   for_each_derived_field(particles, grow);
+  if (!mixed) return;
+  Field<std::uint32_t> const larger("mirror", DiscMirror::row * size);
+  if (kept_discs > 0) copy_first(particles.mirror.rows, larger, DiscMirror::row * kept_discs);
+  set_mirror(particles, larger);
 }
 
 void fill_padding(ParticleSoA const& particles) {
-  int const first = particles.all();
-  Kokkos::parallel_for("fill_padding", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(particles.x.extent(0)) - first),
-                       FillPadding{particles, first});
+  int const first = particles.all(), count = static_cast<int>(particles.x.extent(0)) - first;
+  Kokkos::parallel_for("fill_padding", Kokkos::RangePolicy<ExecutionSpace>(0, count), FillPadding{particles, first});
+  update_mirror(particles, first, count);
+}
+
+void update_mirror(ParticleSoA const& particles, int first, int count) {
+  if (particles.precision == Precision::full) return;
+  Kokkos::parallel_for("update_mirror", Kokkos::RangePolicy<ExecutionSpace>(0, count),
+                       UpdateMirror{particles, first, 1 / particles.mirror.tick});
 }
 
 void permute(ParticleSoA& particles, Field<int> const& order) {
   particles.owned = static_cast<int>(order.extent(0));
   particles.ghosts = 0;
   // Each field is gathered into the storage that the one of its type before it left free.
-  std::tuple<Field<int>, Field<float>, Field<double>> free;
+  std::tuple<Field<int>, Field<double>, RealField> free;
+  bool const mixed = particles.precision == Precision::mixed;
   for_each_field(particles, [&](DiscField const& about, auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    auto& to = std::get<Field<T>>(free);
-    if (to.extent(0) != field.extent(0)) to = uninitialised<T>(about.name, field.extent(0));
-    Kokkos::parallel_for("permute", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), GatherField<T>{field, to, order});
+    if (mixed && about.mirror_at >= 0) return;
+    auto& to = std::get<std::decay_t<decltype(field)>>(free);
+    if (to.extent(0) != field.extent(0)) to = like(field, about.name, field.extent(0), false);
+    gather_field(field, to, order);
     std::swap(field, to);
   });
+  permute_mirror(particles, order);
   fill_padding(particles);
 }
 
@@ -98,22 +171,19 @@ void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y,
 void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, Coord fixed_y) {
   Kokkos::parallel_for("scale_positions", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        ScalePositions{particles, factor, fixed_x, fixed_y});
+  update_mirror(particles, 0, particles.owned);
 }
 
 void stop_motion(ParticleSoA const& particles) {
-  Kokkos::deep_copy(particles.vx, 0);
-  Kokkos::deep_copy(particles.vy, 0);
-  Kokkos::deep_copy(particles.omega, 0);
+  for (RealField const& field : {particles.vx, particles.vy, particles.omega}) fill(field, 0);
 }
 
 std::size_t bytes(ParticleSoA const& particles) {
   std::size_t total = 0;
-  auto const count = [&](DiscField const&, auto const& field) {
-    total += field.span() * sizeof(typename std::decay_t<decltype(field)>::value_type);
-  };
+  auto const count = [&](DiscField const&, auto const& field) { total += field_bytes(field); };
   for_each_field(particles, count);
   for_each_derived_field(particles, count);
-  return total;
+  return total + field_bytes(particles.mirror.rows);
 }
 
 }  // namespace clathra

@@ -2,43 +2,51 @@
 /// The discs as a structure of arrays: the storage of record.
 #include <variant>
 
-#include "kernels/lane.hpp"
+#include "kernels/disc_mirror.hpp"
 
 namespace clathra {
 
 /// A field of whatever kind, for those who only carry it.
-using AnyField = std::variant<Field<int>, Field<float>, Field<double>>;
+using AnyField = std::variant<Field<int>, Field<float>, Field<double>, RealField>;
 
 /// Discs `0 .. owned` have neighbour rows and move; `owned .. owned + ghosts` are images of discs across a periodic boundary.
-/// Behind them every field holds `slice_width` padding discs or more of radius 0 far outside, so that vector loads may overrun
+/// Behind them every field holds `widest_slice` padding discs or more of radius 0 far outside, so that vector loads may overrun
 /// and unused row entries have a disc to point at. The order is spatial and changes; `id` is the identity of a disc.
 struct ParticleSoA {
+  Precision precision = Precision::full;
   int owned = 0;
   int ghosts = 0;
   Field<int> id;
-  Field<Coord> x, y;            ///< centre [m]
-  Field<Coord> angle;           ///< accumulated rotation [rad], never wrapped
-  Field<Real> vx, vy;           ///< velocity half a step behind the position [m/s]
-  Field<Real> omega;            ///< angular velocity, likewise [rad/s]
-  Field<Real> radius;           ///< [m]
-  Field<Real> inverse_mass;     ///< 1 / (pi r^2 rho) [m/kg]
-  Field<Real> inverse_inertia;  ///< 2 / (m r^2) [1/(kg m)]
+  Field<Coord> x, y;          ///< centre [m]
+  Field<Coord> angle;         ///< accumulated rotation [rad], never wrapped
+  RealField vx, vy;           ///< velocity half a step behind the position [m/s]
+  RealField omega;            ///< angular velocity, likewise [rad/s]
+  Field<Real> radius;         ///< [m]
+  RealField inverse_mass;     ///< 1 / (pi r^2 rho) [m/kg]
+  RealField inverse_inertia;  ///< 2 / (m r^2) [1/(kg m)]
   // Derived, not part of the state:
-  Field<Real> force_x, force_y;           ///< [N/m]
-  Field<Real> torque;                     ///< [N m/m]
+  RealField force_x, force_y;             ///< [N/m]
+  RealField torque;                       ///< [N m/m]
   Field<Coord> reference_x, reference_y;  ///< centre at the last neighbour search [m]
   Field<Real> verlet_skin;                ///< how far from there, beside the homogeneous motion, until the next one [m]
+  DiscMirror mirror;                      ///< mixed precision: what the contact kernel reads
 
   int all() const { return owned + ghosts; }
   /// The index of a padding disc.
   KOKKOS_FUNCTION int padding() const { return static_cast<int>(x.extent(0)) - 1; }
 };
 
+/// How the velocities, forces and masses of discs are kept.
+inline NumberFormat kept_by_discs(Precision precision) {
+  return {precision == Precision::full ? Storage::as_double : Storage::as_float};
+}
+
 /// What there is to know of a field of a disc beside its values.
 struct DiscField {
   char const* name;
   Real padding = 0;    ///< value of a padding disc
   bool moves = false;  ///< changes in each step, and neighbours need to know it
+  int mirror_at = -1;  ///< mixed precision: its column of the mirror, which is its only place; -1 for a field of its own
 };
 inline constexpr Coord far_outside = 1e10;  ///< where padding discs are [m]
 
@@ -50,12 +58,12 @@ KOKKOS_INLINE_FUNCTION void for_each_field(Particles&& p, Visit&& visit) {
   visit(DiscField{"x", far_outside, true}, p.x);
   visit(DiscField{"y", far_outside, true}, p.y);
   visit(DiscField{"angle"}, p.angle);
-  visit(DiscField{"vx", 0, true}, p.vx);
-  visit(DiscField{"vy", 0, true}, p.vy);
-  visit(DiscField{"omega", 0, true}, p.omega);
+  visit(DiscField{"vx", 0, true, DiscMirror::vx_at}, p.vx);
+  visit(DiscField{"vy", 0, true, DiscMirror::vy_at}, p.vy);
+  visit(DiscField{"omega", 0, true, DiscMirror::omega_at}, p.omega);
   visit(DiscField{"radius"}, p.radius);
-  visit(DiscField{"inverse_mass"}, p.inverse_mass);
-  visit(DiscField{"inverse_inertia"}, p.inverse_inertia);
+  visit(DiscField{"inverse_mass", 0, false, DiscMirror::inverse_mass_at}, p.inverse_mass);
+  visit(DiscField{"inverse_inertia", 0, false, DiscMirror::inverse_inertia_at}, p.inverse_inertia);
 }
 
 /// Likewise what is computed from the state: the forces
@@ -78,13 +86,24 @@ KOKKOS_INLINE_FUNCTION void for_each_derived_field(Particles& p, Visit&& visit) 
   for_each_mark_of_search(p, visit);
 }
 
-/// Number of slices of `slice_width` discs that cover `discs`.
-KOKKOS_INLINE_FUNCTION int slice_count(int discs) { return (discs + slice_width - 1) / slice_width; }
-/// Number of groups of `lane_count` discs, which kernels treat side by side.
-KOKKOS_INLINE_FUNCTION int group_count(int discs) { return (discs + lane_count - 1) / lane_count; }
+/// Number of groups of `lanes` discs, which kernels treat side by side.
+KOKKOS_INLINE_FUNCTION int group_count(int discs, int lanes = lane_count) { return (discs + lanes - 1) / lanes; }
 
 /// Storage for `discs` discs and their padding; the padding is filled in, the discs are not.
-ParticleSoA allocate_particles(int discs);
+/// @param largest_radius  of all discs of all ranks [m]; mixed precision has its ticks from it
+ParticleSoA allocate_particles(int discs, Precision precision = Precision::full, Real largest_radius = 0);
+
+/// How much nearer two discs may seem to the contact kernel than they are [m], which neighbour searches, in double precision, add
+/// to what they reach: no pair can be lost to rounding. In mixed precision each component of a branch is off by a tick at most
+/// (half of one at either end), the branch by sqrt(2) ticks. Then it is rounded, with the operations on it: by half an ulp in
+/// each of the components, by three in the sum of squares, of which the root has half, by half an ulp in the root, in either
+/// radius and in their sum, all of numbers below 2 r_max while they touch: less than 8 half ulps of 2 r_max. In full precision:
+/// none, as ever.
+Real rounding_slack(ParticleSoA const& particles, Real largest_radius);
+
+/// Mixed precision: makes the mirror of the discs first .. first + count anew. To be called whenever their places or velocities
+/// have been changed from outside; what stands in this file and integrate() do it themselves.
+void update_mirror(ParticleSoA const& particles, int first, int count);
 
 /// Makes room for at least `discs` discs, keeping the state of the first `owned`.
 void reserve(ParticleSoA& particles, int discs);
@@ -109,13 +128,19 @@ struct GatherField {
   Field<int> order;
   KOKKOS_FUNCTION void operator()(int i) const { to(i) = from(order(i)); }
 };
-
-/// `field` in the order `order`, as permute() does, in a new field of `size` places.
 template <class T>
-Field<T> permuted(Field<T> const& field, Field<int> const& order, std::size_t size) {
-  Field<T> const to(field.label(), size);
-  Kokkos::parallel_for("permuted", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))),
-                       GatherField<T>{field, to, order});
+void gather_field(Field<T> const& from, Field<T> const& to, Field<int> const& order) {
+  Kokkos::parallel_for("gather_field", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))),
+                       GatherField<T>{from, to, order});
+}
+inline void gather_field(RealField const& from, RealField const& to, Field<int> const& order) {
+  visit_as_kept(from, [&]<class T>(Field<T> const& numbers) { gather_field(numbers, to.as<T>(), order); });
+}
+/// `field` in the order `order`, as permute() does, in a new field of `size` places.
+template <class AField>
+AField permuted(AField const& field, Field<int> const& order, std::size_t size) {
+  AField const to = like(field, field.label(), size);
+  gather_field(field, to, order);
   return to;
 }
 

@@ -7,11 +7,24 @@
 #include <cstdint>
 #include <string>
 
+#include "kernels/precision.hpp"
+
 namespace clathra {
 
 using Coord = double;  ///< positions and angles
-using Real = double;   ///< forces and laws
+using Real = double;   ///< forces and laws, off the hot path
 using Accum = double;  ///< sums handed to the host
+
+/// The number types of the contact kernel, which is compiled once for each. All other kernels work in double precision on what
+/// either keeps (real_field.hpp).
+struct FullPrecision {
+  static constexpr Precision precision = Precision::full;
+  using Real = double;
+};
+struct MixedPrecision {
+  static constexpr Precision precision = Precision::mixed;
+  using Real = float;
+};
 
 using ExecutionSpace = Kokkos::DefaultExecutionSpace;
 using MemorySpace = ExecutionSpace::memory_space;

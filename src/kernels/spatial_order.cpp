@@ -14,14 +14,14 @@ struct WorkOfSlots {
   Field<int> work;  ///< [slots] first + slot is set
 
   KOKKOS_FUNCTION void operator()(int group) const {
-    int const begin = group * lane_count, slice = begin / slice_width;
+    int const shift = rows.features.format.slice_shift(), begin = group * lane_count, slice = begin >> shift;
     bool const shear = rows.shear.extent(0) > 0, bonds = rows.formation_overlap.extent(0) > 0;
     Lanes carrying(0);
     for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
-      std::size_t const e = static_cast<std::size_t>(k) * slice_width + static_cast<std::size_t>(begin % slice_width);
+      std::size_t const e = (static_cast<std::size_t>(k) << shift) | static_cast<std::size_t>(begin & ((1 << shift) - 1));
       Mask marked(false);
-      if (shear) marked = load(&rows.shear(e)) != Lanes(0);
-      if (bonds) marked = marked || is_bonded(load(&rows.formation_overlap(e)));
+      if (shear) marked = load(rows.shear, e) != Lanes(0);
+      if (bonds) marked = marked || is_bonded(load(rows.formation_overlap, e));
       carrying += select(marked, Lanes(1), Lanes(0));
     }
     for (int l = 0; l < lane_count; ++l) {

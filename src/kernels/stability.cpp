@@ -64,7 +64,7 @@ AbsoluteStiffness make_absolute_stiffness(SpringNetwork const& net) {
   AbsoluteStiffness k;
   for (auto& field : k.between) field = uninitialised<float>("stiffness.between", net.rows.neighbour.extent(0));
   for (auto& field : k.own) field = uninitialised<float>("stiffness.own", net.particles.x.extent(0));
-  k.blocks = uninitialised<std::uint64_t>("stiffness.blocks", net.rows.active.extent(0));
+  k.blocks = uninitialised<std::uint64_t>("stiffness.blocks", static_cast<std::size_t>(group_count(net.particles.owned)));
   return k;
 }
 
@@ -84,14 +84,16 @@ struct FillAbsoluteStiffness {
     ParticleSoA const& p = net.particles;
     auto const first = static_cast<std::size_t>(group) * lane_count;
     Lanes const x = load(&p.x(first)), y = load(&p.y(first)), radius = load(&p.radius(first)),
-                inverse_mass = load(&p.inverse_mass(first)), may_close = leeway * load(&p.verlet_skin(first));
+                inverse_mass = load(p.inverse_mass, first), may_close = leeway * load(&p.verlet_skin(first));
     bool const bonds = net.laws.bond_kind != BondKind::none, viscous = net.laws.grain.damping_ratio > 0;
     Own own{0, 0, 0, 0, 0, 0};
-    int const slice = group / (slice_width / lane_count);
-    std::uint64_t const active = net.rows.active(group);
+    HistoryFormat const& format = net.rows.features.format;
+    int const shift = format.slice_shift();
+    auto const slice = static_cast<int>(first >> shift);
+    std::uint64_t const active = net.rows.active(static_cast<int>(first) / format.lanes());
     std::uint64_t blocks = 0, bit = 1;
     for (int k = net.rows.slice_start(slice); k < net.rows.slice_start(slice + 1); ++k, bit <<= 1) {
-      std::size_t const e = static_cast<std::size_t>(k) * slice_width + first % slice_width;
+      std::size_t const e = (static_cast<std::size_t>(k) << shift) | (first & ((std::size_t(1) << shift) - 1));
       int const* const j = &net.rows.neighbour(e);
       Lanes const dx = gather(p.x.data(), j) - x, dy = gather(p.y.data(), j) - y, other_radius = gather(p.radius.data(), j),
                   closing = may_close + leeway * gather(p.verlet_skin.data(), j), reach = radius + other_radius + closing;
@@ -102,9 +104,9 @@ struct FillAbsoluteStiffness {
                              radius,
                              other_radius,
                              inverse_mass,
-                             viscous ? gather(p.inverse_mass.data(), j) : Lanes(1),
-                             bonds ? load(&net.rows.formation_overlap(e)) : Lanes(no_bond),
-                             bonds ? load(&net.rows.width(e)) : Lanes(0),
+                             viscous ? gather(p.inverse_mass, j) : Lanes(1),
+                             bonds ? load(net.rows.formation_overlap, e) : Lanes(no_bond),
+                             bonds ? load(net.rows.width, e) : Lanes(0),
                              closing};
       add(pair_spring(net, pair), own,
           [&](int entry, Lanes const& value) { store_float(&to.between[entry](e), lane_abs(value)); });
@@ -187,19 +189,20 @@ struct AbsoluteProduct {
     for (int n = 0; n < 6; ++n) own[n] = load_float(&k.own[n](first));
     Lanes x = own[0] * ux + own[1] * uy + own[3] * ut, y = own[1] * ux + own[2] * uy + own[4] * ut,
           t = own[3] * ux + own[4] * uy + own[5] * ut;
-    int const slice = group / (slice_width / lane_count);
+    int const shift = net.rows.features.format.slice_shift();
+    auto const slice = static_cast<int>(first >> shift);
     std::uint64_t blocks = k.blocks(group);
     for (int block = net.rows.slice_start(slice); blocks != 0; ++block, blocks >>= 1) {
       if ((blocks & 1) == 0) continue;
-      std::size_t const e = static_cast<std::size_t>(block) * slice_width + first % slice_width;
+      std::size_t const e = (static_cast<std::size_t>(block) << shift) | (first & ((std::size_t(1) << shift) - 1));
       int const* const j = &net.rows.neighbour(e);
       Lanes const vx = gather(u.x.data(), j), vy = gather(u.y.data(), j), vt = gather(u.rotation.data(), j);
       x += load_float(&k.between[0](e)) * vx + load_float(&k.between[1](e)) * vy + load_float(&k.between[2](e)) * vt;
       y += load_float(&k.between[3](e)) * vx + load_float(&k.between[4](e)) * vy + load_float(&k.between[5](e)) * vt;
       t += load_float(&k.between[6](e)) * vx + load_float(&k.between[7](e)) * vy + load_float(&k.between[8](e)) * vt;
     }
-    Lanes const inverse_mass = factor * load(&net.particles.inverse_mass(first)),
-                inverse_inertia = factor * load(&net.particles.inverse_inertia(first));
+    Lanes const inverse_mass = factor * load(net.particles.inverse_mass, first),
+                inverse_inertia = factor * load(net.particles.inverse_inertia, first);
     Lanes largest_ratio = lane_max(lane_max(next(x * inverse_mass, ux, &w.x(first)), next(y * inverse_mass, uy, &w.y(first))),
                                    next(t * inverse_inertia, ut, &w.rotation(first)));
     for (auto l = net.particles.owned - static_cast<int>(first); l < lane_count; ++l) set_lane(largest_ratio, l, 0);

@@ -32,9 +32,9 @@ struct WallForces {
       if (friction) contacts.shear(c, wall) = force.shear;
       add_losses(i, motion, old_shear, force);
       if (overlap > p.radius(i)) faults.report(Fault::deep_overlap, p.id(i));
-      p.force_x(i) -= force.normal * nx + force.shear * ny;
-      p.force_y(i) += force.shear * nx - force.normal * ny;
-      p.torque(i) += arm * force.shear;
+      p.force_x.add(i, -(force.normal * nx + force.shear * ny));
+      p.force_y.add(i, force.shear * nx - force.normal * ny);
+      p.torque.add(i, arm * force.shear);
       reactions[wall] = force.normal;
       reactions[wall_count + wall] = force.shear * (nx != 0 ? -nx : ny);  // on the wall: opposite to the force on the disc
       reactions[2 * wall_count + wall] = overlap > 0 ? 1 : 0;

@@ -43,6 +43,7 @@ BondKind bond_kind(Scene const& scene) {
 
 SimulationLaws test_laws(Scene const& scene, double d50, double h_max) {
   SimulationLaws laws;
+  laws.precision = scene.run.precision;
   laws.contact.grain = grain_law(scene);
   if (h_max > 0) {
     laws.contact.bond_kind = bond_kind(scene);

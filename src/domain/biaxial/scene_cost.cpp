@@ -46,7 +46,9 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
   int const of_a_break = bonded && scene.output.takes_event_details() ? 7 : 0;  // a disc may break one bond or so
   int const extras = (scene.output.energy ? 5 : 0) + (scene.output.takes_snapshots() ? 2 : 0) +
                      (scene.test.wall_friction > 0 ? 4 : 0) + of_a_break;
-  double const state = 8 * (18 + extras) + 4 + entries * (4 + 8 * numbers + 16);
+  bool const mixed = scene.run.precision == Precision::mixed;
+  double const of_number = mixed ? 4 : 8, of_disc = mixed ? 8 * (10 + extras) + 32 + 12 : 8 * (18 + extras);
+  double const state = of_disc + 4 + entries * (4 + of_number * numbers + 8 + of_number);
   // Beside the state there is, in turns, the specimen that it was made from, a checkpoint and the last specimen; ranks also send
   // parts of these to each other.
   double const beside = ranks > 1 ? 1 : 0.85;

@@ -1,7 +1,6 @@
 #include "domain/biaxial/scene_needs.hpp"
 
 #include <map>
-#include <type_traits>
 
 #include "domain/biaxial/biaxial_state.hpp"
 #include "domain/scene/hydrate.hpp"
@@ -13,16 +12,20 @@ namespace {
 constexpr char const* every_scene = "every scene";
 constexpr char const* hydrate = "hydrate.saturation, bond.law";
 
-template <class View>
-constexpr int bytes_of(View const&) {
-  return static_cast<int>(sizeof(typename std::decay_t<View>::value_type));
+template <class T>
+int bytes_of(Field<T> const&, Precision) {
+  return static_cast<int>(sizeof(T));
 }
+int bytes_of(RealField const&, Precision precision) { return kept_by_discs(precision).bytes(); }
 
-void add_discs(Scene const& scene, std::vector<NeededField>& fields) {
+void add_discs(Scene const& scene, Precision precision, std::vector<NeededField>& fields) {
   ParticleSoA particles;
   auto const state = [&](DiscField const& about, auto const& field) {
-    fields.push_back({about.name, bytes_of(field), FieldOf::disc, every_scene});
+    if (precision == Precision::mixed && about.mirror_at >= 0) return;
+    fields.push_back({about.name, bytes_of(field, precision), FieldOf::disc, every_scene});
   };
+  if (precision == Precision::mixed)
+    fields.push_back({"mirror", static_cast<int>(DiscMirror::row * sizeof(float)), FieldOf::disc, "run.precision"});
   for_each_field(particles, state);
   for_each_derived_field(particles, state);
   for (char const* const name : {"step_x", "step_y"}) fields.push_back({name, sizeof(Coord), FieldOf::disc, every_scene});
@@ -38,8 +41,8 @@ void add_accounts(SimulationLaws const& laws, std::vector<NeededField>& fields) 
                                                 {"lost_breakage", "hydrate.saturation"},
                                                 {"lost_damping", "run.damping"}};
   EnergyLosses losses;
-  for_each_account(losses, laws.losses(), [&](char const* name, Field<Accum> const& account, bool needed) {
-    if (needed) fields.push_back({name, bytes_of(account), FieldOf::disc, "output.energy with " + with.at(name)});
+  for_each_account(losses, laws.losses(), [&](char const* name, Field<Accum> const&, bool needed) {
+    if (needed) fields.push_back({name, sizeof(Accum), FieldOf::disc, "output.energy with " + with.at(name)});
   });
 }
 
@@ -51,14 +54,17 @@ void add_entries(SimulationLaws const& laws, std::vector<NeededField>& fields) {
                                                 {"bond_shear", "bond.composite"},
                                                 {"bond_moment", "bond.composite"}};
   ContactRows rows;
-  fields.push_back({"neighbour", bytes_of(rows.neighbour), FieldOf::entry, every_scene});
+  HistoryFormat format;
+  format.precision = laws.precision;
+  fields.push_back({"neighbour", sizeof(int), FieldOf::entry, every_scene});
   for_each_possible_history(
       laws.features(),
-      [&](HistoryField const& about, bool needed, auto const& field) {
-        if (needed) fields.push_back({about.name, bytes_of(field), FieldOf::entry, keys.at(about.name)});
+      [&](HistoryField const& about, bool needed, RealField const&) {
+        if (needed) fields.push_back({about.name, kept(format, about.quantity).bytes(), FieldOf::entry, keys.at(about.name)});
       },
       rows);
-  if (laws.features().bonds) fields.push_back({"width", bytes_of(rows.width), FieldOf::entry, hydrate});
+  if (laws.features().bonds)
+    fields.push_back({"width", kept(format, HistoryField::Quantity::length).bytes(), FieldOf::entry, hydrate});
 }
 
 /// The variant of the contact kernel that these laws run, in words.
@@ -85,7 +91,7 @@ SceneNeeds needs_of(Scene const& scene) {
   SimulationLaws laws = test_laws(scene, any_d50, has_bonds(scene) ? any_thickness : 0);
   laws.motion.damping = scene.run.damping;
   SceneNeeds needs;
-  add_discs(scene, needs.fields);
+  add_discs(scene, laws.precision, needs.fields);
   if (scene.output.energy) add_accounts(laws, needs.fields);
   if (laws.wall.friction > 0)
     for (char const* const wall : {"shear_left", "shear_right", "shear_bottom", "shear_top"})

@@ -42,9 +42,11 @@ double moved_bytes(Simulation const& simulation) {
   ContactRows rows = simulation.rows();
   double written = 0;
   for_each_history(rows, [&](HistoryField const&, auto const& field) { written += &field == &rows.formation_overlap ? 0 : 1; });
-  double const row = sizeof(int) + sizeof(Real) * (2 * written + (rows.features.bonds ? 2 : 0));
+  bool const mixed = rows.features.format.precision == Precision::mixed;
+  double const row = sizeof(int) + (mixed ? sizeof(float) : sizeof(double)) * (2 * written + (rows.features.bonds ? 2 : 0));
   constexpr double contact_pass = 6 + 3, drift = 11 + 6;  // fields of a disc
-  return entries * row + sizeof(Real) * (contact_pass + drift);
+  constexpr double mirror = sizeof(float) * DiscMirror::row, places = 2 * 3 * sizeof(double), forces = 3 * sizeof(float);
+  return entries * row + (mixed ? 3 * mirror + places + 2 * forces : sizeof(double) * (contact_pass + drift));
 }
 
 /// Double precision operations of the laws, counted in their machine code: a pair in touch or bonded, once from either side, and
@@ -98,6 +100,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   scene.hydrate.saturation = bonded ? 0.55 : 0;
   Specimen specimen = make_specimen(scene, setup.discs, ranks);
   SimulationLaws laws;
+  laws.precision = setup.precision;
   laws.contact.grain = grain_law(scene);
   laws.motion.damping = scene.run.damping;
   if (bonded) {
@@ -108,8 +111,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
     laws.contact.bond = make_bond_law(scene, specimen.d50, specimen.critical_thickness);
   }
   Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
-  // The walls have to find the cut packing, fast enough that it keeps its stress, before its neighbour searches are those of a
-  // test.
+  // The walls have to find the cut packing, fast enough that it keeps its stress, before searches are those of a test.
   prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.step_choice());
   for (int n = 0; n < setup.relaxation_steps; ++n) simulation.step();
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;

@@ -14,7 +14,8 @@ inline constexpr char const* throughput_case_names[] = {"rolling", "bonded", "br
 struct ThroughputSetup {
   ThroughputCase what = ThroughputCase::bonded;
   std::int64_t discs = 20000;
-  double skin = chosen_skin;    ///< in d50
+  double skin = chosen_skin;  ///< in d50
+  Precision precision = Precision::full;
   int relaxation_steps = 3000;  ///< in which the walls find the cut packing
 };
 

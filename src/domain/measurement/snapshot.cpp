@@ -26,6 +26,14 @@ std::vector<To> listed(Field<From> const& field, std::size_t size) {
   return values;
 }
 
+template <class To>
+std::vector<To> listed(RealField const& field, std::size_t size) {
+  std::vector<double> const host = clathra::on_host(field, size);
+  std::vector<To> values(size);
+  for (std::size_t i = 0; i < size; ++i) values[i] = static_cast<To>(host[i]);
+  return values;
+}
+
 std::uint8_t broken_state(int mode) { return static_cast<std::uint8_t>(broken_in(static_cast<BreakMode>(mode))); }
 
 void copy_discs(Snapshot& s, Simulation const& simulation) {

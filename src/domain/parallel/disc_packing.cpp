@@ -57,39 +57,36 @@ struct Unpack {
 
   KOKKOS_FUNCTION void operator()(int k) const {
     auto at = begin(k);
-    for_each_field(p, [&, i = first + k](DiscField const&, auto const& field) { field(i) = as_in(field, numbers(at++)); });
+    for_each_field(
+        p, [&, i = static_cast<std::size_t>(first + k)](DiscField const&, auto const& field) { set(field, i, numbers(at++)); });
     at += auxiliary;
     auto const length = static_cast<int>(numbers(at++));
     rows.length(k) = length;
     for (int n = 0; n < length; ++n) {
       std::size_t const e = rows.entry(k, n);
       rows.neighbour(e) = static_cast<int>(numbers(at++));
-      for_each_history(rows, [&](HistoryField const&, auto const& field) { field(e) = as_in(field, numbers(at++)); });
+      for_each_history(rows, [&](HistoryField const&, RealField const& field) { field.set(e, numbers(at++)); });
     }
-  }
-  template <class T>
-  KOKKOS_INLINE_FUNCTION static T as_in(Field<T> const&, double number) {
-    return static_cast<T>(number);
   }
 };
 
 /// One auxiliary field of all discs, to or from its place `offset` behind the beginning of their records.
-template <class T, class Numbers>
+template <class AField, class Numbers>
 struct PackCompanion {
   Field<int> which;
-  Field<T> field;
+  AField field;
   Offsets begin;
   int offset;
   Numbers numbers;
   KOKKOS_FUNCTION void operator()(int k) const { numbers(begin(k) + offset) = field(which(k)); }
 };
-template <class T, class Numbers>
+template <class AField, class Numbers>
 struct UnpackCompanion {
   Numbers numbers;
   Offsets begin;
   int offset, first;
-  Field<T> field;
-  KOKKOS_FUNCTION void operator()(int k) const { field(first + k) = static_cast<T>(numbers(begin(k) + offset)); }
+  AField field;
+  KOKKOS_FUNCTION void operator()(int k) const { set(field, static_cast<std::size_t>(first + k), numbers(begin(k) + offset)); }
 };
 
 /// How many numbers a record has for the state of its disc, the id among them.
@@ -159,8 +156,8 @@ DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxi
   Offsets const begin = on_device("record_offsets", signed_offsets(records.begin));
   Kokkos::parallel_for("pack_discs", each, Pack<Numbers>{indices, particles, rows, others, begin, numbers});
   int offset = state;
-  for_each_auxiliary_field(auxiliary, [&]<class T>(Field<T> const& field) {
-    Kokkos::parallel_for("pack_companion", each, PackCompanion<T, Numbers>{indices, field, begin, offset++, numbers});
+  for_each_auxiliary_field(auxiliary, [&]<class AField>(AField const& field) {
+    Kokkos::parallel_for("pack_companion", each, PackCompanion<AField, Numbers>{indices, field, begin, offset++, numbers});
   });
   Kokkos::fence();
   Kokkos::deep_copy(home, numbers);
@@ -209,6 +206,7 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   auto const others = static_cast<int>(auxiliary.size());
   int const state = state_columns(), columns = state + others, histories = history_columns(features);
   std::vector<std::int64_t> begin;
+  auto const slice_width = static_cast<std::size_t>(features.format.slice_width());
   std::vector<int> slice_start{0};
   int widest = 0;
   for (std::size_t at = 0; at < numbers.size();) {
@@ -217,16 +215,15 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
     at += static_cast<std::size_t>(columns + 1 + length * (1 + histories));
     widest = std::max(widest, length);
     if (begin.size() % slice_width != 0 && at < numbers.size()) continue;
-    require_countable((std::int64_t{slice_start.back()} + widest) * slice_width, 0);
+    require_countable((std::int64_t{slice_start.back()} + widest) * static_cast<std::int64_t>(slice_width), 0);
     slice_start.push_back(slice_start.back() + widest);
     widest = 0;
   }
-  int const first = particles.owned;
-  auto const came = static_cast<int>(begin.size());
+  int const first = particles.owned, came = static_cast<int>(begin.size());
   reserve(particles, first + came);
   particles.owned = first + came;
   particles.ghosts = 0;
-  for_each_auxiliary_field(auxiliary, [&](auto& field) { Kokkos::resize(field, particles.x.extent(0)); });
+  for_each_auxiliary_field(auxiliary, [&](auto& field) { resize(field, particles.x.extent(0)); });
   fill_padding(particles);
   rows.slice_start = on_device("rows.slice_start", slice_start);
   rows.length = uninitialised<int>("rows.length", begin.size());
@@ -238,9 +235,10 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   Kokkos::RangePolicy<ExecutionSpace> const each(0, came);
   Kokkos::parallel_for("unpack_discs", each, Unpack<Numbers>{reached, offsets, first, particles, rows, others});
   int offset = state;
-  for_each_auxiliary_field(auxiliary, [&]<class T>(Field<T> const& field) {
-    Kokkos::parallel_for("unpack_companion", each, UnpackCompanion<T, Numbers>{reached, offsets, offset++, first, field});
+  for_each_auxiliary_field(auxiliary, [&]<class AField>(AField const& field) {
+    Kokkos::parallel_for("unpack_companion", each, UnpackCompanion<AField, Numbers>{reached, offsets, offset++, first, field});
   });
+  update_mirror(particles, first, came);
   Kokkos::fence();  // the numbers are the caller's
   return rows;
 }

@@ -12,7 +12,7 @@ namespace clathra {
 /// What goes with a disc beside its state: accounts, marks. [owned]
 struct AuxiliaryField {
   char const* name;
-  std::variant<Field<float>*, Field<double>*> field;
+  std::variant<Field<float>*, Field<double>*, RealField*> field;
 };
 using AuxiliaryFields = std::vector<AuxiliaryField>;
 inline AuxiliaryFields with(AuxiliaryFields some, AuxiliaryFields const& more) {

@@ -20,21 +20,21 @@ struct ListNear {
   }
 };
 
-template <class T>
+template <class AField>
 struct PackColumn {
-  Field<T> from;
+  AField from;
   Field<double> numbers;
   Field<int> source;
   int column, columns;
   KOKKOS_FUNCTION void operator()(int k) const { numbers(k * columns + column) = from(source(k)); }
 };
 
-template <class T>
+template <class AField>
 struct UnpackColumn {
   Field<double> numbers;
-  Field<T> to;
+  AField to;
   int first, column, columns;
-  KOKKOS_FUNCTION void operator()(int k) const { to(first + k) = static_cast<T>(numbers(k * columns + column)); }
+  KOKKOS_FUNCTION void operator()(int k) const { set(to, static_cast<std::size_t>(first + k), numbers(k * columns + column)); }
 };
 
 std::vector<BufferRange> times(std::vector<BufferRange> stretches, std::size_t columns) {
@@ -94,6 +94,7 @@ void Halo::rebuild(Ranks const& ranks, Decomposition const& decomposition, Parti
   std::vector<AnyField> all;
   for_each_field(particles, [&](DiscField const&, auto const& field) { all.push_back(field); });
   exchange_known(ranks, particles, all);
+  update_mirror(particles, particles.owned, particles.ghosts);
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
@@ -102,6 +103,7 @@ void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles) const {
     if (about.moves) moving.push_back(field);
   });
   exchange_known(ranks, particles, moving);
+  update_mirror(particles, particles.owned, particles.ghosts);
 }
 
 void Halo::refresh(Ranks const& ranks, ParticleSoA const& particles, AnyField const& field) const {
@@ -115,8 +117,8 @@ void Halo::exchange_known(Ranks const& ranks, ParticleSoA const& particles, std:
                       in = uninitialised<double>("halo.in", static_cast<std::size_t>(particles.ghosts) * columns.size());
   Kokkos::RangePolicy<ExecutionSpace> const each_sent(0, static_cast<int>(source_.extent(0))), each_ghost(0, particles.ghosts);
   int at = 0;
-  auto const pack = [&]<class T>(Field<T> const& field) {
-    Kokkos::parallel_for("pack_halo", each_sent, PackColumn<T>{field, out, source_, at++, width});
+  auto const pack = [&]<class AField>(AField const& field) {
+    Kokkos::parallel_for("pack_halo", each_sent, PackColumn<AField>{field, out, source_, at++, width});
   };
   for (AnyField const& column : columns) std::visit(pack, column);
   auto const host_out = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
@@ -127,8 +129,8 @@ void Halo::exchange_known(Ranks const& ranks, ParticleSoA const& particles, std:
   Kokkos::Profiling::popRegion();
   Kokkos::deep_copy(in, host_in);
   at = 0;
-  auto const unpack = [&]<class T>(Field<T> const& field) {
-    Kokkos::parallel_for("unpack_halo", each_ghost, UnpackColumn<T>{in, field, particles.owned, at++, width});
+  auto const unpack = [&]<class AField>(AField const& field) {
+    Kokkos::parallel_for("unpack_halo", each_ghost, UnpackColumn<AField>{in, field, particles.owned, at++, width});
   };
   for (AnyField const& column : columns) std::visit(unpack, column);
 }

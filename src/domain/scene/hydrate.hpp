@@ -6,7 +6,9 @@
 
 namespace clathra {
 
-struct BondLaw;
+template <class R>
+struct BondLawOf;
+using BondLaw = BondLawOf<double>;
 
 /// Strength and stiffness of solid hydrate.
 struct HydrateStrength {

@@ -6,6 +6,7 @@
 
 #include "domain/scene/step_choice.hpp"
 #include "kernels/bond_kind.hpp"
+#include "kernels/precision.hpp"
 
 namespace clathra {
 
@@ -85,7 +86,8 @@ struct TestScene {
 /// `[run]`
 struct RunScene {
   std::uint64_t seed = 1;
-  int threads = 0;  ///< 0 = OMP_NUM_THREADS or all cores
+  int threads = 0;                        ///< 0 = OMP_NUM_THREADS or all cores
+  Precision precision = Precision::full;  ///< of consolidation and shear; specimens are generated in double precision
   TimeStepRule time_step = TimeStepRule::spectrum;
   double dt_safety = 0;        ///< 0 = the usual one of the rule
   double damping = 0.3;        ///< alpha of local damping in the shear stage

@@ -34,9 +34,9 @@ struct Discs {
       : id(on_host(p.id, p.all())),
         x(on_host(p.x, p.all())),
         y(on_host(p.y, p.all())),
-        vx(on_host(p.vx, p.owned)),
-        vy(on_host(p.vy, p.owned)),
-        omega(on_host(p.omega, p.owned)),
+        vx(on_host(p.vx, static_cast<std::size_t>(p.owned))),
+        vy(on_host(p.vy, static_cast<std::size_t>(p.owned))),
+        omega(on_host(p.omega, static_cast<std::size_t>(p.owned))),
         radius(on_host(p.radius, p.all())),
         reference_x(on_host(p.reference_x, p.owned)),
         reference_y(on_host(p.reference_y, p.owned)),
@@ -68,7 +68,7 @@ Deepest deepest_contact(Simulation const& simulation, Discs const& discs, int i)
   auto const neighbour = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.neighbour);
   auto const a = static_cast<std::size_t>(i);
   for (int k = 0; k < length(a); ++k) {
-    auto const b = static_cast<std::size_t>(neighbour(entry_in(start, i, k)));
+    auto const b = static_cast<std::size_t>(neighbour(entry_in(start, rows.features.format, i, k)));
     if (b >= discs.x.size()) continue;
     double const distance = std::hypot(discs.x[b] - discs.x[a], discs.y[b] - discs.y[a]);
     take(discs.radius[a] + discs.radius[b] - distance, std::min(discs.radius[a], discs.radius[b]), discs.id[b]);
@@ -81,6 +81,7 @@ Deepest deepest_contact(Simulation const& simulation, Discs const& discs, int i)
 
 std::string advice(Fault what, double share) {
   if (what == Fault::row_overflow) return "make the grading's largest disc smaller, or its smallest larger";
+  if (what == Fault::out_of_range) return "take run.precision = \"double\"";
   if (share > 1) return "shorten the step (run.dt_safety)";
   if (what == Fault::not_finite) return "the step is not why: look at what was read or set before";
   return "the step is not why: the grains are too soft for this stress (grains.kn), or it is loaded too fast "
@@ -92,7 +93,8 @@ std::string advice(Fault what, double share) {
 std::string fault_text(Simulation const& simulation, ReportedFault const& fault, double (&place)[2]) {
   static constexpr char const* cause[fault_count] = {
       "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than the smaller radius",
-      "has more neighbours than a row holds (the grading's size ratio is too large)"};
+      "has more neighbours than a row holds (the grading's size ratio is too large)",
+      "has a contact whose force or moment is beyond what mixed precision holds"};
   Ranks const& ranks = simulation.ranks();
   Discs const discs(simulation.particles());
   double found[4] = {nowhere, nowhere, nowhere, nowhere};  // where, overlap, with whom: of the rank that owns the disc

@@ -50,19 +50,19 @@ struct CopyImages {
   KOKKOS_FUNCTION void operator()(int g) const {
     int const from = source(g), to = p.owned + g;
     for_each_field(p, [&](DiscField const& about, auto const& field) {
-      if (all || about.moves) field(to) = field(from);
+      if (all || about.moves) set(field, static_cast<std::size_t>(to), field(from));
     });
     p.x(to) += shift_x(g) * cell.width;
     p.y(to) += shift_y(g) * cell.height;
   }
 };
 
-template <class T>
+template <class AField>
 struct CopyValues {
-  Field<T> field;
+  AField field;
   Field<int> source;
   int first;
-  KOKKOS_FUNCTION void operator()(int g) const { field(first + g) = field(source(g)); }
+  KOKKOS_FUNCTION void operator()(int g) const { set(field, static_cast<std::size_t>(first + g), field(source(g))); }
 };
 
 }  // namespace
@@ -89,14 +89,15 @@ void PeriodicImages::rebuild(ParticleSoA& particles, PeriodicCell const& cell, R
 void PeriodicImages::copy(ParticleSoA const& particles, PeriodicCell const& cell, bool all) const {
   Kokkos::parallel_for("copy_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
                        CopyImages{particles, cell, source_, shift_x_, shift_y_, all});
+  update_mirror(particles, particles.owned, particles.ghosts);
 }
 
 void PeriodicImages::refresh(ParticleSoA const& particles, PeriodicCell const& cell) const { copy(particles, cell, false); }
 
 void PeriodicImages::refresh(ParticleSoA const& particles, AnyField const& field) const {
-  auto const copy = [&]<class T>(Field<T> const& values) {
+  auto const copy = [&]<class AField>(AField const& values) {
     Kokkos::parallel_for("refresh_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
-                         CopyValues<T>{values, source_, particles.owned});
+                         CopyValues<AField>{values, source_, particles.owned});
   };
   std::visit(copy, field);
 }

@@ -87,12 +87,14 @@ void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
   for_each_auxiliary_field(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0)); });
   Real const largest_skin =
       ranks_.max(in_range([&] { return assign_verlet_skins(particles_, frame(), skin_range(skin_by_speed), sums_); }));
-  reach_ = 2 * largest_radius_ + std::max(2 * largest_skin, bonded_gap);
+  Real const slack = rounding_slack(particles_, largest_radius_);
+  reach_ = 2 * largest_radius_ + std::max(2 * largest_skin + slack, bonded_gap);
   if (periodic()) images_.rebuild(particles_, cell_, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
   refresh_ghosts(particles_.verlet_skin);
   search_bytes_ = std::max(search_bytes_, find_neighbours(particles_, largest_skin, old, slot, rows_, faults_, bonded_gap));
   prepare_rows(particles_, rows_, laws_.contact.bond);
+  update_mirror(particles_, 0, particles_.all());
   make_room_for_breaks();
   if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
   mark_reference(particles_);
@@ -140,6 +142,12 @@ AuxiliaryFields Simulation::auxiliary_fields(WallShear& wall_shear) {
 void Simulation::set_sums() {
   sums_ = {SumUnits::of(d50_ > 0 ? d50_ : 2 * largest_radius_, laws_.contact.grain.normal_stiffness, density_),
            ranks_.summation()};
+}
+
+ContactFeatures Simulation::features_of_rows() const {
+  ContactFeatures features = laws_.features();
+  features.format = history_format(laws_.precision, laws_.contact, largest_radius_);
+  return features;
 }
 
 /// The homogeneous motion since a mark: that of the walls, or of the periodic cell.
@@ -211,12 +219,13 @@ void Simulation::evaluate_forces() {
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
-  bool const ledger = laws_.contact.ledger, same_history = laws_.features() == laws.features();
+  bool const ledger = laws_.contact.ledger;
+  if (laws.precision != laws_.precision) throw std::invalid_argument("a simulation keeps its precision");
   laws_ = laws;
   laws_.contact.ledger = ledger;
-  if (!same_history) {
-    change_features(rows_, laws_.features());
-  }
+  ContactFeatures const features = features_of_rows();
+  bool const same_history = features == rows_.features;
+  if (!same_history) change_features(rows_, features);
   if (!same_history || rows_.features.bonds) prepare_rows(particles_, rows_, laws_.contact.bond);
   if (ledger) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
 }

@@ -40,10 +40,14 @@ struct SimulationLaws {
   WallLaw wall;
   MotionLaw motion;
   MassScaling scaling;  ///< of a specimen that is taken over
+  Precision precision = Precision::full;
   ContactFeatures features() const {
     bool const shears = contact.grain.friction > 0 && contact.grain.shear_stiffness > 0;
-    return {shears || contact.bond_kind == BondKind::replace, contact.grain.shape_factor > 0, contact.bond_kind != BondKind::none,
-            contact.bond_kind == BondKind::parallel};
+    return {shears || contact.bond_kind == BondKind::replace,
+            contact.grain.shape_factor > 0,
+            contact.bond_kind != BondKind::none,
+            contact.bond_kind == BondKind::parallel,
+            {}};
   }
   LossKinds losses() const {
     ContactFeatures const f = features();
@@ -186,6 +190,7 @@ class Simulation {
   void rebalance_if_it_pays();
   AuxiliaryFields auxiliary_fields(WallShear& wall_shear);
   void set_sums();
+  ContactFeatures features_of_rows() const;
   AuxiliaryFields forces();
   AuxiliaryFields derived();
   template <class Work>

@@ -132,8 +132,8 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
   set_sums();
-  rows_.features = laws_.features();
-  particles_ = allocate_particles(0);
+  rows_.features = features_of_rows();
+  particles_ = allocate_particles(0, laws_.precision, largest_radius_);
   if (laws_.contact.ledger) open_accounts(losses_, laws_.losses(), 1);
   if (state.numbers.at("marked_start") != 0) mark_start();
   wall_contacts_.rough = laws_.wall.friction > 0;
@@ -143,8 +143,8 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   bool const one_skin = std::find(columns.begin(), columns.end(), "verlet_skin") == columns.end();
   if (one_skin) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
   state.discs = with_columns(std::move(state.discs), {state.disc_columns, state.history_columns},
-                             record_columns(with_discs, laws_.features()));
-  rows_ = unpack_discs(records_of_own_discs(std::move(state.discs)), laws_.features(), particles_, with_discs);
+                             record_columns(with_discs, rows_.features));
+  rows_ = unpack_discs(records_of_own_discs(std::move(state.discs)), rows_.features, particles_, with_discs);
   if (one_skin) Kokkos::deep_copy(particles_.verlet_skin, skin_ / 2);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their skins.
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * (reach_ - 2 * largest_radius_));
@@ -191,7 +191,7 @@ void Simulation::find_listed_neighbours() {
   bool lost = false;
   for (int i = 0; i < particles_.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {
-      std::size_t const e = entry_in(slice_start, i, k);
+      std::size_t const e = entry_in(slice_start, rows_.features.format, i, k);
       index[e] = places.find(listed(e));
       lost = lost || index[e] < 0;
     }

@@ -23,9 +23,18 @@ void upload(Field<T> const& field, std::vector<Number> const& values) {
   Kokkos::deep_copy(field, host);
 }
 
+void upload(RealField const& field, std::vector<double> const& values) { set_from_host(field, values); }
+
 template <class T>
 auto download(Field<T> const& field) {
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
+}
+
+std::vector<double> numbers_on_host(RealField const& field, std::size_t size) { return on_host(field, size); }
+template <class T>
+std::vector<double> numbers_on_host(Field<T> const& field, std::size_t size) {
+  auto const host = download(field);
+  return {host.data(), host.data() + size};
 }
 
 /// Visits the fields of the discs that a specimen keeps, each with its column.
@@ -41,15 +50,14 @@ void for_each_column_of_specimen(ParticleSoA const& particles, Visit&& visit) {
 class HistoryOnHost {
  public:
   explicit HistoryOnHost(ContactRows const& rows) {
-    for_each_history(rows, [&](HistoryField const& about, auto const& field) {
-      auto const host = download(field);
-      columns_.push_back({about, number_of(about.name), {host.data(), host.data() + host.extent(0)}});
+    for_each_history(rows, [&](HistoryField const& about, RealField const& field) {
+      columns_.push_back({about, number_of(about.name), on_host(field, field.extent(0))});
     });
   }
 
   void upload_to(ContactRows const& rows) const {
     auto column = columns_.begin();
-    for_each_history(rows, [&](HistoryField const&, auto const& field) { upload(field, (column++)->values); });
+    for_each_history(rows, [&](HistoryField const&, RealField const& field) { upload(field, (column++)->values); });
   }
 
   bool empty(std::size_t entry) const {
@@ -162,7 +170,7 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin,
   discs_ = static_cast<int>(total);
   upload_discs(s);
   set_sums();
-  rows_.features = laws_.features();
+  rows_.features = features_of_rows();
   decomposition_ = Decomposition::bisect(ranks_, particles_, 1);
   // The first search must reach the widest bond; the skin is its own again afterwards.
   Real const own_skin = skin_;
@@ -176,7 +184,6 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin,
 
 void Simulation::upload_discs(Specimen const& s) {
   std::size_t const n = s.size();
-  particles_ = allocate_particles(static_cast<int>(n));
   std::vector<double> inverse_mass(n), inverse_inertia(n);
   MassScaling const& scaling = laws_.scaling;
   auto const moving_area = [least = scaling.least_radius](double r) { return pi * std::max(r, least) * std::max(r, least); };
@@ -186,6 +193,7 @@ void Simulation::upload_discs(Specimen const& s) {
     largest_radius_ = std::max(largest_radius_, s.radius[i]);
   }
   largest_radius_ = ranks_.max(largest_radius_);
+  particles_ = allocate_particles(static_cast<int>(n), laws_.precision, largest_radius_);
   // Summed by id, so that the order of the input does not show.
   Directory const radii(ranks_, discs_, s.id, {s.radius});
   solid_area_ = radii.sum_by_id([](double const* r) { return pi * *r * *r; });
@@ -216,7 +224,7 @@ void Simulation::restore_history(Specimen const& s) {
       int const i = at.find(mine);
       if (i < 0) continue;
       for (int k = 0; k < length(i); ++k) {
-        std::size_t const e = entry_in(slice_start, i, k);
+        std::size_t const e = entry_in(slice_start, rows_.features.format, i, k);
         if (id(neighbour(e)) == other) history.set(e, c, is_first);
       }
     }
@@ -247,10 +255,10 @@ Specimen Simulation::specimen() const {
   IdIndex const places(download(particles_.id), particles_.owned);
   for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
   for_each_column_of_specimen(particles_, [&](auto const& field, ParticleColumn const& column) {
-    auto const host = download(field);
+    std::vector<double> const host = numbers_on_host(field, n);
     std::vector<double>& values = s.*column.of;
     values.reserve(n);
-    for (auto const& [id, index] : places.sorted()) values.push_back(host(index));
+    for (auto const& [id, index] : places.sorted()) values.push_back(host[static_cast<std::size_t>(index)]);
   });
   s.contacts = contacts_by_id();
   return s;
@@ -264,7 +272,7 @@ std::vector<SpecimenContact> Simulation::contacts_by_id() const {
   std::vector<SpecimenContact> contacts;
   for (int i = 0; i < particles_.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {
-      std::size_t const e = entry_in(slice_start, i, k);
+      std::size_t const e = entry_in(slice_start, rows_.features.format, i, k);
       int const other = id(neighbour(e));
       if (other > id(i) && !history.empty(e)) contacts.push_back(history.contact(e, id(i), other));
     }

@@ -33,6 +33,7 @@ constexpr std::array composites = {Names("replace"), Names("parallel"), Names("m
 constexpr std::array moment_scales = {Names("paper_si"), Names("rod_mm"), Names("similitude")};
 constexpr std::array rod_thicknesses = {Names("printed"), Names("clamped"), Names("scaled")};
 constexpr std::array sources = {Names("printed"), Names("thm")};
+constexpr std::array precisions = {Names("double"), Names("mixed")};
 constexpr std::array step_rules = {Names("spectrum"), Names("bound")};
 constexpr std::array modes = {Names("eq3"), Names("given_thickness"), Names("areal_target")};
 
@@ -96,6 +97,7 @@ Key const table[] = {
 
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},
   {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
+  {"run.precision", choice, CLATHRA_CHOICE(run, precision), "numbers of consolidation and shear: forces, velocities and histories in 64 bits, or in 32 bits from exact differences of places, with sums and places in 64", ratio, 0, 0, {}, precisions},
   {"run.time_step", choice, CLATHRA_CHOICE(run, time_step), "time step: a share of the limit of stability, followed as that changes, or of an estimate when a stage begins, lowered where the limit asks for it", ratio, 0, 0, {}, step_rules},
   {"run.dt_safety", quantity, CLATHRA_FIELD(run, dt_safety), "time step over that limit or estimate", ratio, 0.001, 1, "0.95 of the limit, 0.7 of the estimate"},
   {"run.damping", quantity, CLATHRA_FIELD(run, damping), "local damping while the specimen is sheared", ratio, 0, 0.95},

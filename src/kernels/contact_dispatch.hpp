@@ -1,0 +1,59 @@
+#pragma once
+/// From what the laws ask for to the contact kernel that does it, in one precision. Included once a precision, by forces_full.cpp
+/// and forces_mixed.cpp: each compiles all its kernels.
+#include <variant>
+
+#include "kernels/contact_kernel.hpp"
+
+namespace clathra {
+
+template <BondKind Bond>
+using BondAxis = std::integral_constant<BondKind, Bond>;
+using AnyBond = std::variant<BondAxis<BondKind::none>, BondAxis<BondKind::replace>, BondAxis<BondKind::parallel>>;
+using AnySwitch = std::variant<std::false_type, std::true_type>;
+static_assert(std::variant_size_v<AnyBond> * 2 * 2 * 2 * 2 <= 48,
+              "the contact kernel is specialised on few axes; add a term to a law, not an axis to the kernel");
+
+inline AnyBond bond_axis(BondKind kind) {
+  switch (kind) {
+    case BondKind::replace:
+      return BondAxis<BondKind::replace>{};
+    case BondKind::parallel:
+      return BondAxis<BondKind::parallel>{};
+    default:
+      return BondAxis<BondKind::none>{};
+  }
+}
+
+inline AnySwitch on(bool yes) {
+  if (yes) return std::true_type{};
+  return std::false_type{};
+}
+
+/// @tparam P  FullPrecision or MixedPrecision
+template <class P>
+void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
+                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults) {
+  using R = typename P::Real;
+  HistoryFormat const& format = rows.features.format;
+  float const rounding = rounding_of_step(step);
+  ContactConstants<R> const constants{in_numbers<R>(laws.grain),
+                                      in_numbers<R>(laws.bond),
+                                      least_strength<R>(laws.bond),
+                                      R(dt),
+                                      {R(format.force_unit), R(1 / format.force_unit), rounding},
+                                      {R(format.moment_unit), R(1 / format.moment_unit), rounding},
+                                      R(particles.mirror.tick)};
+  Kokkos::RangePolicy<ExecutionSpace> const groups(0, group_count(particles.owned, lane_count_of<R>));
+  std::visit(
+      [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
+        constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
+        ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()> const kernel{particles, rows,   constants, laws.bond,
+                                                                                      step,      breaks, losses,    faults};
+        Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", groups, kernel);
+      },
+      bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
+      on(laws.ledger));
+}
+
+}  // namespace clathra

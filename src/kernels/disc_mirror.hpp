@@ -1,0 +1,228 @@
+#pragma once
+/// What the contact kernel reads of discs in mixed precision: 32 bytes a disc, gathered by whole rows. Velocities and masses have
+/// their only place here; that of the centre is derived from x and y in double precision.
+///
+/// Places are in ticks: multiples of a power of two near 2^-25 of the largest diameter, of which the low 32 bits are kept. The
+/// difference of two of them, as a signed number, is that of their places to the tick, at any size of the box, as long as it is
+/// below 2^31 ticks, 32 to 64 diameters: rows name no disc that far away. Sixteen numbers of four bytes gathered one by one are
+/// as many loads and as many shuffles; sixteen rows are sixteen loads for four numbers each, and eight shuffles.
+#include <cstring>
+
+#include "kernels/real_field.hpp"
+
+namespace clathra {
+
+/// Whole numbers side by side with FloatLanes.
+#ifdef CLATHRA_SIMD
+struct PlainInts {
+  using Type [[gnu::vector_size(sizeof(FloatLanes))]] = std::int32_t;
+  using Unsigned [[gnu::vector_size(sizeof(FloatLanes))]] = std::uint32_t;
+};
+using IntLanes = PlainInts::Type;
+KOKKOS_FORCEINLINE_FUNCTION IntLanes bits_of(FloatLanes const& value) {
+  return (IntLanes) static_cast<PlainVector<float>>(value);
+}
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes from_bits(IntLanes const& bits) { return FloatLanes((PlainVector<float>)bits); }
+/// The difference modulo 2^32.
+KOKKOS_FORCEINLINE_FUNCTION IntLanes difference(IntLanes const& a, IntLanes const& b) {
+  return (IntLanes)((PlainInts::Unsigned)a - (PlainInts::Unsigned)b);
+}
+#else
+using IntLanes = std::int32_t;
+KOKKOS_FORCEINLINE_FUNCTION IntLanes bits_of(float value) {
+  IntLanes bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+KOKKOS_FORCEINLINE_FUNCTION float from_bits(IntLanes bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+KOKKOS_FORCEINLINE_FUNCTION IntLanes difference(IntLanes a, IntLanes b) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+#endif
+
+/// Four numbers each of as many discs as FloatLanes hold.
+struct FourOfDiscs {
+  FloatLanes of[4];
+};
+
+KOKKOS_FORCEINLINE_FUNCTION float from_bits_of_one(std::int32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+struct DiscMirror {
+  static constexpr std::size_t row = 8;  ///< numbers a disc
+  // The first half of a row: x and y in ticks (their bits), radius [m], omega [rad/s]. The second: vx, vy [m/s], 1/m, 1/I.
+  static constexpr std::size_t contact = 0, motion = 4;
+  static constexpr int omega_at = 3, vx_at = 4, vy_at = 5, inverse_mass_at = 6, inverse_inertia_at = 7;
+
+  Real tick = 1;              ///< [m]; 7 pm where the largest disc has 0.3 mm
+  float padding_radius = 0;   ///< negative, so large that nothing touches a padding disc wherever it seems to be [m]
+  Field<std::uint32_t> rows;  ///< [discs][row], the bits of floats
+
+  static constexpr double shift = 6755399441055744.0;  // 1.5 2^52
+  static Real tick_for(Real largest_diameter);
+
+  /// The low 32 bits of a place in ticks, rounded to the nearest. Behind the sum they are those of its own representation: 1.5
+  /// 2^52 has the ulp 1. Exact below 2^51 ticks, 16 km where a tick has 7 pm.
+  KOKKOS_FORCEINLINE_FUNCTION static std::int32_t ticks(Coord place, Real per_tick) {
+    double const sum = place * per_tick + shift;
+    std::uint64_t bits;
+    std::memcpy(&bits, &sum, sizeof bits);
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION float* numbers() const { return reinterpret_cast<float*>(rows.data()); }
+
+  /// Half a row of each of the discs j[0 .. lanes).
+  KOKKOS_FORCEINLINE_FUNCTION FourOfDiscs gather(int const* j, std::size_t half) const {
+    float const* const from = numbers() + half;
+#if defined(CLATHRA_SIMD) && defined(__AVX__)
+    return transposed(quads(from, j), quads(from, j + 1), quads(from, j + 2), quads(from, j + 3));
+#else
+    FourOfDiscs numbers;
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (int l = 0; l < lane_count_of<float>; ++l) set_lane(numbers.of[n], l, from[row * static_cast<std::size_t>(j[l]) + n]);
+    }
+    return numbers;
+#endif
+  }
+
+  /// Half a row of each of the discs first .. first + lanes.
+  KOKKOS_FORCEINLINE_FUNCTION FourOfDiscs load(std::size_t first, std::size_t half) const {
+#if defined(CLATHRA_SIMD) && defined(__AVX__)
+    float const* const from = numbers() + row * first + half;
+    constexpr int rows_apart[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return transposed(quads(from, rows_apart), quads(from, rows_apart + 1), quads(from, rows_apart + 2),
+                      quads(from, rows_apart + 3));
+#else
+    FourOfDiscs numbers_;
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (int l = 0; l < lane_count_of<float>; ++l)
+        set_lane(numbers_.of[n], l, numbers()[row * (first + static_cast<std::size_t>(l)) + half + n]);
+    }
+    return numbers_;
+#endif
+  }
+  /// The way back.
+  KOKKOS_FORCEINLINE_FUNCTION void store(std::size_t first, std::size_t half, FourOfDiscs const& four) const {
+    float* const to = numbers() + row * first + half;
+#if defined(CLATHRA_SIMD) && defined(__AVX__)
+    auto const plain = [&](int n) { return static_cast<PlainVector<float>>(four.of[n]); };
+    FourOfDiscs const rows_of_four = transposed(plain(0), plain(1), plain(2), plain(3));
+    for (std::size_t k = 0; k < 4; ++k) {
+      PlainVector<float> const q = static_cast<PlainVector<float>>(rows_of_four.of[k]);
+#if defined(__AVX512F__)
+      _mm_store_ps(to + row * k, _mm512_extractf32x4_ps(q, 0));
+      _mm_store_ps(to + row * (k + 4), _mm512_extractf32x4_ps(q, 1));
+      _mm_store_ps(to + row * (k + 8), _mm512_extractf32x4_ps(q, 2));
+      _mm_store_ps(to + row * (k + 12), _mm512_extractf32x4_ps(q, 3));
+#else
+      _mm_store_ps(to + row * k, _mm256_extractf128_ps(q, 0));
+      _mm_store_ps(to + row * (k + 4), _mm256_extractf128_ps(q, 1));
+#endif
+    }
+#else
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (int l = 0; l < lane_count_of<float>; ++l) to[row * static_cast<std::size_t>(l) + n] = lane(four.of[n], l);
+    }
+#endif
+  }
+
+#if defined(CLATHRA_SIMD) && defined(__AVX__)
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION static __m128 four(float const* from, int disc) {
+    return _mm_load_ps(from + row * static_cast<std::uint32_t>(disc));
+  }
+#if defined(__AVX512F__)
+  /// Four numbers each of the discs j[0], j[4], j[8] and j[12].
+  KOKKOS_FORCEINLINE_FUNCTION static __m512 quads(float const* from, int const* j) {
+    __m512 const two = _mm512_insertf32x4(_mm512_castps128_ps512(four(from, j[0])), four(from, j[4]), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(two, four(from, j[8]), 2), four(from, j[12]), 3);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static FourOfDiscs transposed(__m512 a, __m512 b, __m512 c, __m512 d) {
+    __m512 const ab_low = _mm512_unpacklo_ps(a, b), cd_low = _mm512_unpacklo_ps(c, d), ab_high = _mm512_unpackhi_ps(a, b),
+                 cd_high = _mm512_unpackhi_ps(c, d);
+    return {{FloatLanes(_mm512_shuffle_ps(ab_low, cd_low, 0x44)), FloatLanes(_mm512_shuffle_ps(ab_low, cd_low, 0xee)),
+             FloatLanes(_mm512_shuffle_ps(ab_high, cd_high, 0x44)), FloatLanes(_mm512_shuffle_ps(ab_high, cd_high, 0xee))}};
+  }
+#else
+  /// Four numbers each of the discs j[0] and j[4].
+  KOKKOS_FORCEINLINE_FUNCTION static __m256 quads(float const* from, int const* j) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(four(from, j[0])), four(from, j[4]), 1);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static FourOfDiscs transposed(__m256 a, __m256 b, __m256 c, __m256 d) {
+    __m256 const ab_low = _mm256_unpacklo_ps(a, b), cd_low = _mm256_unpacklo_ps(c, d), ab_high = _mm256_unpackhi_ps(a, b),
+                 cd_high = _mm256_unpackhi_ps(c, d);
+    return {{FloatLanes(_mm256_shuffle_ps(ab_low, cd_low, 0x44)), FloatLanes(_mm256_shuffle_ps(ab_low, cd_low, 0xee)),
+             FloatLanes(_mm256_shuffle_ps(ab_high, cd_high, 0x44)), FloatLanes(_mm256_shuffle_ps(ab_high, cd_high, 0xee))}};
+  }
+#endif
+#endif
+};
+
+/// As many numbers in double precision as FloatLanes hold.
+inline constexpr int halves = lane_count_of<float> / lane_count;
+struct LanesOfHalves {
+  Lanes of[halves];
+};
+KOKKOS_FORCEINLINE_FUNCTION LanesOfHalves load_halves(double const* from) {
+  LanesOfHalves value;
+  for (int h = 0; h < halves; ++h) value.of[h] = load(from + h * lane_count);
+  return value;
+}
+KOKKOS_FORCEINLINE_FUNCTION LanesOfHalves in_double(FloatLanes const& value) {
+  LanesOfHalves wide;
+#if defined(CLATHRA_SIMD) && defined(__AVX512F__)
+  PlainVector<float> const v = static_cast<PlainVector<float>>(value);
+  wide.of[0] = Lanes(_mm512_cvtps_pd(_mm512_castps512_ps256(v)));
+  wide.of[1] = Lanes(_mm512_cvtps_pd(_mm512_extractf32x8_ps(v, 1)));
+#else
+  float each[lane_count_of<float>];
+  store(&each[0], value);
+  for (int h = 0; h < halves; ++h) wide.of[h] = load_float(&each[h * lane_count]);
+#endif
+  return wide;
+}
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes in_single(LanesOfHalves const& wide) {
+#if defined(CLATHRA_SIMD) && defined(__AVX512F__)
+  auto const single = [&](int h) { return _mm512_cvtpd_ps(static_cast<PlainVector<double>>(wide.of[h])); };
+  return FloatLanes(_mm512_insertf32x8(_mm512_castps256_ps512(single(0)), single(1), 1));
+#elif defined(CLATHRA_SIMD) && defined(__AVX__)
+  auto const single = [&](int h) { return _mm256_cvtpd_ps(static_cast<PlainVector<double>>(wide.of[h])); };
+  return FloatLanes(_mm256_set_m128(single(1), single(0)));
+#else
+  float each[lane_count_of<float>];
+  for (int h = 0; h < halves; ++h) store_float(&each[h * lane_count], wide.of[h]);
+  return load(&each[0]);
+#endif
+}
+/// DiscMirror::ticks() of each, as the bits that a row holds.
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real per_tick) {
+#if defined(CLATHRA_SIMD) && defined(__AVX512F__)
+  auto const low = [&](int h) {
+    Lanes const sum = place.of[h] * per_tick + Lanes(DiscMirror::shift);
+    return _mm512_cvtepi64_epi32(_mm512_castpd_si512(static_cast<PlainVector<double>>(sum)));
+  };
+  return FloatLanes(_mm512_castsi512_ps(_mm512_inserti32x8(_mm512_castsi256_si512(low(0)), low(1), 1)));
+#elif defined(CLATHRA_SIMD) && defined(__AVX__)
+  // The low halves of the numbers' bits, which are in order within 128 bits, and then the pairs.
+  auto const sum = [&](int h) {
+    return _mm256_castpd_ps(static_cast<PlainVector<double>>(place.of[h] * per_tick + Lanes(DiscMirror::shift)));
+  };
+  __m256 const low = _mm256_shuffle_ps(sum(0), sum(1), 0x88);
+  return FloatLanes(_mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(low), 0xd8)));
+#else
+  FloatLanes bits(0);
+  for (int l = 0; l < lane_count_of<float>; ++l)
+    set_lane(bits, l, from_bits_of_one(DiscMirror::ticks(lane(place.of[l / lane_count], l % lane_count), per_tick)));
+  return bits;
+#endif
+}
+
+}  // namespace clathra

@@ -1,0 +1,114 @@
+#pragma once
+/// How the contact kernel reads discs and writes their accounts, in either precision.
+#include <type_traits>
+
+#include "kernels/history.hpp"
+
+namespace clathra {
+
+/// @tparam P  FullPrecision or MixedPrecision;  @tparam Masses  whether masses are read
+template <class P, bool Masses>
+struct DiscReader {
+  using R = typename P::Real;
+  using V = LanesOf<R>;
+  using VMask = MaskOf<V>;
+  static constexpr bool mixed = P::precision == Precision::mixed;
+  static constexpr int lanes = lane_count_of<R>;
+
+  /// Places, which only their differences are taken of.
+  using Places = std::conditional_t<mixed, IntLanes, Lanes>;
+
+  /// The discs of a group.
+  struct Own {
+    Places x, y;
+    V vx, vy, omega, radius, inverse_mass;
+  };
+  KOKKOS_FORCEINLINE_FUNCTION static Own own(ParticleSoA const& p, std::size_t first) {
+    if constexpr (mixed) {
+      FourOfDiscs const at = p.mirror.load(first, DiscMirror::contact), moving = p.mirror.load(first, DiscMirror::motion);
+      return {bits_of(at.of[0]), bits_of(at.of[1]), moving.of[0], moving.of[1], at.of[3], at.of[2], moving.of[2]};
+    } else {
+      return {load(&p.x(first)),
+              load(&p.y(first)),
+              load(p.vx.data<R>() + first),
+              load(p.vy.data<R>() + first),
+              load(p.omega.data<R>() + first),
+              load(&p.radius(first)),
+              Masses ? load(p.inverse_mass.data<R>() + first) : V(0)};
+    }
+  }
+
+  /// What the test for touch needs of the neighbours: branches [m], in mixed precision exact to half a tick at either end and
+  /// then rounded once, and radii; omega comes along in mixed precision.
+  struct Other {
+    V dx, dy, radius, omega;
+  };
+  KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own, R tick) {
+    if constexpr (mixed) {
+      FourOfDiscs const at = p.mirror.gather(j, DiscMirror::contact);
+      return {to_float(difference(bits_of(at.of[0]), own.x)) * tick, to_float(difference(bits_of(at.of[1]), own.y)) * tick,
+              at.of[2], at.of[3]};
+    } else {
+      return {gather(p.x.data(), j) - own.x, gather(p.y.data(), j) - own.y, gather(p.radius.data(), j), V(0)};
+    }
+  }
+
+  struct OtherMotion {
+    V vx, vy, omega, inverse_mass;
+  };
+  KOKKOS_FORCEINLINE_FUNCTION static OtherMotion motion(ParticleSoA const& p, int const* j, [[maybe_unused]] Other const& other) {
+    if constexpr (mixed) {
+#ifdef CLATHRA_SIMD
+      asm("" : "+r"(j));  // the indices are loaded again: there are no registers to keep sixteen in
+#endif
+      FourOfDiscs const at = p.mirror.gather(j, DiscMirror::motion);
+      return {at.of[0], at.of[1], other.omega, at.of[2]};
+    } else {
+      return {gather(p.vx.data<R>(), j), gather(p.vy.data<R>(), j), gather(p.omega.data<R>(), j),
+              Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
+    }
+  }
+
+  /// Where one disc's centre lies inside the other. A padding disc may lie anywhere in ticks, but its radius is negative.
+  KOKKOS_FORCEINLINE_FUNCTION static VMask is_deep(V const& overlap, V const& distance, V const& radius, V const& other_radius) {
+    if constexpr (mixed)
+      return overlap > lane_min(radius, lane_abs(other_radius));
+    else
+      return distance < lane_max(radius, other_radius);
+  }
+
+  /// Neighbours lie scattered, and a load that waits for the outer caches holds up everything behind it. So the discs some groups
+  /// ahead are fetched in their order, before a neighbour needs them.
+  KOKKOS_FORCEINLINE_FUNCTION static void fetch_ahead(ParticleSoA const& p, std::size_t first) {
+    constexpr std::size_t discs_ahead = 512;
+    std::size_t const wanted = first + discs_ahead, last = p.x.extent(0) - 1;
+    std::size_t const i = wanted < last ? wanted : last;
+    if constexpr (mixed) {
+      for (std::size_t line = 0; line < lanes * DiscMirror::row * sizeof(float) / 64; ++line)
+        prefetch(p.mirror.numbers() + i * DiscMirror::row + line * 16);
+    } else {
+      prefetch(&p.x(i));
+      prefetch(&p.y(i));
+      prefetch(&p.radius(i));
+      prefetch(p.vx.data<R>() + i);
+      prefetch(p.vy.data<R>() + i);
+      prefetch(p.omega.data<R>() + i);
+    }
+  }
+
+  /// Adds a group's losses to its accounts, which are sums in double precision.
+  KOKKOS_FORCEINLINE_FUNCTION static void book(Field<Accum> const& account, std::size_t first, V const& loss) {
+    if constexpr (mixed) {
+      float each[lanes];
+      store(&each[0], loss);
+      for (int l = 0; l < lanes; l += lane_count) {
+        Accum* const to = &account(first + static_cast<std::size_t>(l));
+        store(to, load(to) + load_float(&each[l]));
+      }
+    } else {
+      store(&account(first), load(&account(first)) + loss);
+    }
+  }
+};
+
+}  // namespace clathra

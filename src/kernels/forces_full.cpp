@@ -1,0 +1,8 @@
+#include "kernels/contact_dispatch.hpp"
+
+namespace clathra {
+
+template void compute_forces_in<FullPrecision>(ParticleSoA const&, ContactRows const&, ContactLaws const&, Real, std::int64_t,
+                                               BreakLog const&, EnergyLosses const&, Faults const&);
+
+}  // namespace clathra
