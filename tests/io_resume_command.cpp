@@ -201,6 +201,14 @@ TEST_F(RunFolder, OfAnotherSceneIsLeftAloneAndToldBeforeAnythingElse) {
   }
 }
 
+TEST_F(RunFolder, GoesOnInItsOwnPrecisionOnly) {
+  copy_of("stopped");
+  CommandResult const other = run("copy", "--resume --set run.precision=mixed");
+  EXPECT_EQ(other.code, 77) << other.output;
+  EXPECT_TRUE(says(other, "of another scene"));
+  EXPECT_TRUE(says(other, "run.precision was ")) << other.output;
+}
+
 TEST_F(RunFolder, OfAFinishedRunKnowsItsSpecimenByItsContent) {
   auto const from = [](fs::path const& file) { return " --set sample.generator=file --set sample.file=" + file.string(); };
   fs::copy_file(base() / "alone" / "specimen.h5", base() / "one.h5", fs::copy_options::overwrite_existing);

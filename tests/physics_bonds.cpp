@@ -29,7 +29,7 @@ double stiffness_of_chain(int bonds) {
   while (width - sim.walls().width() < 0.3e-6 * bonds) sim.step();
   sim.loading.x = AxisDrive::held();
   for (int n = 0; n < 6000; ++n) sim.step();
-  EXPECT_NEAR(sim.reactions().normal[left] / sim.reactions().normal[right], 1, 1e-7);
+  EXPECT_NEAR(sim.reactions().normal[left] / sim.reactions().normal[right], 1, within(1e-7, 3e-5));
   return sim.reactions().normal[left] / (width - sim.walls().width());
 }
 
@@ -103,13 +103,13 @@ TEST(ClosedPath, OfABondedPairDoesNoNetWork) {
       for (double& p : phase) p = draw.between(0, 2 * pi);
       Simulation sim = driven_pair(composite);
       Work const work = go_round(sim, phase, amplitude, 200);
-      EXPECT_LT(std::abs(work.net), 1e-6 * work.gross) << path;
+      EXPECT_LT(std::abs(work.net), within(1e-6, 1e-2) * work.gross) << path;
       if (composite != Composite::replace || path % 10 != 0) continue;
       Simulation large = driven_pair(composite), slow = driven_pair(composite);
       coarse += std::abs(go_round(large, phase, 1e3 * amplitude, 200).net);
       fine += std::abs(go_round(slow, phase, 1e3 * amplitude, 800).net);
     }
-    EXPECT_LE(fine, 0.5 * coarse);  // falls with the step to that rest
+    EXPECT_LE(fine, within(0.5, 2) * coarse);  // falls with the step to that rest
   }
 }
 
@@ -163,14 +163,14 @@ TEST(RigidTurn, LeavesTheForcesOfAFreePairUnchanged) {
   s.omega = {std::sin(turn) / dt, std::sin(turn) / dt};
   Simulation sim(s, laws, 1e-5);  // a small skin: many neighbour searches on the way
   sim.time_step = dt;
-  EXPECT_NEAR(disc(sim, 0).fx / pull, 1, 1e-9);
+  EXPECT_NEAR(disc(sim, 0).fx / pull, 1, within(1e-9, 5e-4));
   for (int n = 1; n <= 100 * steps; ++n) {
     sim.step();
     if (n % (7 * steps + 11) != 0 && n != 100 * steps) continue;
     Disc const d = disc(sim, 0);
-    EXPECT_NEAR(std::hypot(d.fx, d.fy) / pull, 1, 1e-8);
+    EXPECT_NEAR(std::hypot(d.fx, d.fy) / pull, 1, within(1e-8, 0.06));
     SpecimenContact const c = pair_history(sim);
-    EXPECT_NEAR(c.shear / pull, 0, 1e-8);
+    EXPECT_NEAR(c.shear / pull, 0, within(1e-8, 2e-3));
     EXPECT_NEAR(c.moment / (pull * grain_radius), 0, 1e-8);
   }
   EXPECT_NEAR(disc(sim, 1).x / radius, 1, 1e-3);
@@ -217,12 +217,12 @@ TEST(RigidTurn, AThousandTimesLeavesTheForcesOfALoadedPairUnchanged) {
       carry_round(pair.sim, pair.dx, pair.dy, turn * (n % steps), turn, std::sin(turn) / pair.sim.time_step);
     SpecimenContact const now = pair_history(pair.sim);
     Disc const after = disc(pair.sim, 1);
-    EXPECT_NEAR(now.shear / pair.history.shear, 1, 1e-6);
+    EXPECT_NEAR(now.shear / pair.history.shear, 1, within(1e-6, 0.15));
     EXPECT_EQ(now.moment, pair.history.moment);
     EXPECT_EQ(now.bond_moment, pair.history.bond_moment);
-    EXPECT_NEAR(now.bond_shear, pair.history.bond_shear, 1e-6 * std::abs(pair.history.bond_shear));
-    EXPECT_NEAR(after.fx / before.fx, 1, 1e-6);
-    EXPECT_NEAR(after.torque / before.torque, 1, 1e-6);
+    EXPECT_NEAR(now.bond_shear, pair.history.bond_shear, within(1e-6, 0.15) * std::abs(pair.history.bond_shear));
+    EXPECT_NEAR(after.fx / before.fx, 1, within(1e-6, 1e-3));
+    EXPECT_NEAR(after.torque / before.torque, 1, within(1e-6, 0.15));
   }
 }
 
@@ -241,7 +241,7 @@ TEST(RigidTurn, CarriesShearRoundToSecondOrder) {
       drift[level] = now.shear + now.bond_shear - pair.history.shear - pair.history.bond_shear;
     }
     EXPECT_TRUE(shrinks(drift[0], drift[1], 2));
-    EXPECT_TRUE(shrinks(drift[1], drift[2], 2));
+    EXPECT_TRUE(shrinks(drift[1], drift[2], 2, within(0.1, 0.3)));
   }
 }
 

@@ -66,7 +66,7 @@ void expect_details(Composite composite, double angle, Motion const& motion, Exp
   EXPECT_EQ(events.rows[0].mode, static_cast<int>(e.mode));
   BreakDetails const& d = events.details[0];
   EXPECT_NEAR(d.eps1, wall_rate * dt * steps, 1e-4 * wall_rate * dt * steps);
-  EXPECT_NEAR(d.orientation, angle < 180 ? angle : angle - 180, 1e-9);
+  EXPECT_NEAR(d.orientation, angle < 180 ? angle : angle - 180, within(1e-9, 1e-6));
   EXPECT_NEAR(d.thickness, h_cr, printed_digits * h_cr);
   EXPECT_NEAR(d.width, B, printed_digits * B);
   EXPECT_GE(d.utilisation, 1);

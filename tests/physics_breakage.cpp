@@ -87,7 +87,7 @@ TEST(BrokenBond, FailsInCompressionAtTheCompressiveStrength) {
     double const grain = composite == Composite::parallel ? sand_kn * step * (b.steps - 1) : 0;
     expect_break_between(b.last.normal - grain, k_bn * step, R_c);
     EXPECT_EQ(sim.break_counts()[BreakMode::compression], 1);
-    EXPECT_NEAR(force(sim).normal / (sand_kn * step * b.steps), 1, 1e-9);
+    EXPECT_NEAR(force(sim).normal / (sand_kn * step * b.steps), 1, within(1e-9, 1e-5));
   }
 }
 
@@ -102,7 +102,7 @@ TEST(BrokenBond, FailsInShearAtTheShearStrengthOfItsNormalForce) {
     Break const b = move_until_broken(sim, 0, spin, spin);
     EXPECT_NEAR(b.last.normal, row.normal, 0.01);
     expect_break_between(std::abs(b.last.shear), k_bs * 2 * spin * arm * dt, row.strength);
-    EXPECT_NEAR(b.last.moment, 0, 1e-9);
+    EXPECT_NEAR(b.last.moment, 0, within(1e-9, 1e-7));
     EXPECT_EQ(sim.break_counts()[BreakMode::shear], 1);
   }
 }
@@ -138,15 +138,15 @@ TEST(BrokenBond, UnderCompressionFollowsTheGrainLawFromTheSameStepOn) {
   };
   for (Row row : {Row{0, 284.18}, Row{-5e-6, 962.85}}) {
     Simulation sim = held_pair(Composite::replace, row.formed_at);
-    EXPECT_EQ(force(sim).normal, 0);
+    EXPECT_NEAR(force(sim).normal, 0, within(0, 5e-3));
     move(sim, (2e-6 - row.formed_at) / 100 / dt, 0, 0, 100);
     EXPECT_NEAR(force(sim).normal, row.before, 0.05);
     Break const b = move_until_broken(sim, 0, 800, 900);
     EXPECT_NEAR(b.last.normal, row.before, 0.05);
     EXPECT_GT(std::abs(b.last.shear), 300);
     PairForce const after = force(sim);
-    EXPECT_NEAR(after.normal, 600, 1e-6);
-    EXPECT_NEAR(after.shear, -300, 1e-6);  // clipped to mu F_n, with its sign
+    EXPECT_NEAR(after.normal, 600, within(1e-6, 1e-2));
+    EXPECT_NEAR(after.shear, -300, within(1e-6, 1e-2));  // clipped to mu F_n, with its sign
     double const limit = 600 * 2 * grain_radius / 6;
     EXPECT_NEAR(after.moment, std::min(b.last.moment + k_bm * 100 * dt, limit), 2e-3 * limit);
     EXPECT_GT(after.moment, 0);
@@ -155,26 +155,26 @@ TEST(BrokenBond, UnderCompressionFollowsTheGrainLawFromTheSameStepOn) {
 
 TEST(BrokenBond, InParallelLeavesTheGrainContactAsItWas) {
   Simulation sim = held_pair(Composite::parallel, 2e-6);
-  EXPECT_NEAR(force(sim).normal, 600, 1e-6);  // the bond is free of stress
+  EXPECT_NEAR(force(sim).normal, 600, within(1e-6, 1e-2));  // the bond is free of stress
   Break const b = move_until_broken(sim, 0, 800, 800);
-  EXPECT_NEAR(b.last.normal, 600, 1e-6);
+  EXPECT_NEAR(b.last.normal, 600, within(1e-6, 1e-2));
   EXPECT_NEAR(std::abs(b.last.shear) - 300, R_s_0, 20);  // bond forces alone are tested
   PairForce const after = force(sim);
-  EXPECT_NEAR(after.normal, 600, 1e-6);
-  EXPECT_NEAR(after.shear, -300, 1e-6);
+  EXPECT_NEAR(after.normal, 600, within(1e-6, 1e-2));
+  EXPECT_NEAR(after.shear, -300, within(1e-6, 1e-2));
 }
 
 TEST(NewBond, IsFreeOfStressAndTreatsThePresentContactAsItsCompositeSays) {
   double const overlap = 1e-6, shear = 30, moment = 2e-3;
   PairForce const replaced = force(held_pair(Composite::replace, overlap, shear, moment));
-  EXPECT_EQ(replaced.normal, 0);
+  EXPECT_NEAR(replaced.normal, 0, within(0, 5e-3));
   EXPECT_EQ(replaced.shear, 0);
   EXPECT_EQ(replaced.moment, 0);
   for (Composite composite : {Composite::parallel, Composite::memory}) {
     PairForce const kept = force(held_pair(composite, overlap, shear, moment));
-    EXPECT_NEAR(kept.normal, 300, 1e-6);
-    EXPECT_NEAR(kept.shear, shear, 1e-12);
-    EXPECT_NEAR(kept.moment, moment, 1e-12);
+    EXPECT_NEAR(kept.normal, 300, within(1e-6, 1e-2));
+    EXPECT_NEAR(kept.shear, shear, within(1e-12, 1e-4));
+    EXPECT_NEAR(kept.moment, moment, within(1e-12, 1e-8));
     Simulation sim = held_pair(composite, overlap, shear, moment);
     move(sim, 1e-7 / 10 / dt, 0, 0, 10);
     double const stiffness = composite == Composite::parallel ? sand_kn + k_bn : k_bn;
@@ -226,9 +226,9 @@ TEST(BrokenBond, ConservesLinearAndAngularMomentum) {
         ASSERT_EQ(a.fx, -b.fx);  // to the bit
         ASSERT_EQ(a.fy, -b.fy);
         Momentum const now = momentum(sim);
-        ASSERT_NEAR(now.x, start.x, 1e-14 * start.size);
-        ASSERT_NEAR(now.y, start.y, 1e-14 * start.size);
-        ASSERT_NEAR(now.angular, start.angular, 1e-13 * start.angular_size);
+        ASSERT_NEAR(now.x, start.x, within(1e-14, 1e-6) * start.size);
+        ASSERT_NEAR(now.y, start.y, within(1e-14, 1e-6) * start.size);
+        ASSERT_NEAR(now.angular, start.angular, within(1e-13, 1e-6) * start.angular_size);
       }
       EXPECT_GT(broke_at, 0);
     }

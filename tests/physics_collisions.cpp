@@ -4,6 +4,12 @@
 namespace clathra {
 namespace {
 
+/// Speeds of collisions in mixed precision are those whose overlaps, some 0.1 um, are 10^4 ticks; lever arms are shorter by a
+/// thousandth then, which the closed forms leave out.
+double speed(double of_full) { return within(of_full, 0.3); }
+/// Of collisions with shear: slower, as what discs turn and slide while they touch is left out, too.
+double slow(double of_full) { return within(of_full, 0.03); }
+
 /// One collision of contact time t_c = pi sqrt(m_eff / k_n), cut into `steps` steps. It begins at the instant of touch.
 struct Collision {
   double vn, vt, friction, stiffness_ratio;
@@ -60,25 +66,25 @@ constexpr Partner partners[] = {Partner::wall, Partner::disc};
 
 TEST(HeadOnCollision, OverlapGrowsToRelativeVelocityTimesRootOfMassOverStiffness) {
   for (Partner partner : partners) {
-    double const exact = 1e-3 * std::sqrt(effective_mass(partner) / sand_kn);
+    double const v = speed(1e-3), exact = v * std::sqrt(effective_mass(partner) / sand_kn);
     double error[3];
     for (int level = 0; level < 3; ++level) {
-      Simulation sim = collide(partner, {1e-3, 0, 0, 1, 64 << level});
+      Simulation sim = collide(partner, {v, 0, 0, 1, 64 << level});
       for (int n = 0; n < 32 << level; ++n) sim.step();
       error[level] = overlap(sim) - exact;
     }
     EXPECT_LT(std::abs(error[2] / exact), 1e-4);
-    EXPECT_TRUE(shrinks(error[0], error[1], 2));
-    EXPECT_TRUE(shrinks(error[1], error[2], 2));
+    EXPECT_TRUE(shrinks(error[0], error[1], 2, 0.1, 2e-11));
+    EXPECT_TRUE(shrinks(error[1], error[2], 2, 0.1, 2e-11));
   }
 }
 
 TEST(HeadOnCollision, LastsPiTimesRootOfMassOverStiffnessAndGivesTheSpeedBack) {
   for (Partner partner : partners) {
-    double const exact = contact_time(effective_mass(partner));
+    double const v = speed(1e-3), exact = contact_time(effective_mass(partner));
     double error[3];
     for (int level = 0; level < 3; ++level) {
-      Simulation sim = collide(partner, {1e-3, 0, 0, 1, 64 << level});
+      Simulation sim = collide(partner, {v, 0, 0, 1, 64 << level});
       double before = 0;
       do {
         before = overlap(sim);
@@ -86,12 +92,12 @@ TEST(HeadOnCollision, LastsPiTimesRootOfMassOverStiffnessAndGivesTheSpeedBack) {
       } while (overlap(sim) > 0);
       double const after = overlap(sim);
       error[level] = sim.time() - sim.time_step * after / (after - before) - exact;
-      double const speed = partner == Partner::wall ? disc(sim, 0).vy : disc(sim, 1).vx - disc(sim, 0).vx;
-      EXPECT_NEAR(speed / 1e-3, 1, 2.0 / ((64 << level) * (64 << level)));
+      double const parting = partner == Partner::wall ? disc(sim, 0).vy : disc(sim, 1).vx - disc(sim, 0).vx;
+      EXPECT_NEAR(parting / v, 1, 2.0 / ((64 << level) * (64 << level)));
     }
     EXPECT_LT(std::abs(error[2] / exact), 1e-4);
-    EXPECT_TRUE(shrinks(error[0], error[1], 2));
-    EXPECT_TRUE(shrinks(error[1], error[2], 2));
+    EXPECT_TRUE(shrinks(error[0], error[1], 2, 0.1, 2e-10));
+    EXPECT_TRUE(shrinks(error[1], error[2], 2, 0.1, 2e-10));
   }
 }
 
@@ -101,8 +107,8 @@ struct Stick {
   double half_a_step_before_release, at_release;
 };
 Stick stick(Partner partner, double stiffness_ratio, int steps) {
-  double const vt = 1e-4;
-  Simulation sim = collide(partner, {1e-4, vt, 1e12, stiffness_ratio, steps});
+  double const vt = slow(1e-4);
+  Simulation sim = collide(partner, {vt, vt, 1e12, stiffness_ratio, steps});
   double last = 0, before = 0;
   for (int n = 0; n < steps; ++n) {
     before = last;
@@ -118,37 +124,38 @@ TEST(StickingCollision, TurnsTheRimVelocityByTheRatioOfStiffnesses) {
   };
   for (Partner partner : partners) {
     for (Row row : {Row{1, 0.66613}, Row{2.0 / 3, -0.26626}, Row{0.5, -0.76093}}) {
-      EXPECT_NEAR(stick(partner, row.stiffness_ratio, 2000).at_release, row.printed, 1.5e-5);
+      EXPECT_NEAR(stick(partner, row.stiffness_ratio, 2000).at_release, row.printed, within(1.5e-5, 5e-3));
       double error[3];
       for (int level = 0; level < 3; ++level) {
         int const steps = 100 << level;
         double const phase = pi * std::sqrt(3 * row.stiffness_ratio) * (1 - 0.5 / steps);
         error[level] = stick(partner, row.stiffness_ratio, steps).half_a_step_before_release - std::cos(phase);
       }
-      EXPECT_LT(std::abs(error[2]), 1e-4);
+      EXPECT_LT(std::abs(error[2]), within(1e-4, 5e-3));
       if (row.stiffness_ratio == 0.5) continue;  // the errors of phase and amplitude cancel there
-      EXPECT_TRUE(shrinks(error[0], error[1], 2)) << row.stiffness_ratio;
-      EXPECT_TRUE(shrinks(error[1], error[2], 2)) << row.stiffness_ratio;
+      EXPECT_TRUE(shrinks(error[0], error[1], 2, 0.1, 5e-3)) << row.stiffness_ratio;
+      EXPECT_TRUE(shrinks(error[1], error[2], 2, 0.1, 5e-3)) << row.stiffness_ratio;
     }
   }
 }
 
 /// psi = tangential rim velocity / (mu v_n) after a collision with friction that began with psi1.
 double psi_after(Partner partner, double psi1, double stiffness_ratio, int steps) {
-  double const vn = 1e-4, friction = 0.5;
+  double const vn = slow(1e-4), friction = 0.5;
   Simulation sim = collide(partner, {vn, psi1 * friction * vn, friction, stiffness_ratio, steps});
   for (int n = 0; n < steps + 2; ++n) sim.step();
   return rim_velocity(sim) / (friction * vn);
 }
 
 TEST(SlippingCollision, ChangesTheSpinByTwiceFrictionTimesTheNormalVelocityChange) {
-  double const vn = 1e-4;
+  double const vn = slow(1e-4);
   for (double psi1 : {5.0, 8.0, -6.0}) {
     Simulation sim = on_the_floor({vn, psi1 * 0.5 * vn, 0.5, 0.5, 200});
     for (int n = 0; n < 202; ++n) sim.step();
     double const gained = disc(sim, 0).vy + vn;  // (1 + e) v_n, whatever the step
     EXPECT_NEAR(disc(sim, 0).omega * grain_radius / (-2 * 0.5 * gained * (psi1 > 0 ? 1 : -1)), 1, 3e-3) << psi1;
-    for (Partner partner : partners) EXPECT_NEAR(psi_after(partner, psi1, 0.5, 2000), psi1 - (psi1 > 0 ? 6 : -6), 6e-3);
+    for (Partner partner : partners)
+      EXPECT_NEAR(psi_after(partner, psi1, 0.5, 2000), psi1 - (psi1 > 0 ? 6 : -6), within(6e-3, 5e-2));
   }
 }
 
@@ -158,15 +165,15 @@ TEST(SlippingCollision, FollowsTheTableOfPartialSlip) {
   double const two_thirds[] = {-0.0850, -0.2025, -0.5103, -0.8818, -1.3593, -1.9365, -1.8570, -1.0000};
   for (Partner partner : partners) {
     for (int k = 0; k < 8; ++k) {
-      EXPECT_NEAR(psi_after(partner, psi1[k], 1, 2000), equal_stiffness[k], 3e-4) << psi1[k];
-      EXPECT_NEAR(psi_after(partner, psi1[k], 2.0 / 3, 2000), two_thirds[k], 3e-4) << psi1[k];
+      EXPECT_NEAR(psi_after(partner, psi1[k], 1, 2000), equal_stiffness[k], within(3e-4, 1e-2)) << psi1[k];
+      EXPECT_NEAR(psi_after(partner, psi1[k], 2.0 / 3, 2000), two_thirds[k], within(3e-4, 1e-2)) << psi1[k];
     }
   }
 }
 
 /// Speed after over speed before a head-on collision with a dashpot.
 double restitution(Partner partner, double damping_ratio, int steps) {
-  double const vn = 1e-3;
+  double const vn = speed(1e-3);
   Simulation sim = collide(partner, {vn, 0, 0, 1, steps, damping_ratio});
   for (int n = 0; n < 2 * steps; ++n) sim.step();
   return partner == Partner::wall ? disc(sim, 0).vy / vn : (disc(sim, 1).vx - disc(sim, 0).vx) / vn;

@@ -80,7 +80,7 @@ TEST(Features, ASceneWithoutHydrateHasNoBondField) {
 }
 
 TEST(Features, CostBytesOnlyWhereTheyAreOn) {
-  std::size_t const real = sizeof(Real), index = sizeof(int);
+  std::size_t const real = tested_precision() == Precision::full ? sizeof(double) : sizeof(float), index = sizeof(int);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(0.5, 0), false)), index + real);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(), false)), index + 2 * real);
   EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::replace), true, Composite::replace)), index + 4 * real);
@@ -189,7 +189,7 @@ TEST(Features, ALedgerHasNoAccountThatItsSceneHasNoUseFor) {
 }
 
 TEST(Features, GrainsWithoutFrictionKeepNoShear) {
-  std::size_t const real = sizeof(Real), index = sizeof(int);
+  std::size_t const real = tested_precision() == Precision::full ? sizeof(double) : sizeof(float), index = sizeof(int);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 0), false)), index);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 2), false)), index + real);
   SimulationLaws smooth = hydrate_laws(Composite::parallel);

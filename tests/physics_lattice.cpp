@@ -75,11 +75,11 @@ TEST(HexagonalLattice, CarriesCompressionWavesAtItsExactFrequency) {
     int const columns = 16 << level;
     double const q = 2 * pi / (columns * d), w = frequency_of_wave(columns, true, 0);
     double const exact = std::sqrt((2 * kn * (1 - std::cos(q * d)) + (kn + 3 * ks) * (1 - std::cos(q * d / 2))) / m);
-    EXPECT_NEAR(w / exact, 1, 1e-6) << columns;
+    EXPECT_NEAR(w / exact, 1, within(1e-6, 2e-3)) << columns;
     error[level] = w / q / continuum - 1;
   }
   EXPECT_LT(std::abs(error[1]), 2e-3);  // long waves: c_p^2 = (lambda + 2 mu) / rho
-  EXPECT_TRUE(shrinks(error[0], error[1], 2));
+  EXPECT_TRUE(shrinks(error[0], error[1], 2, within(0.1, 0.3)));
 }
 
 TEST(HexagonalLattice, CarriesShearWavesAtItsExactFrequency) {
@@ -98,7 +98,7 @@ TEST(HexagonalLattice, CarriesShearWavesAtItsExactFrequency) {
     double const half = 0.5 * (turning - across);
     double const w2 = 0.5 * (across + turning) - std::sqrt(half * half + coupling * coupling / (m * inertia));
     double const w = frequency_of_wave(columns, false, coupling / (inertia * (turning - w2)));
-    EXPECT_NEAR(w / std::sqrt(w2), 1, 1e-6) << columns;
+    EXPECT_NEAR(w / std::sqrt(w2), 1, within(1e-6, 2e-3)) << columns;
     error[level] = w / q / continuum - 1;
   }
   EXPECT_LT(std::abs(error[1]), 5e-3);  // long waves: c_s^2 = mu / rho
@@ -117,8 +117,8 @@ TEST(HexagonalLattice, ResistsCompressionWithRootThreeHalvesOfTheStiffness) {
     for (int n = 0; n < 100; ++n) sim.step();
     Measures const m = sim.measures();
     double const pressure = 0.5 * (m.stress_area_xx + m.stress_area_yy) / sim.area();
-    EXPECT_NEAR(m.stress_area_xx / m.stress_area_yy, 1, 1e-9);
-    EXPECT_NEAR(m.stress_area_xy / m.stress_area_xx, 0, 1e-9);
+    EXPECT_NEAR(m.stress_area_xx / m.stress_area_yy, 1, within(1e-9, 3e-5));
+    EXPECT_NEAR(m.stress_area_xy / m.stress_area_xx, 0, within(1e-9, 1e-5));
     error[level] = pressure / (1 - sim.area() / area) / bulk - 1;
     EXPECT_NEAR(m.bonded, 3 * 64, 0);
   }

@@ -35,14 +35,14 @@ TEST(ConstantVelocity, OfTheWholeDoesNotShowInTheRelativeMotion) {
   EXPECT_EQ(still.broken_bonds(), moving.broken_bonds());
   Specimen const a = still.specimen(), b = moving.specimen();
   for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_NEAR(b.x[i] - vx * moving.time(), a.x[i], 1e-9 * grain_radius) << i;
-    ASSERT_NEAR(b.y[i] - vy * moving.time(), a.y[i], 1e-9 * grain_radius) << i;
-    ASSERT_NEAR(b.vx[i] - vx, a.vx[i], 1e-8) << i;
-    ASSERT_NEAR(b.omega[i], a.omega[i], 1e-3) << i;
+    ASSERT_NEAR(b.x[i] - vx * moving.time(), a.x[i], within(1e-9, 1e-4) * grain_radius) << i;
+    ASSERT_NEAR(b.y[i] - vy * moving.time(), a.y[i], within(1e-9, 1e-4) * grain_radius) << i;
+    ASSERT_NEAR(b.vx[i] - vx, a.vx[i], within(1e-8, 1e-3)) << i;
+    ASSERT_NEAR(b.omega[i], a.omega[i], within(1e-3, 30)) << i;
   }
   Measures const m = still.measures(), n = moving.measures();
   EXPECT_GT(m.bonded, 20);
-  EXPECT_NEAR(m.bond_energy / n.bond_energy, 1, 1e-7);
+  EXPECT_NEAR(m.bond_energy / n.bond_energy, 1, within(1e-7, 1e-4));
 }
 
 /// Largest force [N/m] in a stress-free bonded cluster after rigid turns about its middle, over that of one bond at its strength.
@@ -90,7 +90,7 @@ TEST(StressAtRest, IsTheSameInTheContactsAndAtTheWalls) {
   laws.motion.damping = 0.7;
   Simulation sim(disordered_patch(16, 20, 0.04, 3), laws, 0.1 * grain_d50);
   prepare_servo(sim, 1e6, 2e-3, grain_d50, {});
-  EXPECT_TRUE(hold_stress(sim, 1e6, 1e-5, 60000, {}, "test"));
+  EXPECT_TRUE(hold_stress(sim, 1e6, within(1e-5, 1e-4), 60000, {}, "test"));
   sim.loading.x = sim.loading.y = AxisDrive::held();
   for (int n = 0; n < 3000; ++n) sim.step();
   Measures const m = sim.measures();

@@ -124,11 +124,12 @@ TEST(TimeStep, MayChangeWithoutAnErrorInTheMotion) {
   }
   EXPECT_NEAR(sim.time(), time, 1e-15);
   double const height = sim.specimen().y[0];
-  EXPECT_NEAR(height, -0.5 * 9.81 * time * (time + first), 1e-13);  // at rest half a step before the start
+  EXPECT_NEAR(height, -0.5 * 9.81 * time * (time + first), within(1e-13, 2e-9));  // at rest half a step before the start
 }
 
 /// Amplitudes grow by (s + sqrt(s^2 - 1))^2 a step where omega dt = 2 s.
 TEST(TimeStep, AboveTheLimitGrowsAtThePredictedRate) {
+  if (tested_precision() == Precision::mixed) GTEST_SKIP() << "grows from motions far below a tick";
   Simulation sim = loaded_sand(1e6);
   for (double const share : {1.02, 1.05}) {
     Simulation copy(sim.specimen(), sim.laws(), 0.1 * packing().d50);
@@ -163,8 +164,8 @@ TEST(MassScaling, RaisesTheSmallestMassesAndAllMomentsOfInertia) {
   Simulation const sim(s, laws, 0.1 * a);
   for (int id : {0, 1}) {
     double const moving = id == 0 ? 1.5 * a : 2 * a, mass = pi * moving * moving * sand_density, r = id == 0 ? a : 2 * a;
-    EXPECT_NEAR(value(sim.particles().inverse_mass, index_of(sim, id)) * mass, 1, 1e-14);
-    EXPECT_NEAR(value(sim.particles().inverse_inertia, index_of(sim, id)) * 3 * 0.5 * mass * r * r, 1, 1e-14);
+    EXPECT_NEAR(value(sim.particles().inverse_mass, index_of(sim, id)) * mass, 1, within(1e-14, 1e-7));
+    EXPECT_NEAR(value(sim.particles().inverse_inertia, index_of(sim, id)) * 3 * 0.5 * mass * r * r, 1, within(1e-14, 1e-7));
   }
   EXPECT_NEAR(sim.added_mass(), 1.25 / 5, 1e-14);
   EXPECT_NEAR(sim.moving_density(), 1.25 * sand_density, 1e-9);

@@ -8,7 +8,7 @@ namespace {
 TEST(Checkpoint, TakesNothingFromTheGoldenState) {
   for (Golden const& g : golden) {
     Specimen const whole = bonded_patch(g.composite), empty = without_discs(whole);
-    auto sim = std::make_unique<Simulation>(ready(whole, g.composite, world(), world().root() ? &whole : &empty));
+    auto sim = std::make_unique<Simulation>(ready(whole, g.composite, world(), world().root() ? &whole : &empty, g.precision));
     for (int n = 0; n < 3000; ++n) {
       if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->laws(), world());
       sim->step();

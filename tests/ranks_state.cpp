@@ -41,7 +41,7 @@ Decomposition lopsided(Specimen const& s) {
 TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
   for (Golden const& g : golden) {
     Specimen const whole = bonded_patch(g.composite), part = dealt(whole);
-    Simulation sim = ready(whole, g.composite, world(), &part);
+    Simulation sim = ready(whole, g.composite, world(), &part, g.precision);
     for (int n = 0; n < 3000; ++n) sim.step();
     EXPECT_EQ(sim.hash(), g.hash);
     EXPECT_EQ(sim.broken_bonds(), g.broken);

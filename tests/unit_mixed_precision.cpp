@@ -1,0 +1,134 @@
+/// The parts of mixed precision: ticks, histories in fixed point, the fields that keep them, and what the neighbour search allows
+/// for.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/bond_quick_test.hpp"
+#include "kernels/history.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+using Kept = HistoryOf<MixedPrecision>;
+
+TEST(Ticks, GiveDifferencesToTheTickAtAnyPlace) {
+  double const tick = DiscMirror::tick_for(0.3e-3);
+  EXPECT_LT(tick, 1e-11);
+  EXPECT_GT(0.3e-3 / tick, std::ldexp(1, 25));
+  for (double const origin : {0.0, -3.7e-3, 0.0312, 0.1234567, -10.0, 900.0}) {
+    for (double const branch : {1e-9, 0.1694e-3, -0.1694e-3, 0.29e-3, -3e-3}) {
+      for (int k = 0; k < 200; ++k) {
+        double const here = origin + k * 1.37e-4, there = here + branch, exact = there - here;
+        auto const a = static_cast<std::uint32_t>(DiscMirror::ticks(here, 1 / tick)),
+                   b = static_cast<std::uint32_t>(DiscMirror::ticks(there, 1 / tick));
+        EXPECT_NEAR(static_cast<std::int32_t>(b - a) * tick, exact, tick * (1 + 1e-9)) << origin << " + " << branch;
+      }
+    }
+  }
+}
+
+/// The number after `steps` increments of `increment` units each.
+double after(double increment, int steps, std::int64_t first = 0) {
+  std::int32_t value[lane_count_of<float>] = {};
+  for (int n = 0; n < steps; ++n) {
+    HistoryScale<float> const scale{1, 1, rounding_of_step(first + n)};
+    store_ints(value, Kept::advanced(load_ints(value), FloatLanes(static_cast<float>(increment)), scale));
+  }
+  return value[0];
+}
+
+TEST(FixedPointHistory, LosesNothingHoweverSlowlyItGrows) {
+  constexpr int steps = 200000;
+  for (double const increment : {1e-4, 0.003, 0.0917, 0.31, 0.5, 0.77, 1.31, 17.6}) {
+    EXPECT_NEAR(after(increment, steps), increment * steps, 3 + 1e-6 * increment * steps) << increment;
+    EXPECT_NEAR(after(-increment, steps, 12345), -increment * steps, 3 + 1e-6 * increment * steps) << increment;
+    EXPECT_EQ(after(-increment, steps), -after(increment, steps)) << increment;  // moments are opposite on the two sides
+  }
+  // What it is there for: a float at a thousand times the increments of a very slow test.
+  float plain = 1;
+  for (int n = 0; n < steps; ++n) plain += 5e-8F;
+  EXPECT_EQ(plain, 1);
+}
+
+TEST(FixedPointHistory, IsKeptWhereNoLimitCutsItAndTheLimitWhereOneDoes) {
+  HistoryScale<float> const scale{0x1p-14F, 0x1p14F, 0.5F};
+  std::int32_t const fine[lane_count_of<float>] = {123456789};  // more digits than a float has
+  IntLanes const trial = load_ints(fine);
+  FloatLanes const force = Kept::number(trial, scale);
+  std::int32_t kept[lane_count_of<float>];
+  store_ints(kept, Kept::limited(trial, force, scale));
+  EXPECT_EQ(kept[0], 123456789);
+  store_ints(kept, Kept::limited(trial, FloatLanes(-80.0F), scale));
+  EXPECT_EQ(kept[0], -80 * 16384);
+}
+
+TEST(RealField, ReadsWhatWasWrittenToTheFormat) {
+  RealField const whole("whole", 3), single("single", 3, {Storage::as_float}), fixed("fixed", 3, {Storage::as_fixed, 0x1p-10});
+  for (RealField const& field : {whole, single, fixed}) field.set(1, 0.123456789);
+  EXPECT_EQ(whole(1), 0.123456789);
+  EXPECT_EQ(single(1), static_cast<double>(0.123456789F));
+  EXPECT_EQ(fixed(1), 126 / 1024.0);
+  single.set(2, no_bond);
+  EXPECT_EQ(single(2), no_bond);
+  EXPECT_FALSE(is_bonded(single.data<float>()[2]));
+  EXPECT_TRUE(is_bonded(-5e-6F));
+  fixed.set(2, -1e300);
+  EXPECT_EQ(fixed(2), -most_units / 1024);
+  EXPECT_EQ(single.bytes() + fixed.bytes(), whole.bytes());
+  Field<std::uint32_t> const table("table", 24);
+  RealField const column = RealField::column(table, 8, 5);
+  column.set(2, 2.5);
+  EXPECT_EQ(column(2), 2.5);
+  EXPECT_EQ(column.extent(0), 3u);
+  EXPECT_EQ(table(21), std::bit_cast<std::uint32_t>(2.5F));
+  EXPECT_EQ(on_host(column, 3)[2], 2.5);
+}
+
+/// A pair near touch: whatever the contact kernel takes for a touch is listed, at no skin to speak of.
+TEST(RoundingSlack, ListsEveryPairThatTheKernelTakesForTouching) {
+  int touching = 0, apart = 0;
+  for (double const angle : {0.0, 0.3, 0.7853981633974483, 1.3, std::numbers::pi / 2}) {
+    for (double const origin : {0.0, 0.0123456, 7.7}) {
+      for (int k = -60; k <= 60; ++k) {
+        double const distance = 2 * grain_radius + 3e-12 * k;
+        Specimen s = open_space();
+        add_disc(s, origin, origin);
+        add_disc(s, origin + distance * std::cos(angle), origin + distance * std::sin(angle));
+        SimulationLaws laws = sand_laws();
+        laws.precision = Precision::mixed;
+        Simulation sim(s, laws, 1e-15);
+        sim.evaluate_forces();
+        bool const listed = sim.rows().length(0) == 1, pushes = std::abs(disc(sim, 0).fx) + std::abs(disc(sim, 0).fy) > 0;
+        double const gap = std::hypot(s.x[1] - s.x[0], s.y[1] - s.y[0]) - 2 * grain_radius;
+        // Where the kernel may see a touch, for all that ticks and floats can do, the pair must stand in the row.
+        EXPECT_TRUE(listed || gap > rounding_slack(sim.particles(), grain_radius)) << k;
+        EXPECT_TRUE(listed || !pushes) << k;
+        touching += pushes ? 1 : 0;
+        apart += pushes ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GT(touching, 500);
+  EXPECT_GT(apart, 500);
+}
+
+TEST(LeastStrength, OfSinglePrecisionLiesBelowThatOfDoubleByLittle) {
+  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  BondLaw const law = make_bond_law(scene, grain_d50, h_max_of(scene));
+  LeastStrengthOf<double> const exact = least_strength<double>(law);
+  LeastStrengthOf<float> const single = least_strength<float>(law);
+  auto const below = [](float a, double b) { return a < b && a > b - 3e-5 * std::abs(b); };
+  EXPECT_TRUE(below(single.tension, exact.tension));
+  EXPECT_TRUE(below(single.tension_per_width, exact.tension_per_width));
+  EXPECT_TRUE(below(single.compression, exact.compression));
+  EXPECT_TRUE(below(single.compression_per_width, exact.compression_per_width));
+  EXPECT_TRUE(below(single.shear_slope, exact.shear_slope));
+  EXPECT_TRUE(below(single.moment_per_width, exact.moment_per_width));
+}
+
+}  // namespace
+}  // namespace clathra
