@@ -32,7 +32,7 @@ double generation_disc_steps(Scene const& scene, double discs) {
   constexpr double at_rest = 3000;
   auto const packed = [](double n, double of_one_disc, double growth) { return of_one_disc * n * std::pow(n, growth); };
   if (scene.sample.generator == Generator::file) return 0;
-  if (scene.sample.generator == Generator::under_compaction) return packed(discs, 11.3e3, 0.155);
+  if (scene.sample.generator == Generator::under_compaction) return packed(discs, 13.2e3, 0.155);
   return packed(std::min(discs, static_cast<double>(scene.sample.tile_particles)), 26e3, 0.26) + at_rest * discs;
 }
 

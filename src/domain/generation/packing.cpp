@@ -13,7 +13,7 @@ namespace clathra {
 namespace {
 
 constexpr double loose_solid_fraction = 0.46;    // of the random placement
-constexpr double unjammed = 0.02;                // in void ratio: how far above e_(i) a layer's compaction stops
+constexpr double unjammed = 0.03;                // in void ratio: how far above e_(i) a layer's compaction stops
 constexpr double slowing_range = 0.15;           // in void ratio: the wall slows down as the layers are about to jam
 constexpr std::int64_t most_in_patch = 100'000;  // discs placed one after the other
 constexpr double loose_skin = 0.2;               // in d50, while discs still fly
