@@ -5,12 +5,13 @@ import sys
 
 QUANTITIES = [
     ("peak_q_Pa", "peak q", 1e-6, "MPa"),
-    ("strain_at_peak_pct", "strain at peak", 1, "%"),
+    ("peak_eps1", "strain at peak", 100, "%"),
     ("secant_modulus_Pa", "E50", 1e-6, "MPa"),
     ("residual_q_Pa", "residual q", 1e-6, "MPa"),
-    ("largest_contraction_pct", "largest contraction", 1, "%"),
-    ("final_volumetric_strain_pct", "volumetric strain at the end", 1, "%"),
-    ("intact_initial_pct", "bonds intact at the end", 1, "%"),
+    ("largest_eps_v", "largest contraction", 100, "%"),
+    ("end_eps_v", "volumetric strain at the end", 100, "%"),
+    ("peak_intact_initial_pct", "bonds intact at the peak", 1, "%"),
+    ("end_intact_initial_pct", "bonds intact at the end", 1, "%"),
 ]
 # Student's t at 97.5 % for 1 .. 30 degrees of freedom.
 T = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
