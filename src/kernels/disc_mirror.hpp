@@ -82,7 +82,7 @@ struct DiscMirror {
   /// Half a row of each of the discs j[0 .. lanes).
   KOKKOS_FORCEINLINE_FUNCTION FourOfDiscs gather(int const* j, std::size_t half) const {
     float const* const from = numbers() + half;
-#if defined(CLATHRA_SIMD) && defined(__AVX__)
+#if defined(CLATHRA_SIMD) && defined(__AVX2__)
     return transposed(quads(from, j), quads(from, j + 1), quads(from, j + 2), quads(from, j + 3));
 #else
     FourOfDiscs numbers;
@@ -95,7 +95,7 @@ struct DiscMirror {
 
   /// Half a row of each of the discs first .. first + lanes.
   KOKKOS_FORCEINLINE_FUNCTION FourOfDiscs load(std::size_t first, std::size_t half) const {
-#if defined(CLATHRA_SIMD) && defined(__AVX__)
+#if defined(CLATHRA_SIMD) && defined(__AVX2__)
     float const* const from = numbers() + row * first + half;
     constexpr int rows_apart[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     return transposed(quads(from, rows_apart), quads(from, rows_apart + 1), quads(from, rows_apart + 2),
@@ -112,7 +112,7 @@ struct DiscMirror {
   /// The way back.
   KOKKOS_FORCEINLINE_FUNCTION void store(std::size_t first, std::size_t half, FourOfDiscs const& four) const {
     float* const to = numbers() + row * first + half;
-#if defined(CLATHRA_SIMD) && defined(__AVX__)
+#if defined(CLATHRA_SIMD) && defined(__AVX2__)
     auto const plain = [&](int n) { return static_cast<PlainVector<float>>(four.of[n]); };
     FourOfDiscs const rows_of_four = transposed(plain(0), plain(1), plain(2), plain(3));
     for (std::size_t k = 0; k < 4; ++k) {
@@ -134,7 +134,7 @@ struct DiscMirror {
 #endif
   }
 
-#if defined(CLATHRA_SIMD) && defined(__AVX__)
+#if defined(CLATHRA_SIMD) && defined(__AVX2__)
  private:
   KOKKOS_FORCEINLINE_FUNCTION static __m128 four(float const* from, int disc) {
     return _mm_load_ps(from + row * static_cast<std::uint32_t>(disc));
@@ -193,7 +193,7 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes in_single(LanesOfHalves const& wide) {
 #if defined(CLATHRA_SIMD) && defined(__AVX512F__)
   auto const single = [&](int h) { return _mm512_cvtpd_ps(static_cast<PlainVector<double>>(wide.of[h])); };
   return FloatLanes(_mm512_insertf32x8(_mm512_castps256_ps512(single(0)), single(1), 1));
-#elif defined(CLATHRA_SIMD) && defined(__AVX__)
+#elif defined(CLATHRA_SIMD) && defined(__AVX2__)
   auto const single = [&](int h) { return _mm256_cvtpd_ps(static_cast<PlainVector<double>>(wide.of[h])); };
   return FloatLanes(_mm256_set_m128(single(1), single(0)));
 #else
@@ -210,7 +210,7 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real
     return _mm512_cvtepi64_epi32(_mm512_castpd_si512(static_cast<PlainVector<double>>(sum)));
   };
   return FloatLanes(_mm512_castsi512_ps(_mm512_inserti32x8(_mm512_castsi256_si512(low(0)), low(1), 1)));
-#elif defined(CLATHRA_SIMD) && defined(__AVX__)
+#elif defined(CLATHRA_SIMD) && defined(__AVX2__)
   // The low halves of the numbers' bits, which are in order within 128 bits, and then the pairs.
   auto const sum = [&](int h) {
     return _mm256_castpd_ps(static_cast<PlainVector<double>>(place.of[h] * per_tick + Lanes(DiscMirror::shift)));
@@ -223,6 +223,15 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real
     set_lane(bits, l, from_bits_of_one(DiscMirror::ticks(lane(place.of[l / lane_count], l % lane_count), per_tick)));
   return bits;
 #endif
+}
+
+/// Adds losses to accounts, which are sums in double precision.
+KOKKOS_FORCEINLINE_FUNCTION void book(Field<Accum> const& account, std::size_t first, FloatLanes const& loss) {
+  LanesOfHalves const wide = in_double(loss);
+  for (int h = 0; h < halves; ++h) {
+    Accum* const to = &account(first + static_cast<std::size_t>(h * lane_count));
+    store(to, load(to) + wide.of[h]);
+  }
 }
 
 }  // namespace clathra

@@ -99,12 +99,7 @@ struct DiscReader {
   /// Adds a group's losses to its accounts, which are sums in double precision.
   KOKKOS_FORCEINLINE_FUNCTION static void book(Field<Accum> const& account, std::size_t first, V const& loss) {
     if constexpr (mixed) {
-      float each[lanes];
-      store(&each[0], loss);
-      for (int l = 0; l < lanes; l += lane_count) {
-        Accum* const to = &account(first + static_cast<std::size_t>(l));
-        store(to, load(to) + load_float(&each[l]));
-      }
+      clathra::book(account, first, loss);
     } else {
       store(&account(first), load(&account(first)) + loss);
     }

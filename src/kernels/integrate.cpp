@@ -26,9 +26,8 @@ struct Shares {
   }
 };
 
-/// One group of discs: kick and drift.
-template <bool Ledger>
-struct KickAndDrift {
+/// What a step of motion needs to know, in either precision.
+struct Moving {
   ParticleSoA p;
   MotionLaw law;
   StepLengths dt;
@@ -37,6 +36,18 @@ struct KickAndDrift {
   Faults faults;
   Shares shares;
 
+  /// @param displacement  of the discs i .., of which those without a finite one are faults
+  template <class L>
+  KOKKOS_FUNCTION void report(std::size_t i, L const& displacement) const {
+    for (int l = 0; l < lane_count_of<scalar_of<L>>; ++l) {
+      if (!(lane(displacement, l) < 1e5)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
+    }
+  }
+};
+
+/// One group of discs: kick and drift.
+template <bool Ledger>
+struct KickAndDrift : Moving {
   KOKKOS_FUNCTION void operator()(int place, Real& largest_displacement) const {
     auto const i = static_cast<std::size_t>(shares.backwards(place)) * lane_count;
     Lanes const inverse_mass = load(p.inverse_mass.data<Real>() + i);
@@ -68,25 +79,12 @@ struct KickAndDrift {
     if (any(!(displacement < Lanes(1e5)))) report(i, displacement);
     largest_displacement = lane_max(largest_displacement, largest(select(displacement > Lanes(0), displacement, Lanes(0))));
   }
-
-  KOKKOS_FUNCTION void report(std::size_t i, Lanes const& displacement) const {
-    for (int l = 0; l < lane_count; ++l) {
-      if (!(lane(displacement, l) < 1e5)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
-    }
-  }
 };
 
 /// The same in mixed precision: velocities in single precision, places and angles in double.
 template <bool Ledger>
-struct KickAndDriftMixed {
+struct KickAndDriftMixed : Moving {
   using V = FloatLanes;
-  ParticleSoA p;
-  MotionLaw law;
-  StepLengths dt;
-  AffineFrame frame;
-  Field<Accum> lost_to_damping;
-  Faults faults;
-  Shares shares;
   Real per_tick;
 
   KOKKOS_FUNCTION void operator()(int place, Real& largest_displacement) const {
@@ -116,7 +114,7 @@ struct KickAndDriftMixed {
     at.of[1] = ticks_of(y, per_tick);
     p.mirror.store(i, DiscMirror::contact, at);
     p.mirror.store(i, DiscMirror::motion, moving);
-    if constexpr (Ledger) book(i, in_double(lost));
+    if constexpr (Ledger) book(lost_to_damping, i, lost);
 
     // At least the way: more by a millionth than its rounding takes away.
     V displacement = (lane_abs(vx) + lane_abs(vy)) * constant<V>(dt.drift * (1 + 1e-6)) + lane_abs(omega) * V(0);
@@ -135,19 +133,6 @@ struct KickAndDriftMixed {
     }
     return places;
   }
-
-  KOKKOS_FORCEINLINE_FUNCTION void book(std::size_t i, LanesOfHalves const& lost) const {
-    for (int h = 0; h < halves; ++h) {
-      Accum* const account = &lost_to_damping(i + static_cast<std::size_t>(h * lane_count));
-      store(account, load(account) + lost.of[h]);
-    }
-  }
-
-  KOKKOS_FUNCTION void report(std::size_t i, V const& displacement) const {
-    for (int l = 0; l < lane_count_of<float>; ++l) {
-      if (!(lane(displacement, l) < 1e5F)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
-    }
-  }
 };
 
 }  // namespace
@@ -163,11 +148,12 @@ Real integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
     Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, groups), kernel,
                             Kokkos::Max<Real>(largest_displacement));
   };
+  Moving const moving{particles, law, dt, frame, losses.damping, faults, shares};
   auto const run_with = [&](auto ledger) {
     if (mixed) {
-      run(KickAndDriftMixed<ledger()>{particles, law, dt, frame, losses.damping, faults, shares, 1 / particles.mirror.tick});
+      run(KickAndDriftMixed<ledger()>{moving, 1 / particles.mirror.tick});
     } else {
-      run(KickAndDrift<ledger()>{particles, law, dt, frame, losses.damping, faults, shares});
+      run(KickAndDrift<ledger()>{moving});
     }
   };
   if (losses.damping.extent(0) > 0) {

@@ -101,8 +101,8 @@ ParticleSoA allocate_particles(int discs, Precision precision = Precision::full,
 /// none, as ever.
 Real rounding_slack(ParticleSoA const& particles, Real largest_radius);
 
-/// Mixed precision: makes the mirror of the discs first .. first + count anew. To be called whenever their places or velocities
-/// have been changed from outside; what stands in this file and integrate() do it themselves.
+/// Mixed precision: derives ticks and radii in the mirror of the discs first .. first + count. To be called whenever places have
+/// been changed from outside; what stands in this file and integrate() do it themselves.
 void update_mirror(ParticleSoA const& particles, int first, int count);
 
 /// Makes room for at least `discs` discs, keeping the state of the first `owned`.
