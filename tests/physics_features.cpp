@@ -65,7 +65,9 @@ std::size_t bytes_per_entry(Simulation const& sim) {
   ContactRows const& r = sim.rows();
   for (auto const* field : {&r.shear, &r.moment, &r.formation_overlap, &r.width, &r.bond_shear, &r.bond_moment})
     EXPECT_TRUE(field->extent(0) == 0 || field->extent(0) == n);
-  return (bytes(r) - (r.slice_start.span() + r.length.span()) * sizeof(int) - r.active.span() * sizeof(std::uint64_t)) / n;
+  return (bytes(r) - r.slice_start.span() * sizeof(int) - r.length.span() * sizeof(RowLength) -
+          r.active.span() * sizeof(std::uint64_t)) /
+         n;
 }
 
 TEST(Features, ASceneWithoutHydrateHasNoBondField) {

@@ -28,7 +28,7 @@ void change_features(ContactRows& rows, ContactFeatures features) {
 
 std::size_t bytes(ContactRows const& rows) {
   std::size_t total = rows.active.span() * sizeof(std::uint64_t) +
-                      (rows.slice_start.span() + rows.length.span() + rows.neighbour.span()) * sizeof(int);
+                      (rows.slice_start.span() + rows.neighbour.span()) * sizeof(int) + rows.length.span() * sizeof(RowLength);
   for_each_history(rows, [&](HistoryField const&, RealField const& field) { total += field.bytes(); });
   return total + rows.width.bytes();
 }

@@ -6,6 +6,7 @@
 /// colouring, each thread or GPU lane sums one disc in a fixed order, and ranks owe each other no forces. Bits then cannot depend
 /// on who computes what. Half rows were measured at 0.92 of the speed unbonded and 1.05 to 1.17 bonded (docs/performance.md).
 #include "kernels/bond_law.hpp"
+#include "kernels/countable.hpp"
 #include "kernels/particles.hpp"
 
 namespace clathra {
@@ -51,13 +52,16 @@ KOKKOS_INLINE_FUNCTION std::size_t entry_in(SliceStart const& slice_start, Histo
          static_cast<std::size_t>(disc & ((1 << shift) - 1));
 }
 
+using RowLength = std::uint8_t;
+static_assert(longest_row <= 255);
+
 /// Full rows (each pair stands in both rows) in sliced ELLPACK: slice_width() discs form a slice, entry k of its discs lies side
 /// by side. Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where
 /// discs are stored. Both sides of a pair hold equal `shear` and `formation_overlap` and exactly opposite `moment`.
 struct ContactRows {
   ContactFeatures features;
   Field<int> slice_start;       ///< [slices + 1] in units of slice_width() entries
-  Field<int> length;            ///< [owned] entries in use
+  Field<RowLength> length;      ///< [owned] entries in use
   Field<int> neighbour;         ///< [entries] index of the other disc, or the padding disc
   RealField shear;              ///< [entries] F_s [N/m]; as the following, empty where no feature needs it
   RealField moment;             ///< [entries] M on the row's own disc [N m/m]

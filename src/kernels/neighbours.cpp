@@ -155,21 +155,21 @@ struct Search {
 
 /// What a count has found, so that filling the rows need not search again: neighbours of a disc that has no more than `most`.
 struct Found {
-  static constexpr int most = 12;
+  static constexpr int most = 8;
   Kokkos::View<int**, MemorySpace> neighbour;  // [discs][most] twice the index, plus one in touch
 };
 
 struct CountNeighbours {
   Search search;
   Found found;
-  Field<int> length;
+  Field<RowLength> length;
   Faults faults;
   KOKKOS_FUNCTION void operator()(int i) const {
     OldRow before(search.old, search.slot, i);
     Nearby near;
     search.near_to(i, before, near);
     if (near.count() > longest_row) faults.report(Fault::row_overflow, search.p.id(i));
-    length(i) = near.count() < longest_row ? near.count() : longest_row;
+    length(i) = static_cast<RowLength>(near.count() < longest_row ? near.count() : longest_row);
     if (near.count() > Found::most) return;
     for (int k = 0; k < near.touching; ++k) found.neighbour(i, k) = 2 * near.in_touch[k] + 1;
     for (int k = 0; k < near.others; ++k) found.neighbour(i, near.touching + k) = 2 * near.apart[k];
@@ -177,7 +177,8 @@ struct CountNeighbours {
 };
 
 struct ScanSlices {
-  Field<int> length, slice_start;
+  Field<RowLength> length;
+  Field<int> slice_start;
   int discs, slice_width;
   KOKKOS_FUNCTION void operator()(int slice, std::int64_t& sum, bool const final) const {
     int longest = 0;
@@ -332,7 +333,7 @@ std::size_t find_neighbours(ParticleSoA const& particles, Real largest_skin, Old
   near.neighbour = Kokkos::View<int**, MemorySpace>(Kokkos::view_alloc("found", Kokkos::WithoutInitializing), owned, Found::most);
   ContactRows found;
   found.features = old.here.features;
-  found.length = uninitialised<int>("rows.length", owned);
+  found.length = uninitialised<RowLength>("rows.length", owned);
   found.slice_start = uninitialised<int>("rows.slice_start", slices + 1);
   Kokkos::parallel_for("count_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        CountNeighbours{search, near, found.length, faults});
@@ -343,7 +344,7 @@ std::size_t find_neighbours(ParticleSoA const& particles, Real largest_skin, Old
   std::size_t const entries = static_cast<std::size_t>(total) * slice_width, held = rows.neighbour.extent(0);
   // A little more than needed, so that the next search finds fields of the right size; never nothing.
   std::size_t const wanted = std::max<std::size_t>(entries, slice_width);
-  std::size_t const size = held >= wanted && held <= wanted + wanted / 8 ? held : wanted + wanted / 16;
+  std::size_t const size = held >= wanted && held <= wanted + wanted / 16 ? held : wanted + wanted / 64;
   found.neighbour = uninitialised<int>("rows.neighbour", size);
   Field<int> const source = uninitialised<int>("rows.source", size);
   Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(slices * slice_width)),

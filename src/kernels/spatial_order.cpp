@@ -34,12 +34,13 @@ struct WorkOfSlots {
 
 /// Sorts the discs of one window by falling work; equal ones keep their order.
 struct SortByWork {
+  static constexpr int most = slices_a_window * widest_slice;
   Field<int> order, slot, work;
-  int discs;
+  int discs, window_size;
 
   KOKKOS_FUNCTION void operator()(int window) const {
-    int const begin = window * sorting_window, size = begin + sorting_window < discs ? sorting_window : discs - begin;
-    int disc[sorting_window], by_length[sorting_window];
+    int const begin = window * window_size, size = begin + window_size < discs ? window_size : discs - begin;
+    int disc[most], by_length[most];
     for (int k = 0; k < size; ++k) disc[k] = order(begin + k);
     spread(disc, by_length, size, [this](int d) { return work_on(d) % (longest_row + 1); });
     spread(by_length, disc, size, [this](int d) { return work_on(d) / (longest_row + 1); });
@@ -92,9 +93,9 @@ Field<int> as_stored(ParticleSoA const& particles) {
 
 Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin, bool anew) {
   Field<int> const order = anew ? by_cells(particles, skin) : as_stored(particles);
-  Kokkos::parallel_for("sort_by_work",
-                       Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + sorting_window - 1) / sorting_window),
-                       SortByWork{order, slot, work_of_slots(old), particles.owned});
+  int const window = slices_a_window * old.here.features.format.slice_width();
+  Kokkos::parallel_for("sort_by_work", Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + window - 1) / window),
+                       SortByWork{order, slot, work_of_slots(old), particles.owned, window});
   permute(particles, order);
   slot = permuted(slot, order, order.extent(0));
   return order;

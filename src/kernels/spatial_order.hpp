@@ -4,8 +4,9 @@
 
 namespace clathra {
 
-/// Discs whose rows are evened out together; they stay near each other in space.
-inline constexpr int sorting_window = 128;
+/// Slices whose rows are evened out together; their discs stay near each other in space. Twice as many make fuller rows and are
+/// slower all the same with 200,000 discs (docs/performance.md).
+inline constexpr int slices_a_window = 16;
 
 /// Puts the discs in spatial order (by cell; within windows of a few slices by the work on their rows, which evens out the
 /// slices: first those with the most entries that carry a history, then those with the longest rows) and drops the ghosts.

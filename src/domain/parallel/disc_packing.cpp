@@ -11,7 +11,8 @@ namespace {
 using Offsets = Field<std::int64_t>;
 
 struct RowLengths {
-  Field<int> which, length, row_length;
+  Field<int> which, length;
+  Field<RowLength> row_length;
   KOKKOS_FUNCTION void operator()(int k) const { length(k) = row_length(which(k)); }
 };
 
@@ -61,7 +62,7 @@ struct Unpack {
         p, [&, i = static_cast<std::size_t>(first + k)](DiscField const&, auto const& field) { set(field, i, numbers(at++)); });
     at += auxiliary;
     auto const length = static_cast<int>(numbers(at++));
-    rows.length(k) = length;
+    rows.length(k) = static_cast<RowLength>(length);
     for (int n = 0; n < length; ++n) {
       std::size_t const e = rows.entry(k, n);
       rows.neighbour(e) = static_cast<int>(numbers(at++));
@@ -226,7 +227,7 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   for_each_auxiliary_field(auxiliary, [&](auto& field) { resize(field, particles.x.extent(0)); });
   fill_padding(particles);
   rows.slice_start = on_device("rows.slice_start", slice_start);
-  rows.length = uninitialised<int>("rows.length", begin.size());
+  rows.length = uninitialised<RowLength>("rows.length", begin.size());
   rows.neighbour = uninitialised<int>("rows.neighbour", static_cast<std::size_t>(slice_start.back()) * slice_width);
   allocate_history(rows, rows.neighbour.extent(0));
   auto const reached = Kokkos::create_mirror_view_and_copy(ExecutionSpace::memory_space(), on_host_view(numbers));

@@ -53,7 +53,7 @@ void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA
   ContactRows unknown;  // before the first search no disc has a row
   if (!rows_known) {
     unknown.features = old.here.features;
-    unknown.length = Field<int>("no_rows", static_cast<std::size_t>(particles.owned));
+    unknown.length = Field<RowLength>("no_rows", static_cast<std::size_t>(particles.owned));
   }
   for (std::size_t r = 0; r < leaving.size(); ++r) {
     if (!leaving[r].empty()) to[r] = pack_discs(particles, auxiliary, rows_known ? old.here : unknown, leaving[r]).numbers;

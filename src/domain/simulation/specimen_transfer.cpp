@@ -215,8 +215,8 @@ void Simulation::upload_discs(Specimen const& s) {
 
 /// Writes the history of the specimen's contacts into the rows, on both sides.
 void Simulation::restore_history(Specimen const& s) {
-  auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
-             neighbour = download(rows_.neighbour);
+  auto const id = download(particles_.id), slice_start = download(rows_.slice_start), neighbour = download(rows_.neighbour);
+  auto const length = download(rows_.length);
   IdIndex const at(id, particles_.owned);
   HistoryOnHost history(rows_);
   auto const write = [&](SpecimenContact const& c) {
@@ -266,8 +266,8 @@ Specimen Simulation::specimen() const {
 
 /// The pairs with history, sorted by (id_a, id_b).
 std::vector<SpecimenContact> Simulation::contacts_by_id() const {
-  auto const id = download(particles_.id), length = download(rows_.length), slice_start = download(rows_.slice_start),
-             neighbour = download(rows_.neighbour);
+  auto const id = download(particles_.id), slice_start = download(rows_.slice_start), neighbour = download(rows_.neighbour);
+  auto const length = download(rows_.length);
   HistoryOnHost const history(rows_);
   std::vector<SpecimenContact> contacts;
   for (int i = 0; i < particles_.owned; ++i) {
