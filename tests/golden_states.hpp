@@ -78,8 +78,8 @@ struct Golden {
 inline constexpr Golden golden[] = {{Composite::replace, Precision::full, 0xb32266e6acdafbebULL, 213},
                                     {Composite::parallel, Precision::full, 0xc2baf36149f36ff8ULL, 469},
                                     {Composite::memory, Precision::full, 0x92e06ba7ed616b25ULL, 308},
-                                    {Composite::replace, Precision::mixed, 0xe1758a51ca28258cULL, 195},
-                                    {Composite::parallel, Precision::mixed, 0xe14f506b1794432dULL, 469},
-                                    {Composite::memory, Precision::mixed, 0x942da203b9236a8eULL, 256}};
+                                    {Composite::replace, Precision::mixed, 0x8d59b93440f690f4ULL, 297},
+                                    {Composite::parallel, Precision::mixed, 0x4dbba59ea3608d37ULL, 472},
+                                    {Composite::memory, Precision::mixed, 0x83fc6b379d70fcb1ULL, 195}};
 
 }  // namespace clathra

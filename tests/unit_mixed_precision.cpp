@@ -35,8 +35,9 @@ TEST(Ticks, GiveDifferencesToTheTickAtAnyPlace) {
 double after(double increment, int steps, std::int64_t first = 0) {
   std::int32_t value[lane_count_of<float>] = {};
   for (int n = 0; n < steps; ++n) {
-    HistoryScale<float> const scale{1, 1, rounding_of_step(first + n)};
-    store_ints(value, Kept::advanced(load_ints(value), FloatLanes(static_cast<float>(increment)), scale));
+    // A stiffness of 4 at a rate of a half in steps of a second.
+    HistoryScale<float> const scale{0.5, 2, 2, rounding_of_step(first + n)};
+    store_ints(value, Kept::advanced(load_ints(value), 4.0F, FloatLanes(static_cast<float>(increment / 8)), scale));
   }
   return value[0];
 }
@@ -55,15 +56,22 @@ TEST(FixedPointHistory, LosesNothingHoweverSlowlyItGrows) {
 }
 
 TEST(FixedPointHistory, IsKeptWhereNoLimitCutsItAndTheLimitWhereOneDoes) {
-  HistoryScale<float> const scale{0x1p-14F, 0x1p14F, 0.5F};
-  std::int32_t const fine[lane_count_of<float>] = {123456789};  // more digits than a float has
-  IntLanes const trial = load_ints(fine);
-  FloatLanes const force = Kept::number(trial, scale);
-  std::int32_t kept[lane_count_of<float>];
-  store_ints(kept, Kept::limited(trial, force, scale));
-  EXPECT_EQ(kept[0], 123456789);
-  store_ints(kept, Kept::limited(trial, FloatLanes(-80.0F), scale));
-  EXPECT_EQ(kept[0], -80 * 16384);
+  HistoryScale<float> const scale{0x1p-14F, 0x1p14F, 1, 0.5F};
+  auto const limited = [&](std::int32_t trial, float limit) {
+    std::int32_t value[lane_count_of<float>] = {trial};
+    store_ints(value, Kept::limited(load_ints(value), FloatLanes(limit), scale));
+    return value[0];
+  };
+  for (std::int32_t const sign : {1, -1}) {
+    constexpr std::int32_t fine = 123456789;  // more digits than a float has
+    EXPECT_EQ(limited(sign * fine, 7536), sign * fine);
+    EXPECT_EQ(limited(sign * fine, 1e30F), sign * fine);  // more than any history holds
+    EXPECT_EQ(limited(sign * fine, 80.0F), sign * 80 * 16384);
+    EXPECT_EQ(limited(sign * fine, 80.00001F), sign * 80 * 16384);  // never more than the limit
+    EXPECT_EQ(limited(sign * fine, 0), 0);
+  }
+  std::int32_t const kept[lane_count_of<float>] = {-80 * 16384};
+  EXPECT_EQ(largest(lane_abs(Kept::number(load_ints(kept), scale))), 80.0F);
 }
 
 TEST(RealField, ReadsWhatWasWrittenToTheFormat) {

@@ -71,20 +71,19 @@ struct BondForce {
   L width, thickness;
 };
 
-/// F_n = k_bn (u_n - u_0), and what a step adds to the others: k_bs Delta u_s, k_bm Delta theta (Eq. 7). With `memory` F_n keeps
-/// k_n u_0 of a loaded contact.
+/// F_n = k_bn (u_n - u_0) (Eq. 7) and the stiffness that the others grow by; they are zero here. With `memory` F_n keeps k_n u_0
+/// of a loaded contact.
 /// @param formation_overlap  u_0 [m];  @param width  B [m]
 template <class R, class L>
-KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_increment(BondLawOf<R> const& law, ContactMotion<L> const& motion,
-                                                        L const& formation_overlap, L const& width) {
+KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_springs(BondLawOf<R> const& law, ContactMotion<L> const& motion,
+                                                      L const& formation_overlap, L const& width) {
   BondForce<L> bond;
   bond.thickness = law.bond_thickness(formation_overlap);
   bond.width = width;
   bond.stiffness = law.stiffness(bond.width, bond.thickness);
   bond.force.normal =
       bond.stiffness.normal * (motion.overlap - formation_overlap) + law.preload_stiffness * lane_max(formation_overlap, L(0));
-  bond.force.shear = bond.stiffness.shear * motion.shear_increment;
-  bond.force.moment = bond.stiffness.rolling * motion.relative_rotation;
+  bond.force.shear = bond.force.moment = L(0);
   return bond;
 }
 
@@ -94,9 +93,9 @@ template <class R, class L>
 KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_contact(BondLawOf<R> const& law, ContactMotion<L> const& motion,
                                                       L const& formation_overlap, L const& width, L const& shear,
                                                       L const& moment) {
-  BondForce<L> bond = bond_increment(law, motion, formation_overlap, width);
-  bond.force.shear = shear + bond.force.shear;
-  bond.force.moment = moment + bond.force.moment;
+  BondForce<L> bond = bond_springs(law, motion, formation_overlap, width);
+  bond.force.shear = shear + bond.stiffness.shear * motion.shear_increment;
+  bond.force.moment = moment + bond.stiffness.rolling * motion.relative_rotation;
   return bond;
 }
 

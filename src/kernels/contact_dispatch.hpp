@@ -41,8 +41,8 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
                                       in_numbers<R>(laws.bond),
                                       least_strength<R>(laws.bond),
                                       R(dt),
-                                      {R(format.force_unit), R(1 / format.force_unit), rounding},
-                                      {R(format.moment_unit), R(1 / format.moment_unit), rounding},
+                                      {R(format.force_unit), R(1 / format.force_unit), R(dt / format.force_unit), rounding},
+                                      {R(format.moment_unit), R(1 / format.moment_unit), R(dt / format.moment_unit), rounding},
                                       R(particles.mirror.tick)};
   Kokkos::RangePolicy<ExecutionSpace> const groups(0, group_count(particles.owned, lane_count_of<R>));
   std::visit(

@@ -95,7 +95,8 @@ struct ContactKernel {
                                              Own& own) const {
     int const* const j = &rows.neighbour(e);
     typename Discs::Own const& disc = own.disc;
-    typename Discs::Other const other = Discs::other(p, j, disc, law.tick);
+    typename Discs::OtherMotion moving;
+    typename Discs::Other const other = Discs::other(p, j, disc, law.tick, active, moving);
     V const &dx = other.dx, &dy = other.dy, &other_radius = other.radius;
     V const reach = disc.radius + other_radius, distance2 = dx * dx + dy * dy;
     auto const touching = distance2 < reach * reach;
@@ -104,15 +105,15 @@ struct ContactKernel {
 
     V const distance = lane_max(lane_sqrt(distance2), constant<V>(1e-30)), inverse = V(1) / distance;
     V const nx = dx * inverse, ny = dy * inverse;
-    typename Discs::OtherMotion const moving = Discs::motion(p, j, other);
+    Discs::complete(p, j, active, moving);
     V const dvx = moving.vx - disc.vx, dvy = moving.vy - disc.vy, &other_omega = moving.omega;
     ContactMotion<V> motion;
     motion.overlap = reach - distance;
     motion.closing_velocity = -(dvx * nx + dvy * ny);
     V const half_overlap = constant<V>(0.5) * motion.overlap;
     V const arm = disc.radius - half_overlap, other_arm = other_radius - half_overlap;  // arm + other_arm = distance
-    motion.shear_increment = ((dvy * nx - dvx * ny) - (disc.omega * arm + other_omega * other_arm)) * law.dt;
-    motion.relative_rotation = (other_omega - disc.omega) * law.dt;
+    motion.shear_increment = during_step(law, (dvy * nx - dvx * ny) - (disc.omega * arm + other_omega * other_arm));
+    motion.relative_rotation = during_step(law, other_omega - disc.omega);
     motion.common_radius = common_radius(disc.radius, other_radius);
     auto const deep = Discs::is_deep(motion.overlap, distance, disc.radius, other_radius);
     if (any(deep)) report_deep(first, deep);
@@ -149,6 +150,14 @@ struct ContactKernel {
   }
 
  private:
+  /// A motion as the history takes it: in mixed precision the rate itself (HistoryScale::per_rate).
+  KOKKOS_FORCEINLINE_FUNCTION static V during_step(Constants const& law, V const& rate) {
+    if constexpr (mixed)
+      return rate;
+    else
+      return rate * law.dt;
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION Own load_own(std::size_t first) const {
     Own own{};
     own.disc = Discs::own(p, first);
@@ -204,11 +213,28 @@ struct ContactKernel {
   KOKKOS_FORCEINLINE_FUNCTION static GrainTrial grain_trial(Constants const& law, ContactMotion<V> const& motion,
                                                             History const& h) {
     GrainTrial trial{Kept::none(), Kept::none()};
-    if constexpr (shears) trial.shear = Kept::advanced(h.shear, law.grain.shear_stiffness * motion.shear_increment, law.forces);
+    if constexpr (shears) trial.shear = Kept::advanced(h.shear, law.grain.shear_stiffness, motion.shear_increment, law.forces);
     if constexpr (Rolling)
       trial.moment =
-          Kept::advanced(h.moment, rolling_stiffness(law.grain, motion.common_radius) * motion.relative_rotation, law.moments);
+          Kept::advanced(h.moment, rolling_stiffness(law.grain, motion.common_radius), motion.relative_rotation, law.moments);
     return trial;
+  }
+
+  /// Eq. 8: puts a trial within its limits. @return the forces that it then is
+  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> limit(Constants const& law, ContactMotion<V> const& motion,
+                                                           Viscosity const& dashpot, GrainTrial& trial) {
+    ContactForce<V> force;
+    force.normal = normal_force(law.grain, motion, dashpot);
+    force.shear = force.moment = V(0);
+    if constexpr (shears) {
+      trial.shear = Kept::limited(trial.shear, shear_limit(law.grain, force.normal), law.forces);
+      force.shear = Kept::number(trial.shear, law.forces);
+    }
+    if constexpr (Rolling) {
+      trial.moment = Kept::limited(trial.moment, moment_limit(law.grain, motion.common_radius, force.normal), law.moments);
+      force.moment = Kept::number(trial.moment, law.moments);
+    }
+    return force;
   }
 
   /// The unbonded law on every entry; with `replace` the entries that are bonded are overruled by with_bond().
@@ -216,21 +242,22 @@ struct ContactKernel {
                                                           Viscosity const& dashpot, History& h, Own& own) const {
     if constexpr (Bond == BondKind::replace) return {};
     GrainTrial const trial = grain_trial(law, motion, h);
-    V const shear = Kept::number(trial.shear, law.forces), moment = Kept::number(trial.moment, law.moments);
-    ContactForce<V> const force = limit_grain_contact<Rolling, Friction>(law.grain, motion, shear, moment, dashpot);
-    if constexpr (Ledger) add_grain_losses(law, motion, shear, moment, h, force, own);
-    if constexpr (shears) h.shear = Kept::limited(trial.shear, force.shear, law.forces);
-    if constexpr (Rolling) h.moment = Kept::limited(trial.moment, force.moment, law.moments);
+    GrainTrial kept = trial;
+    ContactForce<V> const force = limit(law, motion, dashpot, kept);
+    if constexpr (Ledger) add_grain_losses(law, motion, trial, h, force, own);
+    if constexpr (shears) h.shear = kept.shear;
+    if constexpr (Rolling) h.moment = kept.moment;
     return force;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static BondTrial bond_trial(Constants const& law, ContactMotion<V> const& motion,
                                                           History const& h) {
     constexpr bool parallel = Bond == BondKind::parallel;
-    BondTrial trial{bond_increment(law.bond, motion, h.formation_overlap, h.width), Kept::none(), Kept::none()};
+    BondTrial trial{bond_springs(law.bond, motion, h.formation_overlap, h.width), Kept::none(), Kept::none()};
     ContactForce<V>& force = trial.bond.force;
-    trial.shear = Kept::advanced(parallel ? h.bond_shear : h.shear, force.shear, law.forces);
-    trial.moment = Kept::advanced(parallel ? h.bond_moment : h.moment, force.moment, law.moments);
+    ContactStiffness<V> const& k = trial.bond.stiffness;
+    trial.shear = Kept::advanced(parallel ? h.bond_shear : h.shear, k.shear, motion.shear_increment, law.forces);
+    trial.moment = Kept::advanced(parallel ? h.bond_moment : h.moment, k.rolling, motion.relative_rotation, law.moments);
     force.shear = Kept::number(trial.shear, law.forces);
     force.moment = Kept::number(trial.moment, law.moments);
     return trial;
@@ -254,14 +281,12 @@ struct ContactKernel {
               grain_part.moment + select(intact, bond.force.moment, zero)};
     } else {
       GrainTrial const grains = grain_trial(law, motion, h);
-      Stored const shear = Kept::choose(bonded, trial.shear, grains.shear),
-                   moment = Kept::choose(bonded, trial.moment, grains.moment);
-      V const trial_shear = Kept::number(shear, law.forces), trial_moment = Kept::number(moment, law.moments);
-      ContactForce<V> const unbonded =
-          limit_grain_contact<Rolling, shears>(law.grain, motion, trial_shear, trial_moment, dashpot);
-      if constexpr (Ledger) add_replace_losses(law, motion, bond, trial_shear, trial_moment, bonded, intact, unbonded, h, own);
-      h.shear = Kept::choose(intact, trial.shear, Kept::limited(shear, unbonded.shear, law.forces));
-      h.moment = Kept::choose(intact, trial.moment, Kept::limited(moment, unbonded.moment, law.moments));
+      GrainTrial const before{Kept::choose(bonded, trial.shear, grains.shear), Kept::choose(bonded, trial.moment, grains.moment)};
+      GrainTrial kept{before.shear, Rolling ? before.moment : Kept::none()};
+      ContactForce<V> const unbonded = limit(law, motion, dashpot, kept);
+      if constexpr (Ledger) add_replace_losses(law, motion, bond, before, bonded, intact, unbonded, h, own);
+      h.shear = Kept::choose(intact, trial.shear, kept.shear);
+      h.moment = Kept::choose(intact, trial.moment, kept.moment);
       return {select(intact, bond.force.normal, unbonded.normal), select(intact, bond.force.shear, unbonded.shear),
               select(intact, bond.force.moment, unbonded.moment)};
     }
@@ -328,19 +353,18 @@ struct ContactKernel {
 
   /// Work of slip and plastic rolling of a grain contact in this step, by the mean force over the step: exactly what leapfrog
   /// takes out.
-  KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(Constants const& law, ContactMotion<V> const& motion, V const& trial_shear,
-                                                    V const& trial_moment, History const& old, ContactForce<V> const& now,
-                                                    Own& own, VMask const& where = VMask(true)) const {
+  KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(Constants const& law, ContactMotion<V> const& motion, GrainTrial const& trial,
+                                                    History const& old, ContactForce<V> const& now, Own& own,
+                                                    VMask const& where = VMask(true)) const {
     V const zero(0), quarter = constant<V>(0.25);
     if constexpr (shears) {
-      V const slid = (trial_shear - now.shear) * V(1 / law.grain.shear_stiffness);
+      V const slid = (Kept::number(trial.shear, law.forces) - now.shear) * V(1 / law.grain.shear_stiffness);
       own.sliding += select(where, quarter * (Kept::number(old.shear, law.forces) + now.shear) * slid, zero);
     }
     if constexpr (Rolling) {
       V const stiffness = lane_max(rolling_stiffness(law.grain, motion.common_radius), V(least_divisor<R>));
-      own.rolling += select(
-          where, quarter * (Kept::number(old.moment, law.moments) + now.moment) * ((trial_moment - now.moment) / stiffness),
-          zero);
+      V const turned = (Kept::number(trial.moment, law.moments) - now.moment) / stiffness;
+      own.rolling += select(where, quarter * (Kept::number(old.moment, law.moments) + now.moment) * turned, zero);
     }
     if constexpr (Dashpot) {
       own.dashpot += select(where, constant<V>(0.5) * dashpot_loss(law.grain, motion, now.normal, law.dt), zero);
@@ -349,10 +373,10 @@ struct ContactKernel {
 
   /// The same for `replace`: unbonded pairs slide and roll; a bond that breaks swaps its energy for that of the grain contact.
   KOKKOS_FORCEINLINE_FUNCTION void add_replace_losses(Constants const& law, ContactMotion<V> const& motion,
-                                                      BondForce<V> const& trial, V const& trial_shear, V const& trial_moment,
-                                                      VMask const& bonded, VMask const& intact, ContactForce<V> const& unbonded,
-                                                      History const& old, Own& own) const {
-    add_grain_losses(law, motion, trial_shear, trial_moment, old, unbonded, own, !bonded);
+                                                      BondForce<V> const& trial, GrainTrial const& grains, VMask const& bonded,
+                                                      VMask const& intact, ContactForce<V> const& unbonded, History const& old,
+                                                      Own& own) const {
+    add_grain_losses(law, motion, grains, old, unbonded, own, !bonded);
     ContactForce<V> elastic{normal_force(law.grain, motion, Undamped()), unbonded.shear, Rolling ? unbonded.moment : V(0)};
     V const after = grain_energy(law.grain, elastic, grain_stiffness(law.grain, motion.overlap, motion.common_radius));
     own.breakage += select(bonded && !intact, constant<V>(0.5) * (spring_energy(trial.force, trial.stiffness) - after), V(0));

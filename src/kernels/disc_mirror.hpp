@@ -44,9 +44,17 @@ KOKKOS_FORCEINLINE_FUNCTION IntLanes difference(IntLanes a, IntLanes b) {
 }
 #endif
 
-/// Four numbers each of as many discs as FloatLanes hold.
-struct FourOfDiscs {
-  FloatLanes of[4];
+/// Halves of the rows of as many discs as FloatLanes hold. Named, not arrays: GCC keeps those in memory.
+struct PlacesOfDiscs {
+  FloatLanes x, y;  ///< in ticks, their bits
+  FloatLanes radius, omega;
+};
+struct MotionOfDiscs {
+  FloatLanes vx, vy, inverse_mass, inverse_inertia;
+};
+struct RowsOfDiscs {
+  PlacesOfDiscs places;
+  MotionOfDiscs motion;
 };
 
 KOKKOS_FORCEINLINE_FUNCTION float from_bits_of_one(std::int32_t bits) {
@@ -57,8 +65,7 @@ KOKKOS_FORCEINLINE_FUNCTION float from_bits_of_one(std::int32_t bits) {
 
 struct DiscMirror {
   static constexpr std::size_t row = 8;  ///< numbers a disc
-  // The first half of a row: x and y in ticks (their bits), radius [m], omega [rad/s]. The second: vx, vy [m/s], 1/m, 1/I.
-  static constexpr std::size_t contact = 0, motion = 4;
+  // The first half of a row is that of PlacesOfDiscs, in SI units but for the ticks, the second that of MotionOfDiscs.
   static constexpr int omega_at = 3, vx_at = 4, vy_at = 5, inverse_mass_at = 6, inverse_inertia_at = 7;
 
   Real tick = 1;              ///< [m]; 7 pm where the largest disc has 0.3 mm
@@ -79,92 +86,20 @@ struct DiscMirror {
 
   KOKKOS_FORCEINLINE_FUNCTION float* numbers() const { return reinterpret_cast<float*>(rows.data()); }
 
-  /// Half a row of each of the discs j[0 .. lanes).
-  KOKKOS_FORCEINLINE_FUNCTION FourOfDiscs gather(int const* j, std::size_t half) const {
-    float const* const from = numbers() + half;
-#if defined(CLATHRA_SIMD) && defined(__AVX2__)
-    return transposed(quads(from, j), quads(from, j + 1), quads(from, j + 2), quads(from, j + 3));
-#else
-    FourOfDiscs numbers;
-    for (std::size_t n = 0; n < 4; ++n) {
-      for (int l = 0; l < lane_count_of<float>; ++l) set_lane(numbers.of[n], l, from[row * static_cast<std::size_t>(j[l]) + n]);
-    }
-    return numbers;
-#endif
-  }
-
-  /// Half a row of each of the discs first .. first + lanes.
-  KOKKOS_FORCEINLINE_FUNCTION FourOfDiscs load(std::size_t first, std::size_t half) const {
-#if defined(CLATHRA_SIMD) && defined(__AVX2__)
-    float const* const from = numbers() + row * first + half;
-    constexpr int rows_apart[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    return transposed(quads(from, rows_apart), quads(from, rows_apart + 1), quads(from, rows_apart + 2),
-                      quads(from, rows_apart + 3));
-#else
-    FourOfDiscs numbers_;
-    for (std::size_t n = 0; n < 4; ++n) {
-      for (int l = 0; l < lane_count_of<float>; ++l)
-        set_lane(numbers_.of[n], l, numbers()[row * (first + static_cast<std::size_t>(l)) + half + n]);
-    }
-    return numbers_;
-#endif
-  }
-  /// The way back.
-  KOKKOS_FORCEINLINE_FUNCTION void store(std::size_t first, std::size_t half, FourOfDiscs const& four) const {
-    float* const to = numbers() + row * first + half;
-#if defined(CLATHRA_SIMD) && defined(__AVX2__)
-    auto const plain = [&](int n) { return static_cast<PlainVector<float>>(four.of[n]); };
-    FourOfDiscs const rows_of_four = transposed(plain(0), plain(1), plain(2), plain(3));
-    for (std::size_t k = 0; k < 4; ++k) {
-      PlainVector<float> const q = static_cast<PlainVector<float>>(rows_of_four.of[k]);
-#if defined(__AVX512F__)
-      _mm_store_ps(to + row * k, _mm512_extractf32x4_ps(q, 0));
-      _mm_store_ps(to + row * (k + 4), _mm512_extractf32x4_ps(q, 1));
-      _mm_store_ps(to + row * (k + 8), _mm512_extractf32x4_ps(q, 2));
-      _mm_store_ps(to + row * (k + 12), _mm512_extractf32x4_ps(q, 3));
-#else
-      _mm_store_ps(to + row * k, _mm256_extractf128_ps(q, 0));
-      _mm_store_ps(to + row * (k + 4), _mm256_extractf128_ps(q, 1));
-#endif
-    }
-#else
-    for (std::size_t n = 0; n < 4; ++n) {
-      for (int l = 0; l < lane_count_of<float>; ++l) to[row * static_cast<std::size_t>(l) + n] = lane(four.of[n], l);
-    }
-#endif
-  }
-
-#if defined(CLATHRA_SIMD) && defined(__AVX2__)
- private:
-  KOKKOS_FORCEINLINE_FUNCTION static __m128 four(float const* from, int disc) {
-    return _mm_load_ps(from + row * static_cast<std::uint32_t>(disc));
-  }
-#if defined(__AVX512F__)
-  /// Four numbers each of the discs j[0], j[4], j[8] and j[12].
-  KOKKOS_FORCEINLINE_FUNCTION static __m512 quads(float const* from, int const* j) {
-    __m512 const two = _mm512_insertf32x4(_mm512_castps128_ps512(four(from, j[0])), four(from, j[4]), 1);
-    return _mm512_insertf32x4(_mm512_insertf32x4(two, four(from, j[8]), 2), four(from, j[12]), 3);
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static FourOfDiscs transposed(__m512 a, __m512 b, __m512 c, __m512 d) {
-    __m512 const ab_low = _mm512_unpacklo_ps(a, b), cd_low = _mm512_unpacklo_ps(c, d), ab_high = _mm512_unpackhi_ps(a, b),
-                 cd_high = _mm512_unpackhi_ps(c, d);
-    return {{FloatLanes(_mm512_shuffle_ps(ab_low, cd_low, 0x44)), FloatLanes(_mm512_shuffle_ps(ab_low, cd_low, 0xee)),
-             FloatLanes(_mm512_shuffle_ps(ab_high, cd_high, 0x44)), FloatLanes(_mm512_shuffle_ps(ab_high, cd_high, 0xee))}};
-  }
-#else
-  /// Four numbers each of the discs j[0] and j[4].
-  KOKKOS_FORCEINLINE_FUNCTION static __m256 quads(float const* from, int const* j) {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(four(from, j[0])), four(from, j[4]), 1);
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static FourOfDiscs transposed(__m256 a, __m256 b, __m256 c, __m256 d) {
-    __m256 const ab_low = _mm256_unpacklo_ps(a, b), cd_low = _mm256_unpacklo_ps(c, d), ab_high = _mm256_unpackhi_ps(a, b),
-                 cd_high = _mm256_unpackhi_ps(c, d);
-    return {{FloatLanes(_mm256_shuffle_ps(ab_low, cd_low, 0x44)), FloatLanes(_mm256_shuffle_ps(ab_low, cd_low, 0xee)),
-             FloatLanes(_mm256_shuffle_ps(ab_high, cd_high, 0x44)), FloatLanes(_mm256_shuffle_ps(ab_high, cd_high, 0xee))}};
-  }
-#endif
-#endif
+  /// The rows of the discs j[0 .. lanes), and their halves.
+  KOKKOS_FORCEINLINE_FUNCTION RowsOfDiscs gather(int const* j) const;
+  KOKKOS_FORCEINLINE_FUNCTION PlacesOfDiscs gather_places(int const* j) const;
+  KOKKOS_FORCEINLINE_FUNCTION MotionOfDiscs gather_motion(int const* j) const;
+  /// The rows of the discs first .. first + lanes, `first` a multiple of the lanes.
+  KOKKOS_FORCEINLINE_FUNCTION RowsOfDiscs load(std::size_t first) const;
+  KOKKOS_FORCEINLINE_FUNCTION void store(std::size_t first, RowsOfDiscs const& rows_of_discs) const;
 };
+
+}  // namespace clathra
+
+#include "kernels/mirror_rows.hpp"
+
+namespace clathra {
 
 /// As many numbers in double precision as FloatLanes hold.
 inline constexpr int halves = lane_count_of<float> / lane_count;

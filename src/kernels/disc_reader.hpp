@@ -25,8 +25,9 @@ struct DiscReader {
   };
   KOKKOS_FORCEINLINE_FUNCTION static Own own(ParticleSoA const& p, std::size_t first) {
     if constexpr (mixed) {
-      FourOfDiscs const at = p.mirror.load(first, DiscMirror::contact), moving = p.mirror.load(first, DiscMirror::motion);
-      return {bits_of(at.of[0]), bits_of(at.of[1]), moving.of[0], moving.of[1], at.of[3], at.of[2], moving.of[2]};
+      RowsOfDiscs const rows = p.mirror.load(first);
+      return {bits_of(rows.places.x), bits_of(rows.places.y), rows.motion.vx,          rows.motion.vy,
+              rows.places.omega,      rows.places.radius,     rows.motion.inverse_mass};
     } else {
       return {load(&p.x(first)),
               load(&p.y(first)),
@@ -39,33 +40,41 @@ struct DiscReader {
   }
 
   /// What the test for touch needs of the neighbours: branches [m], in mixed precision exact to half a tick at either end and
-  /// then rounded once, and radii; omega comes along in mixed precision.
+  /// then rounded once, and radii.
   struct Other {
-    V dx, dy, radius, omega;
+    V dx, dy, radius;
   };
-  KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own, R tick) {
-    if constexpr (mixed) {
-      FourOfDiscs const at = p.mirror.gather(j, DiscMirror::contact);
-      return {to_float(difference(bits_of(at.of[0]), own.x)) * tick, to_float(difference(bits_of(at.of[1]), own.y)) * tick,
-              at.of[2], at.of[3]};
-    } else {
-      return {gather(p.x.data(), j) - own.x, gather(p.y.data(), j) - own.y, gather(p.radius.data(), j), V(0)};
-    }
-  }
-
   struct OtherMotion {
     V vx, vy, omega, inverse_mass;
   };
-  KOKKOS_FORCEINLINE_FUNCTION static OtherMotion motion(ParticleSoA const& p, int const* j, [[maybe_unused]] Other const& other) {
+  /// @param wanted  whether the motion is needed for sure: in mixed precision it is read along;  @param motion  set then
+  KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own, R tick,
+                                                 [[maybe_unused]] bool wanted, [[maybe_unused]] OtherMotion& motion) {
     if constexpr (mixed) {
-#ifdef CLATHRA_SIMD
-      asm("" : "+r"(j));  // the indices are loaded again: there are no registers to keep sixteen in
-#endif
-      FourOfDiscs const at = p.mirror.gather(j, DiscMirror::motion);
-      return {at.of[0], at.of[1], other.omega, at.of[2]};
+      PlacesOfDiscs at;
+      if (wanted) {
+        RowsOfDiscs const rows = p.mirror.gather(j);
+        at = rows.places;
+        motion = {rows.motion.vx, rows.motion.vy, at.omega, rows.motion.inverse_mass};
+      } else {
+        at = p.mirror.gather_places(j);
+        motion.omega = at.omega;
+      }
+      return {to_float(difference(bits_of(at.x), own.x)) * tick, to_float(difference(bits_of(at.y), own.y)) * tick, at.radius};
     } else {
-      return {gather(p.vx.data<R>(), j), gather(p.vy.data<R>(), j), gather(p.omega.data<R>(), j),
-              Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
+      return {gather(p.x.data(), j) - own.x, gather(p.y.data(), j) - own.y, gather(p.radius.data(), j)};
+    }
+  }
+  /// Sets what other() has not.
+  KOKKOS_FORCEINLINE_FUNCTION static void complete(ParticleSoA const& p, int const* j, [[maybe_unused]] bool wanted,
+                                                   OtherMotion& motion) {
+    if constexpr (mixed) {
+      if (wanted) return;
+      MotionOfDiscs const read = p.mirror.gather_motion(j);
+      motion = {read.vx, read.vy, motion.omega, read.inverse_mass};
+    } else {
+      motion = {gather(p.vx.data<R>(), j), gather(p.vy.data<R>(), j), gather(p.omega.data<R>(), j),
+                Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
     }
   }
 

@@ -73,6 +73,17 @@ KOKKOS_FORCEINLINE_FUNCTION L dashpot_loss(GrainLawOf<R> const& law, ContactMoti
   return (normal - normal_force(law, motion, Undamped())) * (motion.closing_velocity * dt);
 }
 
+/// The largest |F_s| under a normal force [N/m] (Eq. 8b).
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L shear_limit(GrainLawOf<R> const& law, L const& normal) {
+  return law.friction * normal;
+}
+/// The largest |M|, F_n B_c / 6 [N m/m] (Eq. 8c).
+template <class R, class L>
+KOKKOS_FORCEINLINE_FUNCTION L moment_limit(GrainLawOf<R> const& law, L const& common_radius, L const& normal) {
+  return (law.shape_factor / 6) * common_radius * normal;
+}
+
 /// Eq. 8 with signed limits: F_n = k_n u_n >= 0; |F_s| <= mu F_n; |M| <= F_n B_c / 6. A contact with u_n <= 0 carries nothing.
 /// @param trial_shear,trial_moment  F_s + k_s Delta u_s and M + k_m Delta theta before the limits; for a bond that broke in
 ///                                  this step its own last forces, which are clipped to the limits and not reset
@@ -84,10 +95,8 @@ KOKKOS_FORCEINLINE_FUNCTION ContactForce<L> limit_grain_contact(GrainLawOf<R> co
   ContactForce<L> force;
   force.normal = normal_force(law, motion, dashpot);
   force.shear = force.moment = L(0);
-  if constexpr (Friction) force.shear = clamp_to(trial_shear, law.friction * force.normal);
-  if constexpr (Rolling) {
-    force.moment = clamp_to(trial_moment, (law.shape_factor / 6) * motion.common_radius * force.normal);
-  }
+  if constexpr (Friction) force.shear = clamp_to(trial_shear, shear_limit(law, force.normal));
+  if constexpr (Rolling) force.moment = clamp_to(trial_moment, moment_limit(law, motion.common_radius, force.normal));
   return force;
 }
 

@@ -13,10 +13,12 @@
 
 namespace clathra {
 
-/// The unit of a history, and what rounds this step's part of it.
+/// The unit of a history, what a step adds for a rate, and what rounds that.
 template <class R>
 struct HistoryScale {
-  R unit, per_unit, rounding;  ///< 0 <= rounding < 1
+  R unit, per_unit;
+  R per_rate;  ///< dt / unit: in mixed precision contacts know their motion as rates, and the step's length comes in here
+  R rounding;  ///< 0 <= rounding < 1
 };
 
 /// The fraction u of step number n: n times the golden section, to 24 bits, less its whole part.
@@ -37,13 +39,16 @@ struct HistoryOf<FullPrecision> {
   KOKKOS_FORCEINLINE_FUNCTION static void write(RealField const& field, std::size_t e, Value const& value) {
     store(field.data<double>() + e, value);
   }
-  KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, Lanes const& increment, HistoryScale<double> const&) {
-    return old + increment;
+  /// @param motion  during the step
+  template <class Stiffness>
+  KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, Stiffness const& stiffness, Lanes const& motion,
+                                                    HistoryScale<double> const&) {
+    return old + stiffness * motion;
   }
   KOKKOS_FORCEINLINE_FUNCTION static Lanes number(Value const& value, HistoryScale<double> const&) { return value; }
-  /// @param trial  advanced();  @param force  number(trial) within the limits of the law
-  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const&, Lanes const& force, HistoryScale<double> const&) {
-    return force;
+  /// @param limit  of the magnitude, >= 0
+  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, Lanes const& limit, HistoryScale<double> const&) {
+    return clamp_to(trial, limit);
   }
   KOKKOS_FORCEINLINE_FUNCTION static Value choose(Mask const& mask, Value const& yes, Value const& no) {
     return select(mask, yes, no);
@@ -75,6 +80,11 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes with_sign(float size, FloatLanes const& v
 KOKKOS_FORCEINLINE_FUNCTION IntLanes select_ints(MaskOf<FloatLanes> const& mask, IntLanes const& yes, IntLanes const& no) {
   return bits_of(select(mask, from_bits(yes), from_bits(no)));
 }
+/// `value` within [-limit, limit].
+KOKKOS_FORCEINLINE_FUNCTION IntLanes clamped(IntLanes const& value, IntLanes const& limit) {
+  IntLanes const below = value < limit ? value : limit;
+  return below > -limit ? below : -limit;
+}
 #else
 KOKKOS_FORCEINLINE_FUNCTION IntLanes load_ints(void const* from) {
   IntLanes value;
@@ -89,6 +99,10 @@ KOKKOS_FORCEINLINE_FUNCTION float to_float(IntLanes value) { return static_cast<
 KOKKOS_FORCEINLINE_FUNCTION IntLanes truncated(float value) { return static_cast<std::int32_t>(value); }
 KOKKOS_FORCEINLINE_FUNCTION float with_sign(float size, float value) { return std::copysign(size, value); }
 KOKKOS_FORCEINLINE_FUNCTION IntLanes select_ints(bool mask, IntLanes yes, IntLanes no) { return mask ? yes : no; }
+KOKKOS_FORCEINLINE_FUNCTION IntLanes clamped(IntLanes value, IntLanes limit) {
+  IntLanes const below = value < limit ? value : limit;
+  return below > -limit ? below : -limit;
+}
 #endif
 
 template <>
@@ -102,15 +116,19 @@ struct HistoryOf<MixedPrecision> {
   KOKKOS_FORCEINLINE_FUNCTION static void write(RealField const& field, std::size_t e, Value const& value) {
     store_ints(field.data<std::int32_t>() + e, value);
   }
-  KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, FloatLanes const& increment, Scale const& scale) {
-    FloatLanes const units = increment * scale.per_unit;
+  /// @param motion  its rate: the products of what is known early come first, since a step waits for this sum
+  template <class Stiffness>
+  KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, Stiffness const& stiffness, FloatLanes const& motion,
+                                                    Scale const& scale) {
+    FloatLanes const units = motion * (stiffness * scale.per_rate);
     return sum(old, truncated(units + with_sign(scale.rounding, units)));
   }
   KOKKOS_FORCEINLINE_FUNCTION static FloatLanes number(Value const& value, Scale const& scale) {
     return to_float(value) * scale.unit;
   }
-  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, FloatLanes const& force, Scale const& scale) {
-    return select_ints(force == number(trial, scale), trial, truncated(force * scale.per_unit));
+  /// Limits as whole units, towards zero: what is kept is what acts.
+  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, FloatLanes const& limit, Scale const& scale) {
+    return clamped(trial, truncated(lane_min(limit * scale.per_unit, FloatLanes(static_cast<float>(most_units)))));
   }
   KOKKOS_FORCEINLINE_FUNCTION static Value choose(MaskOf<FloatLanes> const& mask, Value const& yes, Value const& no) {
     return select_ints(mask, yes, no);

@@ -1,5 +1,7 @@
 #include "kernels/integrate.hpp"
 
+#include <algorithm>
+
 namespace clathra {
 
 namespace {
@@ -15,17 +17,6 @@ KOKKOS_FORCEINLINE_FUNCTION L kicked(L const& velocity, L const& frame, L const&
   return after;
 }
 
-/// How threads go through the groups of discs.
-struct Shares {
-  int groups, share;  ///< in all, and of a thread
-
-  /// A thread goes through its share backwards, since what the forces touched last is still in its cache.
-  KOKKOS_FUNCTION int backwards(int place) const {
-    int const first = place / share * share, next = first + share;
-    return first + (next < groups ? next : groups) - 1 - place;
-  }
-};
-
 /// What a step of motion needs to know, in either precision.
 struct Moving {
   ParticleSoA p;
@@ -34,7 +25,6 @@ struct Moving {
   AffineFrame frame;
   Field<Accum> lost_to_damping;
   Faults faults;
-  Shares shares;
 
   /// @param displacement  of the discs i .., of which those without a finite one are faults
   template <class L>
@@ -43,13 +33,37 @@ struct Moving {
       if (!(lane(displacement, l) < 1e5)) faults.report(Fault::not_finite, p.id(i + static_cast<std::size_t>(l)));
     }
   }
+  /// The displacements of owned discs; ghosts share the last group.
+  template <class L>
+  KOKKOS_FORCEINLINE_FUNCTION L of_owned(std::size_t i, L const& displacement) const {
+    constexpr int lanes = lane_count_of<scalar_of<L>>;
+    int const left = p.owned - static_cast<int>(i);
+    return left < lanes ? select(first_lanes<scalar_of<L>>(left), displacement, L(0)) : displacement;
+  }
 };
 
-/// One group of discs: kick and drift.
+/// Numbers of a step, on the stack of who goes through many groups, where no store can change them.
+template <class R>
+struct MotionConstants {
+  R damping, kick, pull_x, pull_y;
+  Real drift;
+  AffineFrame frame;
+  explicit KOKKOS_FUNCTION MotionConstants(Moving const& m)
+      : damping(static_cast<R>(m.law.damping)),
+        kick(static_cast<R>(m.dt.kick)),
+        pull_x(static_cast<R>(m.law.gravity_x * m.dt.kick)),
+        pull_y(static_cast<R>(m.law.gravity_y * m.dt.kick)),
+        drift(m.dt.drift),
+        frame(m.frame) {}
+};
+
+/// Kick and drift.
 template <bool Ledger>
 struct KickAndDrift : Moving {
-  KOKKOS_FUNCTION void operator()(int place, Real& largest_displacement) const {
-    auto const i = static_cast<std::size_t>(shares.backwards(place)) * lane_count;
+  using R = Real;
+
+  /// One group of discs, from i on. @return their displacements [m]
+  KOKKOS_FORCEINLINE_FUNCTION Lanes step(MotionConstants<R> const& by, std::size_t i) const {
     Lanes const inverse_mass = load(p.inverse_mass.data<Real>() + i);
     auto const free = inverse_mass > Lanes(0);  // padding discs have none
     Lanes lost(0);
@@ -58,80 +72,93 @@ struct KickAndDrift : Moving {
     Real* const omega_of = p.omega.data<Real>() + i;
     Lanes const fx = load(p.force_x.data<Real>() + i), fy = load(p.force_y.data<Real>() + i);
     Lanes const x0 = load(&p.x(i)), y0 = load(&p.y(i));
-    Lanes const vx = kicked<Ledger>(load(vx_of), frame.velocity_x(x0), fx, inverse_mass, law.damping, dt.kick, lost) +
-                     select(free, Lanes(law.gravity_x * dt.kick), Lanes(0));
-    Lanes const vy = kicked<Ledger>(load(vy_of), frame.velocity_y(y0), fy, inverse_mass, law.damping, dt.kick, lost) +
-                     select(free, Lanes(law.gravity_y * dt.kick), Lanes(0));
+    Lanes const vx = kicked<Ledger>(load(vx_of), by.frame.velocity_x(x0), fx, inverse_mass, by.damping, by.kick, lost) +
+                     select(free, Lanes(by.pull_x), Lanes(0));
+    Lanes const vy = kicked<Ledger>(load(vy_of), by.frame.velocity_y(y0), fy, inverse_mass, by.damping, by.kick, lost) +
+                     select(free, Lanes(by.pull_y), Lanes(0));
     Lanes const omega = kicked<Ledger>(load(omega_of), Lanes(0), load(p.torque.data<Real>() + i),
-                                       load(p.inverse_inertia.data<Real>() + i), law.damping, dt.kick, lost);
-    Lanes const x = x0 + vx * dt.drift, y = y0 + vy * dt.drift;
+                                       load(p.inverse_inertia.data<Real>() + i), by.damping, by.kick, lost);
+    Lanes const x = x0 + vx * by.drift, y = y0 + vy * by.drift;
     store(vx_of, vx);
     store(vy_of, vy);
     store(omega_of, omega);
     store(&p.x(i), x);
     store(&p.y(i), y);
-    store(&p.angle(i), load(&p.angle(i)) + omega * dt.drift);
+    store(&p.angle(i), load(&p.angle(i)) + omega * by.drift);
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
-
-    Lanes displacement = lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
-    for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l)
-      set_lane(displacement, l, 0);  // ghosts share the last group
-    if (any(!(displacement < Lanes(1e5)))) report(i, displacement);
-    largest_displacement = lane_max(largest_displacement, largest(select(displacement > Lanes(0), displacement, Lanes(0))));
+    return lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
   }
 };
 
 /// The same in mixed precision: velocities in single precision, places and angles in double.
 template <bool Ledger>
 struct KickAndDriftMixed : Moving {
+  using R = float;
   using V = FloatLanes;
-  Real per_tick;
 
-  KOKKOS_FUNCTION void operator()(int place, Real& largest_displacement) const {
-    constexpr int lanes = lane_count_of<float>;
-    auto const i = static_cast<std::size_t>(shares.backwards(place)) * lanes;
-    FourOfDiscs at = p.mirror.load(i, DiscMirror::contact), moving = p.mirror.load(i, DiscMirror::motion);
-    V &vx = moving.of[0], &vy = moving.of[1], &omega = at.of[3];
-    V const inverse_mass = moving.of[2], inverse_inertia = moving.of[3];
+  KOKKOS_FORCEINLINE_FUNCTION V step(MotionConstants<R> const& by, std::size_t i) const {
+    RowsOfDiscs rows = p.mirror.load(i);
+    {
+      std::size_t const back = i >= 256 ? i - 256 : 0;
+      for (std::size_t line = 0; line < 8; ++line) prefetch(p.mirror.numbers() + back * DiscMirror::row + line * 16);
+    }
+    V &vx = rows.motion.vx, &vy = rows.motion.vy, &omega = rows.places.omega;
+    V const inverse_mass = rows.motion.inverse_mass, inverse_inertia = rows.motion.inverse_inertia;
     LanesOfHalves x = load_halves(&p.x(i)), y = load_halves(&p.y(i)), frame_x, frame_y;
     for (int h = 0; h < halves; ++h) {
-      frame_x.of[h] = frame.velocity_x(x.of[h]);
-      frame_y.of[h] = frame.velocity_y(y.of[h]);
+      frame_x.of[h] = by.frame.velocity_x(x.of[h]);
+      frame_y.of[h] = by.frame.velocity_y(y.of[h]);
     }
     auto const free = inverse_mass > V(0);  // padding discs have none
-    auto const alpha = static_cast<float>(law.damping), kick = static_cast<float>(dt.kick);
-    auto const pulled = [&](Real gravity) { return select(free, constant<V>(gravity * dt.kick), V(0)); };
     V lost(0);
-    vx = kicked<Ledger>(vx, in_single(frame_x), load(p.force_x.data<float>() + i), inverse_mass, alpha, kick, lost) +
-         pulled(law.gravity_x);
-    vy = kicked<Ledger>(vy, in_single(frame_y), load(p.force_y.data<float>() + i), inverse_mass, alpha, kick, lost) +
-         pulled(law.gravity_y);
-    omega = kicked<Ledger>(omega, V(0), load(p.torque.data<float>() + i), inverse_inertia, alpha, kick, lost);
-    add(&p.angle(i), load_halves(&p.angle(i)), omega);
-    x = add(&p.x(i), x, vx);
-    y = add(&p.y(i), y, vy);
-    at.of[0] = ticks_of(x, per_tick);
-    at.of[1] = ticks_of(y, per_tick);
-    p.mirror.store(i, DiscMirror::contact, at);
-    p.mirror.store(i, DiscMirror::motion, moving);
+    vx = kicked<Ledger>(vx, in_single(frame_x), load(p.force_x.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
+         select(free, V(by.pull_x), V(0));
+    vy = kicked<Ledger>(vy, in_single(frame_y), load(p.force_y.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
+         select(free, V(by.pull_y), V(0));
+    omega = kicked<Ledger>(omega, V(0), load(p.torque.data<float>() + i), inverse_inertia, by.damping, by.kick, lost);
+    move(&p.angle(i), load_halves(&p.angle(i)), omega, by.drift);
+    x = move(&p.x(i), x, vx, by.drift);
+    y = move(&p.y(i), y, vy, by.drift);
+    Real const per_tick = 1 / p.mirror.tick;
+    rows.places.x = ticks_of(x, per_tick);
+    rows.places.y = ticks_of(y, per_tick);
+    p.mirror.store(i, rows);
     if constexpr (Ledger) book(lost_to_damping, i, lost);
-
     // At least the way: more by a millionth than its rounding takes away.
-    V displacement = (lane_abs(vx) + lane_abs(vy)) * constant<V>(dt.drift * (1 + 1e-6)) + lane_abs(omega) * V(0);
-    for (auto l = p.owned - static_cast<int>(i); l < lanes; ++l) set_lane(displacement, l, 0.0F);
-    if (any(!(displacement < constant<V>(1e5)))) report(i, displacement);
-    largest_displacement = lane_max(largest_displacement, Real(largest(select(displacement > V(0), displacement, V(0)))));
+    return (lane_abs(vx) + lane_abs(vy)) * constant<V>(by.drift * (1 + 1e-6)) + lane_abs(omega) * V(0);
   }
 
  private:
   /// Moves places (or angles) on and stores them.
-  KOKKOS_FORCEINLINE_FUNCTION LanesOfHalves add(double* to, LanesOfHalves places, V const& velocity) const {
+  KOKKOS_FORCEINLINE_FUNCTION static LanesOfHalves move(double* to, LanesOfHalves places, V const& velocity, Real drift) {
     LanesOfHalves const rate = in_double(velocity);
     for (int h = 0; h < halves; ++h) {
-      places.of[h] = places.of[h] + rate.of[h] * dt.drift;
+      places.of[h] = places.of[h] + rate.of[h] * drift;
       store(to + h * lane_count, places.of[h]);
     }
     return places;
+  }
+};
+
+/// The groups of one thread, backwards, since what the forces touched last is still in its cache.
+template <class Kernel>
+struct ByShares {
+  Kernel kernel;
+  int groups, share;  ///< in all, and of a thread
+
+  KOKKOS_FUNCTION void operator()(int n, Real& largest_displacement) const {
+    using R = typename Kernel::R;
+    using V = LanesOf<R>;
+    MotionConstants<R> const by(kernel);
+    int const first = n * share, next = first + share < groups ? first + share : groups;
+    V most(0);
+    for (int group = next - 1; group >= first; --group) {
+      auto const i = static_cast<std::size_t>(group) * lane_count_of<R>;
+      V const displacement = kernel.of_owned(i, kernel.step(by, i));
+      if (any(!(displacement < constant<V>(1e5)))) kernel.report(i, displacement);
+      most = lane_max(displacement, most);  // not one that is no number
+    }
+    largest_displacement = lane_max(largest_displacement, Real(largest(most)));
   }
 };
 
@@ -141,17 +168,16 @@ Real integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
                EnergyLosses const& losses, Faults const& faults) {
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
-  int const threads = ExecutionSpace().concurrency();
-  Shares const shares{groups, (groups + threads - 1) / threads};
+  int const share = std::max(1, (groups + ExecutionSpace().concurrency() - 1) / ExecutionSpace().concurrency());
   Real largest_displacement = 0;
-  auto const run = [&](auto const& kernel) {
-    Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, groups), kernel,
-                            Kokkos::Max<Real>(largest_displacement));
+  auto const run = [&]<class Kernel>(Kernel const& kernel) {
+    Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, (groups + share - 1) / share),
+                            ByShares<Kernel>{kernel, groups, share}, Kokkos::Max<Real>(largest_displacement));
   };
-  Moving const moving{particles, law, dt, frame, losses.damping, faults, shares};
+  Moving const moving{particles, law, dt, frame, losses.damping, faults};
   auto const run_with = [&](auto ledger) {
     if (mixed) {
-      run(KickAndDriftMixed<ledger()>{moving, 1 / particles.mirror.tick});
+      run(KickAndDriftMixed<ledger()>{moving});
     } else {
       run(KickAndDrift<ledger()>{moving});
     }

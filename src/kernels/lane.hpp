@@ -184,8 +184,9 @@ KOKKOS_FORCEINLINE_FUNCTION R largest(Simd<R, Abi> const& value) {
   return stdx::hmax(value);
 }
 /// The mask of the lanes 0 .. count - 1.
-KOKKOS_FORCEINLINE_FUNCTION Mask first_lanes(int count) {
-  return Lanes([](auto l) { return Real(l); }) < Lanes(count);
+template <class R = Real>
+KOKKOS_FORCEINLINE_FUNCTION MaskOf<LanesOf<R>> first_lanes(int count) {
+  return LanesOf<R>([](auto l) { return R(l); }) < LanesOf<R>(static_cast<R>(count));
 }
 /// Writes from[l] of all lanes l that are set side by side to `to`, in order; what stands behind them, up to to[lane_count - 1],
 /// may be overwritten.
@@ -234,7 +235,10 @@ template <class R>
 KOKKOS_FORCEINLINE_FUNCTION R largest(R value) {
   return value;
 }
-KOKKOS_FORCEINLINE_FUNCTION bool first_lanes(int count) { return count > 0; }
+template <class R = Real>
+KOKKOS_FORCEINLINE_FUNCTION bool first_lanes(int count) {
+  return count > 0;
+}
 KOKKOS_FORCEINLINE_FUNCTION int pack_set(bool mask, int const* from, int* to) {
   if (mask) *to = *from;
   return mask ? 1 : 0;
