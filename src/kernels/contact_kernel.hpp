@@ -47,6 +47,7 @@ struct ContactKernel {
   BreakLog breaks;
   EnergyLosses losses;
   Faults faults;
+  std::size_t discs_ahead;  ///< that are fetched before a neighbour needs them, discs_ahead()
 
   /// State of the group's own discs and what has been summed for them.
   struct Own {
@@ -67,7 +68,7 @@ struct ContactKernel {
     int const slice = group / (slice_width / lanes);
     Constants const law = constants;
     Own own = load_own(first);
-    Discs::fetch_ahead(p, first);
+    Discs::fetch_ahead(p, first, discs_ahead);
     // Entries out of touch stay so nearly always, and those that carry a history still do: a branch on what the last step found
     // is foreseen, one on the distances is not.
     int const begin = rows.slice_start(slice), end = rows.slice_start(slice + 1);

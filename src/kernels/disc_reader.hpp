@@ -88,9 +88,9 @@ struct DiscReader {
 
   /// Neighbours lie scattered, and a load that waits for the outer caches holds up everything behind it. So the discs some groups
   /// ahead are fetched in their order, before a neighbour needs them.
-  KOKKOS_FORCEINLINE_FUNCTION static void fetch_ahead(ParticleSoA const& p, std::size_t first) {
-    constexpr std::size_t discs_ahead = 512;
-    std::size_t const wanted = first + discs_ahead, last = p.x.extent(0) - 1;
+  /// @param ahead  how many discs, discs_ahead()
+  KOKKOS_FORCEINLINE_FUNCTION static void fetch_ahead(ParticleSoA const& p, std::size_t first, std::size_t ahead) {
+    std::size_t const wanted = first + ahead, last = p.x.extent(0) - 1;
     std::size_t const i = wanted < last ? wanted : last;
     if constexpr (mixed) {
       for (std::size_t line = 0; line < lanes * DiscMirror::row * sizeof(float) / 64; ++line)
