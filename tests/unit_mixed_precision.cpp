@@ -105,6 +105,19 @@ Simulation pair_at(Specimen const& s, double skin) {
   return sim;
 }
 
+/// Its ticks look like those of any place, and its velocity is one.
+TEST(MixedPrecision, FindsADiscWhosePlaceIsNoNumber) {
+  for (double const nowhere : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    Simulation sim = pair_at(two_discs(-1e-5), 1e-5);
+    sim.time_step = 1e-7;
+    assign(sim.particles().x, index_of(sim, 1), nowhere);
+    auto const go_on = [&] {
+      for (int n = 0; n < 100; ++n) sim.step();
+    };
+    EXPECT_THROW(go_on(), Diverged) << nowhere;
+  }
+}
+
 /// Whatever the contact kernel takes for a touch is listed, at no skin to speak of.
 TEST(RoundingSlack, ListsEveryPairThatTheKernelTakesForTouching) {
   double const radius = static_cast<double>(8.47e-5F) - 3.4e-12;  // a float is larger

@@ -109,11 +109,12 @@ struct KickAndDriftMixed : Moving {
       frame_x.of[h] = by.frame.velocity_x(x.of[h]);
       frame_y.of[h] = by.frame.velocity_y(y.of[h]);
     }
+    V const of_frame_x = in_single(frame_x), of_frame_y = in_single(frame_y);
     auto const free = inverse_mass > V(0);  // padding discs have none
     V lost(0);
-    vx = kicked<Ledger>(vx, in_single(frame_x), load(p.force_x.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
+    vx = kicked<Ledger>(vx, of_frame_x, load(p.force_x.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
          select(free, V(by.pull_x), V(0));
-    vy = kicked<Ledger>(vy, in_single(frame_y), load(p.force_y.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
+    vy = kicked<Ledger>(vy, of_frame_y, load(p.force_y.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
          select(free, V(by.pull_y), V(0));
     omega = kicked<Ledger>(omega, V(0), load(p.torque.data<float>() + i), inverse_inertia, by.damping, by.kick, lost);
     move(&p.angle(i), load_halves(&p.angle(i)), omega, by.drift);
@@ -124,8 +125,10 @@ struct KickAndDriftMixed : Moving {
     rows.places.y = ticks_of(y, per_tick);
     p.mirror.store(i, rows);
     if constexpr (Ledger) book(lost_to_damping, i, lost);
-    // At least the way: more by a millionth than its rounding takes away.
-    return (lane_abs(vx) + lane_abs(vy)) * constant<V>(by.drift * (1 + 1e-6)) + lane_abs(omega) * V(0);
+    // At least the way: more by a millionth than its rounding takes away. No number where a spin or a place is none, whose frame
+    // has no velocity either.
+    return (lane_abs(vx) + lane_abs(vy)) * constant<V>(by.drift * (1 + 1e-6)) +
+           (lane_abs(omega) + lane_abs(of_frame_x) + lane_abs(of_frame_y)) * V(0);
   }
 
  private:
