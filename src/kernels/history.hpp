@@ -80,11 +80,6 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes with_sign(float size, FloatLanes const& v
 KOKKOS_FORCEINLINE_FUNCTION IntLanes select_ints(MaskOf<FloatLanes> const& mask, IntLanes const& yes, IntLanes const& no) {
   return bits_of(select(mask, from_bits(yes), from_bits(no)));
 }
-/// `value` within [-limit, limit].
-KOKKOS_FORCEINLINE_FUNCTION IntLanes clamped(IntLanes const& value, IntLanes const& limit) {
-  IntLanes const below = value < limit ? value : limit;
-  return below > -limit ? below : -limit;
-}
 #else
 KOKKOS_FORCEINLINE_FUNCTION IntLanes load_ints(void const* from) {
   IntLanes value;
@@ -99,11 +94,12 @@ KOKKOS_FORCEINLINE_FUNCTION float to_float(IntLanes value) { return static_cast<
 KOKKOS_FORCEINLINE_FUNCTION IntLanes truncated(float value) { return static_cast<std::int32_t>(value); }
 KOKKOS_FORCEINLINE_FUNCTION float with_sign(float size, float value) { return std::copysign(size, value); }
 KOKKOS_FORCEINLINE_FUNCTION IntLanes select_ints(bool mask, IntLanes yes, IntLanes no) { return mask ? yes : no; }
-KOKKOS_FORCEINLINE_FUNCTION IntLanes clamped(IntLanes value, IntLanes limit) {
+#endif
+/// `value` within [-limit, limit].
+KOKKOS_FORCEINLINE_FUNCTION IntLanes clamped(IntLanes const& value, IntLanes const& limit) {
   IntLanes const below = value < limit ? value : limit;
   return below > -limit ? below : -limit;
 }
-#endif
 
 template <>
 struct HistoryOf<MixedPrecision> {

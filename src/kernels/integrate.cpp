@@ -98,10 +98,7 @@ struct KickAndDriftMixed : Moving {
 
   KOKKOS_FORCEINLINE_FUNCTION V step(MotionConstants<R> const& by, std::size_t i) const {
     RowsOfDiscs rows = p.mirror.load(i);
-    {
-      std::size_t const back = i >= 256 ? i - 256 : 0;
-      for (std::size_t line = 0; line < 8; ++line) prefetch(p.mirror.numbers() + back * DiscMirror::row + line * 16);
-    }
+    fetch_ahead(i);
     V &vx = rows.motion.vx, &vy = rows.motion.vy, &omega = rows.places.omega;
     V const inverse_mass = rows.motion.inverse_mass, inverse_inertia = rows.motion.inverse_inertia;
     LanesOfHalves x = load_halves(&p.x(i)), y = load_halves(&p.y(i)), frame_x, frame_y;
@@ -132,6 +129,13 @@ struct KickAndDriftMixed : Moving {
   }
 
  private:
+  /// Rows of discs that come later, backwards (docs/performance.md).
+  KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(std::size_t i) const {
+    constexpr std::size_t discs_ahead = 256, numbers_a_line = 16;
+    float const* const wanted = p.mirror.numbers() + DiscMirror::row * (i >= discs_ahead ? i - discs_ahead : 0);
+    for (std::size_t n = 0; n < DiscMirror::row * lane_count_of<R>; n += numbers_a_line) prefetch(wanted + n);
+  }
+
   /// Moves places (or angles) on and stores them.
   KOKKOS_FORCEINLINE_FUNCTION static LanesOfHalves move(double* to, LanesOfHalves places, V const& velocity, Real drift) {
     LanesOfHalves const rate = in_double(velocity);
