@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "kernels/bond_quick_test.hpp"
 #include "kernels/history.hpp"
@@ -59,7 +60,8 @@ TEST(FixedPointHistory, IsKeptWhereNoLimitCutsItAndTheLimitWhereOneDoes) {
   HistoryScale<float> const scale{0x1p-14F, 0x1p14F, 1, 0.5F};
   auto const limited = [&](std::int32_t trial, float limit) {
     std::int32_t value[lane_count_of<float>] = {trial};
-    store_ints(value, Kept::limited(load_ints(value), FloatLanes(limit), scale));
+    float const volatile at_run_time = limit;  // a compiler that folds the conversion of 1e34 makes another number of it
+    store_ints(value, Kept::limited(load_ints(value), FloatLanes(at_run_time), scale));
     return value[0];
   };
   for (std::int32_t const sign : {1, -1}) {
@@ -111,10 +113,13 @@ TEST(MixedPrecision, FindsADiscWhosePlaceIsNoNumber) {
     Simulation sim = pair_at(two_discs(-1e-5), 1e-5);
     sim.time_step = 1e-7;
     assign(sim.particles().x, index_of(sim, 1), nowhere);
-    auto const go_on = [&] {
+    std::string text = "none";
+    try {
       for (int n = 0; n < 100; ++n) sim.step();
-    };
-    EXPECT_THROW(go_on(), Diverged) << nowhere;
+    } catch (Diverged const& fault) {
+      text = fault.what();
+    }
+    EXPECT_NE(text.find("disc 1 has a position or velocity that is not finite"), std::string::npos) << nowhere << ": " << text;
   }
 }
 
