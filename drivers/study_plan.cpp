@@ -23,9 +23,12 @@ namespace fs = std::filesystem;
 constexpr std::string_view size_keys[] = {"sample.particles", "sample.void_ratio", "sample.width", "sample.height",
                                           "grading.d50"};
 
-/// Whether the making of a specimen could depend on a key. What is sheared, bonded and written later is not part of it.
+/// Whether the making of a specimen could depend on a key. What is sheared, bonded and written later is not part of it, nor what
+/// trades accuracy for speed: settings are compared on the same specimens.
 bool is_of_generation(std::string const& key) {
   if (key.starts_with("bond.")) return key == "bond.stress";
+  if (key.starts_with("run.")) return key == "run.seed";
+  if (key == "grains.contact_damping") return false;
   return !key.starts_with("hydrate.") && !key.starts_with("test.") && !key.starts_with("output.");
 }
 

@@ -134,7 +134,8 @@ TEST(Diverged, KnowsWhereADiscWasThatIsNowhere) {
   } catch (Diverged const& fault) {
     EXPECT_TRUE(std::isfinite(fault.x) && std::isfinite(fault.y)) << fault.what();
     EXPECT_NEAR(fault.x, x, 12 * grain_d50) << "it has spread from there";
-    EXPECT_TRUE(names(fault.what(), "discs are like it")) << fault.what();
+    // In mixed precision its neighbours see it at some whole number of ticks, and stay finite.
+    EXPECT_EQ(names(fault.what(), "discs are like it"), tested_precision() == Precision::full) << fault.what();
   }
 }
 

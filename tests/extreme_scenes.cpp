@@ -8,6 +8,7 @@
 #include "domain/scene/hydrate.hpp"
 #include "extreme_rows.hpp"
 #include "packing.hpp"
+#include "scenes.hpp"
 
 namespace clathra {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 /// Sand at 1 MPa to 1 % axial strain.
 Scene sand_scene() {
   Scene scene;
+  scene.run.precision = tested_precision();
   scene.test.axial_strain = 0.01;
   scene.test.inertial_number = 2e-4;
   scene.output.records = 20;
@@ -97,9 +99,15 @@ TEST(ExtremeScenes, FromOneKilopascalToAHundredMegapascals) {
   scene.sample.void_ratio = 0.34;
   scene.sample.layers = 1;
   scene.bond.stress = scene.test.confining_stress = 1e3;
+  if (tested_precision() == Precision::mixed) {
+    expect_refusal<Refused>("sigma_3 = 1 kPa in mixed precision, k_n/p = 3e5", "does not resolve",
+                            [&] { shear(scene, generate_specimen(scene, {}).specimen); });
+    scene.bond.stress = scene.test.confining_stress = 15e3;
+  }
   Shear const soft = shear(scene, generate_specimen(scene, {}).specimen);
-  expect_row("sigma_3 = 1 kPa", "energy residual over boundary work", soft.residual, 0, 2e-3);
-  expect_row("sigma_3 = 1 kPa", "peak q/p", soft.peak_ratio, 0.3, 1.5);
+  std::string const least = "sigma_3 = " + short_text(scene.test.confining_stress / 1e3) + " kPa";
+  expect_row(least, "energy residual over boundary work", soft.residual, 0, 2e-3);
+  expect_row(least, "peak q/p", soft.peak_ratio, 0.3, 1.5);
   scene = sand_scene();
   scene.test.confining_stress = 1e7;
   expect_row("sigma_3 = 10 MPa, k_n/p = 30", "peak q/p", expect_sound("sigma_3 = 10 MPa", scene).peak_ratio, 0.05, 1.5);

@@ -107,21 +107,23 @@ TEST(ExtremeStates, TheStepCounterPassesFourBillion) {
   Simulation sim = bonded(0.55, Composite::parallel);
   sim.choose_time_step({});
   sim.loading.y = AxisDrive::at_rate(200);
-  SimulationState late = sim.state();
+  SimulationState late = sim.state(), early = late;
   late.numbers["step"] = 4294967286.0;
-  Simulation other(late, sim.laws(), {});
+  early.numbers["step"] = -10;  // what mixed precision rounds by repeats itself after 2^32 steps
+  Simulation other(late, sim.laws(), {}), same(early, sim.laws(), {});
   for (int n = 0; n < 4000; ++n) {
-    sim.step();
+    same.step();
     other.step();
   }
   expect_row("step counter at 2^32 - 10", "steps after 4,000 more", static_cast<double>(other.steps()) - 4294967286.0, 4000,
              4000);
-  EXPECT_EQ(other.hash(), sim.hash());
+  EXPECT_EQ(other.hash(), same.hash());
   ASSERT_GT(other.broken_bonds(), 0);
   EXPECT_GT(other.break_events(0).back().step, 4294967296);
 }
 
-// Nothing but round-off of the positions may show: overlaps of 1e-6 m beside coordinates of 200 m.
+// Nothing but round-off of the positions may show: overlaps of 1e-6 m beside coordinates of 200 m. In mixed precision the ticks
+// fall elsewhere: 7 pm at either end of each of some six contacts, beside overlaps of 0.5 um.
 TEST(ExtremeStates, ABoxMovedByAMillionDiameters) {
   Simulation loaded(packing(), sand_laws(), 0.1 * packing().d50);
   SimulationLaws laws = loaded.laws();
@@ -144,7 +146,7 @@ TEST(ExtremeStates, ABoxMovedByAMillionDiameters) {
   Measures const m = here.measures();
   mean = m.stress_area_yy / m.touching / (2 * grain_radius);
   expect_row("a box moved by 1e6 diameters at 1 MPa", "largest change of a net force over the mean contact force", worst / mean,
-             0, 1e-6);
+             0, within(1e-6, 2e-4));
 }
 
 TEST(ExtremeStates, DenormalsInTheVelocities) {
@@ -214,9 +216,11 @@ std::vector<double> shear_forces(Simulation const& sim) {
 TEST(ExtremeStates, LongARestingBondedSpecimenKeepsItsForcesOverTenMillionSteps) {
   Simulation sim = bonded(0.55, Composite::parallel);
   sim.choose_time_step({});
-  for (int n = 0; n < 2000000 && sim.measures().unbalanced_ratio(sim.discs()) > 1e-10; n += 1000)
+  int const until_rest = tested_precision() == Precision::full ? 2000000 : 200000;  // in ticks rest is reached soon
+  for (int n = 0; n < until_rest && sim.measures().unbalanced_ratio(sim.discs()) > 1e-10; n += 1000)
     for (int k = 0; k < 1000; ++k) sim.step();
-  expect_row("a resting bonded specimen", "unbalanced ratio before", sim.measures().unbalanced_ratio(sim.discs()), 0, 1e-9);
+  expect_row("a resting bonded specimen", "unbalanced ratio before", sim.measures().unbalanced_ratio(sim.discs()), 0,
+             within(1e-9, 1e-4));
   std::vector<double> const before = shear_forces(sim);
   double const stress = sim.stress().y;
   for (int n = 0; n < 10000000; ++n) sim.step();
@@ -227,13 +231,14 @@ TEST(ExtremeStates, LongARestingBondedSpecimenKeepsItsForcesOverTenMillionSteps)
     mean += std::abs(before[k]) / static_cast<double>(before.size());
     worst = std::max(worst, std::abs(after[k] - before[k]));
   }
-  expect_row("after 1e7 steps", "largest change of a shear force over their mean", worst / mean, 0, 1e-6);
-  expect_row("after 1e7 steps", "stress over that before, less 1", std::abs(sim.stress().y / stress - 1), 0, 1e-6);
+  expect_row("after 1e7 steps", "largest change of a shear force over their mean", worst / mean, 0, within(1e-6, 1e-4));
+  expect_row("after 1e7 steps", "stress over that before, less 1", std::abs(sim.stress().y / stress - 1), 0, within(1e-6, 1e-5));
 }
 
 /// q/p at 0.3 % strain. @param nudge  of one disc [d50]
 double early_ratio(double inertial_number, double nudge) {
   Scene scene;
+  scene.run.precision = tested_precision();
   scene.test.axial_strain = 0.003;
   scene.test.inertial_number = inertial_number;
   scene.output.records = 1;

@@ -55,7 +55,7 @@ class RealField {
     }
   }
   KOKKOS_INLINE_FUNCTION double operator()(int i) const { return (*this)(static_cast<std::size_t>(i)); }
-  /// A number beyond single precision is kept as the mark of none, one beyond fixed point as the largest.
+  /// A number beyond single precision is kept as infinite, one beyond fixed point as the largest; no_bond as its own mark.
   KOKKOS_INLINE_FUNCTION void set(std::size_t i, double value) const {
     switch (format_.storage) {
       case Storage::as_double:
@@ -91,9 +91,10 @@ class RealField {
     return Field<T>(data<T>(), extent(0));
   }
 
-  KOKKOS_INLINE_FUNCTION static double from_single(float value) { return value < no_bond_single ? value : no_bond; }
+  // Only the mark itself becomes the other mark: what is beyond single precision becomes infinite, which is found as a fault.
+  KOKKOS_INLINE_FUNCTION static double from_single(float value) { return value == no_bond_single ? no_bond : value; }
   KOKKOS_INLINE_FUNCTION static float to_single(double value) {
-    return value > no_bond_single ? no_bond_single : static_cast<float>(value);
+    return value == no_bond ? no_bond_single : static_cast<float>(value);
   }
 
  private:

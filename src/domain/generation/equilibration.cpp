@@ -141,7 +141,7 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
 
 double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,
                               CompressionTarget const& target, ProgressCallback const& progress) {
-  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, scene.run.step_choice());
+  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, StepChoice{});
   AxisDrive const servo_x = simulation.loading.x, servo_y = simulation.loading.y;
   double const lowest = compress_until_void_ratio(simulation, scene, friction, target, progress);
   // With the full friction back the assembly creeps no further.

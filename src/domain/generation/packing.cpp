@@ -109,8 +109,8 @@ Specimen compacted_layers(Scene const& scene, SampleDesign const& design, Simula
     Simulation simulation(specimen, laws, loose_skin * specimen.d50, ranks);
     Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
-    compact(simulation, scene.run.step_choice(), under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed,
-            scene.bond.stress, speed, stage, counted);
+    compact(simulation, StepChoice{}, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, scene.bond.stress,
+            speed, stage, counted);
     disc_steps += simulation.steps() * simulation.discs();
     simulation.stop_discs();
     specimen = simulation.specimen();

@@ -163,7 +163,7 @@ PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, Pr
   if (design.void_ratio > 0.25) friction.shape_factor = 2;
   Simulation simulation(whole, generation_laws(scene, friction), 0.05 * d50, ranks);
   // The cell's equilibrium is kept inside; the walls close the cut discs' gaps at a speed whose wave stays below the stress.
-  prepare_servo(simulation, scene.bond.stress, 1e-3, d50, scene.run.step_choice());
+  prepare_servo(simulation, scene.bond.stress, 1e-3, d50, StepChoice{});
   double const quiet = 0.5 * scene.bond.stress / (simulation.density() / (1 + design.void_ratio) * wave_speed(simulation));
   simulation.loading.x.largest_speed = simulation.loading.y.largest_speed = quiet;
   for (std::int64_t n = 0; n < relaxation_steps; ++n) {

@@ -99,7 +99,7 @@ Key const table[] = {
   {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
   {"run.precision", choice, CLATHRA_CHOICE(run, precision), "numbers of consolidation and shear: forces, velocities and histories in 64 bits, or in 32 bits from exact differences of places, with sums and places in 64", ratio, 0, 0, {}, precisions},
   {"run.time_step", choice, CLATHRA_CHOICE(run, time_step), "time step: a share of the limit of stability, followed as that changes, or of an estimate when a stage begins, lowered where the limit asks for it", ratio, 0, 0, {}, step_rules},
-  {"run.dt_safety", quantity, CLATHRA_FIELD(run, dt_safety), "time step over that limit or estimate", ratio, 0.001, 1, "0.95 of the limit, 0.7 of the estimate"},
+  {"run.dt_safety", quantity, CLATHRA_FIELD(run, dt_safety), "time step over that limit or estimate, in consolidation and shear; specimens are made with the usual one", ratio, 0.001, 1, "0.95 of the limit, 0.7 of the estimate"},
   {"run.damping", quantity, CLATHRA_FIELD(run, damping), "local damping while the specimen is sheared", ratio, 0, 0.95},
   {"run.inertia_scaling", quantity, CLATHRA_FIELD(run, inertia_scaling), "moments of inertia over their own while the specimen is consolidated and sheared: rotation holds the time step down", ratio, 1, 10},
   {"run.mass_scaling", quantity, CLATHRA_FIELD(run, mass_scaling), "share of the discs, the smallest, that get the mass of the smallest other one, likewise", ratio, 0, 0.5},
