@@ -101,7 +101,9 @@ def ours_program():
 class Ours:
     name = "Clathra"
     laws = {"frictional": "springs, friction", "rolling": "springs, friction, rolling",
-            "bonded": "springs, friction, rolling, bonds (55 %)"}
+            "bonded": "springs, friction, rolling, bonds (55 %)",
+            "rolling-mixed": "springs, friction, rolling; mixed precision",
+            "bonded-mixed": "springs, friction, rolling, bonds (55 %); mixed precision"}
 
     def run(self, packing, law, cores, check, steps):
         log = packing.folder / f"clathra-{law}-{len(cores)}.log"

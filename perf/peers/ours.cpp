@@ -3,8 +3,8 @@
 ///     writes discs.txt (id x y radius), forces.txt (id fx fy) and bonds.txt (id id) there and prints the settings for the peers
 ///   peers_ours run SPECIMEN CASE DT CHECK STEPS
 ///     steps CHECK times, prints the contact stress, then times STEPS more
-/// CASE: frictional, rolling or bonded. Every run starts as the peers do: at rest, without history of the contacts, between four
-/// walls that stand still, and without damping.
+/// CASE: frictional, rolling or bonded, with -mixed behind it in mixed precision. Every run starts as the peers do: at rest,
+/// without history of the contacts, between four walls that stand still, and without damping.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -37,21 +37,25 @@ Specimen read_at_rest(char const* path) {
   return specimen;
 }
 
+/// A case without its precision.
+std::string law_of(std::string const& what) { return what.substr(0, what.find('-')); }
+
 Scene scene_of(Specimen const& specimen, std::string const& what) {
   Scene scene;
   scene.grains.density = specimen.density;
-  scene.grains.shape_factor = what == "frictional" ? 0 : scene.grains.shape_factor;
+  scene.grains.shape_factor = law_of(what) == "frictional" ? 0 : scene.grains.shape_factor;
   scene.bond.stress = specimen.stress;
-  scene.hydrate.saturation = what == "bonded" ? 0.55 : 0;
+  scene.hydrate.saturation = law_of(what) == "bonded" ? 0.55 : 0;
   return scene;
 }
 
 Simulation simulation_of(Specimen specimen, std::string const& what) {
   Scene const scene = scene_of(specimen, what);
   SimulationLaws laws;
+  laws.precision = what.ends_with("-mixed") ? Precision::mixed : Precision::full;
   laws.contact.grain = {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor, 0};
   laws.motion.damping = 0;
-  if (what == "bonded") {
+  if (law_of(what) == "bonded") {
     StageRecord record;
     bond_specimen(scene, specimen, record);
     laws.contact.bond_kind = BondKind::parallel;
