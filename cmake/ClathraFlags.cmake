@@ -16,7 +16,13 @@ target_compile_options(
   clathra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
                           -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 
-if(CLATHRA_NATIVE)
+# The same contract on a GPU. A fused operation would round the two sides of a pair differently, and a bond could break on one
+# side only. Whether host code is called from a kernel is no matter of taste: such a kernel does something else or nothing.
+if(CLATHRA_DEVICE STREQUAL "CUDA")
+  target_compile_options(clathra_flags INTERFACE -fmad=false -Werror=cross-execution-space-call)
+endif()
+
+if(CLATHRA_NATIVE AND NOT CLATHRA_DEVICE) # on a GPU's host nothing is vectorised, and nvcc does not read all that a processor has
   include(CheckCXXCompilerFlag)
   include(CheckCXXSourceCompiles)
   check_cxx_compiler_flag(-march=native CLATHRA_HAS_MARCH_NATIVE)

@@ -19,7 +19,10 @@ foreach(library HDF5 PNG Eigen3 Boost fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHAS
     list(APPEND missing ${library})
   endif()
 endforeach()
-if(missing)
+if(CLATHRA_DEVICE) # toml++ does not parse under nvcc
+  message(STATUS "Clathra: no io library and no driver with ${CLATHRA_DEVICE}")
+  set(CLATHRA_IO OFF)
+elseif(missing)
   list(JOIN missing ", " missing)
   message(STATUS "Clathra: no io library and no driver, not found: ${missing}")
   set(CLATHRA_IO OFF)

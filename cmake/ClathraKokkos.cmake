@@ -1,5 +1,6 @@
 # Makes the target Kokkos::kokkos and sets Kokkos_VERSION and, but for the third, Kokkos_DIR. Sources of Kokkos, in this order:
-#   1. an installed one (>= 3.4.1) that has OpenMP: Debian's libtrilinos-kokkos-dev is Serial only and is refused
+#   1. an installed one (>= 3.4.1) that has OpenMP: Debian's libtrilinos-kokkos-dev is Serial only and is refused. Where
+#      CLATHRA_DEVICE names a GPU it must be one for that, and there is no other source.
 #   2. the one built earlier, or now, into the cache folder from Debian's source package (scripts/kokkos)
 #   3. the upstream release, pinned by its hash
 # CLATHRA_KOKKOS names one of them to skip the search.
@@ -10,11 +11,13 @@ set(CLATHRA_KOKKOS_URL "https://github.com/kokkos/kokkos/releases/download/4.7.0
     CACHE STRING "Upstream release of Kokkos")
 set(CLATHRA_KOKKOS_SHA256 404cf33e76159e83b8b4ad5d86f6899d442b5da4624820ab457412116cdcd201
     CACHE STRING "SHA-256 of the upstream release")
+set(CLATHRA_DEVICE "" CACHE STRING "What kernels run on: CUDA or HIP by a Kokkos for it (docs/gpu.md), empty for the processor")
+set_property(CACHE CLATHRA_DEVICE PROPERTY STRINGS "" CUDA HIP)
 mark_as_advanced(CLATHRA_KOKKOS_URL CLATHRA_KOKKOS_SHA256)
 
 set(kokkos_source "")
 
-if(CLATHRA_KOKKOS MATCHES "^(auto|installed)$")
+if(CLATHRA_DEVICE OR CLATHRA_KOKKOS MATCHES "^(auto|installed)$")
   # The probe looks in a folder scope of its own, so that the targets of a refused Kokkos do not stay behind.
   add_subdirectory(${PROJECT_SOURCE_DIR}/cmake/kokkos_probe ${PROJECT_BINARY_DIR}/kokkos_probe)
   if(kokkos_probe_accepts)
@@ -22,6 +25,9 @@ if(CLATHRA_KOKKOS MATCHES "^(auto|installed)$")
     find_package(Kokkos 3.4.1 CONFIG REQUIRED)
   else()
     unset(Kokkos_DIR CACHE)
+    if(CLATHRA_DEVICE)
+      message(FATAL_ERROR "Kokkos: ${kokkos_probe_answer}. Kokkos_ROOT names the folder that one with ${CLATHRA_DEVICE} was installed to.")
+    endif()
     if(CLATHRA_KOKKOS STREQUAL "installed")
       message(FATAL_ERROR "Kokkos: ${kokkos_probe_answer}. -DCLATHRA_REQUIRE_OPENMP=OFF accepts a Serial one.")
     endif()

@@ -204,10 +204,14 @@ Course move(Simulation&& sim, double dt, int steps) {
   sim.time_step = dt;
   double const elastic = sim.measures().grain_energy + sim.measures().bond_energy;
   ParticleSoA const& p = sim.particles();
+  auto const radius = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), p.radius);
+  std::vector<double> vx, omega;
   for (int i = 0; i < p.owned; ++i) {
-    p.vx.set(i, trace * (uniform_random(7, 1, i) - 0.5));
-    p.omega.set(i, trace / p.radius(i) * (uniform_random(7, 2, i) - 0.5));
+    vx.push_back(trace * (uniform_random(7, 1, i) - 0.5));
+    omega.push_back(trace / radius(i) * (uniform_random(7, 2, i) - 0.5));
   }
+  set_from_host(p.vx, vx);
+  set_from_host(p.omega, omega);
   Course m;
   std::vector<double> logs;
   double first = 0;

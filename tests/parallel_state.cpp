@@ -142,10 +142,10 @@ TEST(State, EveryBitOfAFieldChangesItsHash) {
   std::uint64_t const hash = sim.hash();
   for_each_field(sim.particles(), [&](DiscField const& about, auto const& field) {
     bool const whole = std::is_same_v<std::decay_t<decltype(field)>, Field<int>>;
-    double const before = field(17);
-    set(field, 17, whole ? before + 1 : std::nextafter(before, 1e6));
+    double const before = value(field, 17);
+    assign(field, 17, whole ? before + 1 : std::nextafter(before, 1e6));
     EXPECT_NE(sim.hash(), hash) << about.name;
-    set(field, 17, before);
+    assign(field, 17, before);
     EXPECT_EQ(sim.hash(), hash) << about.name;
   });
   for (ContactNumber const& number : contact_numbers) {

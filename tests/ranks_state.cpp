@@ -4,6 +4,7 @@
 
 #include "domain/measurement/snapshot.hpp"
 #include "golden_states.hpp"
+#include "on_host.hpp"
 #include "ranks_main.hpp"
 
 namespace clathra {
@@ -65,8 +66,9 @@ TEST(Ranks, FollowTheLimitOfStabilityAlike) {
 }
 
 std::int64_t neighbours_listed(Simulation const& sim) {
+  HostRows const rows(sim.rows());
   std::int64_t listed = 0;
-  for (int i = 0; i < sim.particles().owned; ++i) listed += sim.rows().length(i);
+  for (int i = 0; i < sim.particles().owned; ++i) listed += rows.length(i);
   return sim.ranks().sum(listed);
 }
 

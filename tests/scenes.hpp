@@ -176,7 +176,8 @@ inline int index_of(Simulation const& sim, int id) {
   }
   return -1;
 }
-inline double value(Field<Real> const& field, int index) {
+template <class T>
+double value(Field<T> const& field, int index) {
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field)(index);
 }
 inline double value(RealField const& field, int index) {
@@ -187,7 +188,10 @@ inline void assign(RealField const& field, int index, double to) {
   values[static_cast<std::size_t>(index)] = to;
   set_from_host(field, values);
 }
-inline void assign(Field<Real> const& field, int index, double to) { Kokkos::deep_copy(Kokkos::subview(field, index), to); }
+template <class T>
+void assign(Field<T> const& field, int index, double to) {
+  Kokkos::deep_copy(Kokkos::subview(field, index), static_cast<T>(to));
+}
 
 struct Disc {
   double x, y, vx, vy, omega, fx, fy, torque;

@@ -1,5 +1,6 @@
 /// What the rows keep beside the history, against doing without it.
 #include "kernels/spatial_order.hpp"
+#include "on_host.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -39,7 +40,7 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
   sim.request_rebuild();
   (void)sim.state();  // searches, and evaluates nothing behind that
-  ContactRows const& rows = sim.rows();
+  HostRows const rows(sim.rows());
   auto const carrying = [&](int i) {
     int count = 0;
     for (int k = 0; k < rows.length(i); ++k)
@@ -56,7 +57,8 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
 }
 
 /// The mean distance of two discs that are stored side by side [m].
-double mean_distance_in_storage(ParticleSoA const& p) {
+double mean_distance_in_storage(Simulation const& sim) {
+  HostDiscs const p(sim.particles());
   double sum = 0;
   for (int i = 1; i < p.owned; ++i) sum += std::hypot(p.x(i) - p.x(i - 1), p.y(i) - p.y(i - 1));
   return sum / (p.owned - 1);
@@ -67,7 +69,7 @@ TEST(ContactRows, AreSortedInSpaceAgainWithinSixteenSearches) {
   Simulation sim(hexagonal_patch(30, 30, 3 * grain_radius), sand_laws(), 0.1 * grain_d50);
   sim.time_step = 1e-9;
   ParticleSoA const& p = sim.particles();
-  double const sorted = mean_distance_in_storage(p);
+  double const sorted = mean_distance_in_storage(sim);
   std::vector<int> place;
   for (int i = 0; i < sim.discs(); ++i) place.push_back(i);
   shuffle(place, 1, 1);
@@ -85,9 +87,9 @@ TEST(ContactRows, AreSortedInSpaceAgainWithinSixteenSearches) {
     sim.step();
   };
   search();
-  EXPECT_GT(mean_distance_in_storage(p), 3 * sorted);
+  EXPECT_GT(mean_distance_in_storage(sim), 3 * sorted);
   for (int n = 0; n < 15; ++n) search();
-  EXPECT_LT(mean_distance_in_storage(p), 1.2 * sorted);
+  EXPECT_LT(mean_distance_in_storage(sim), 1.2 * sorted);
 }
 
 /// A large disc in the middle of rings of small ones; it touches every second one of the first.
@@ -108,7 +110,8 @@ Specimen large_disc_among_small_ones() {
 // Rows of any length, in order of ids: first those in touch.
 TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
   Simulation const sim(large_disc_among_small_ones(), sand_laws(), 0.1 * grain_d50);
-  ParticleSoA const& p = sim.particles();
+  HostDiscs const p(sim.particles());
+  HostRows const rows(sim.rows());
   int longest = 0;
   for (int i = 0; i < sim.discs(); ++i) {
     std::vector<std::pair<bool, int>> expected, listed;
@@ -117,8 +120,8 @@ TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
       if (j != i && gap < p.verlet_skin(i) + p.verlet_skin(j)) expected.push_back({gap >= 0, p.id(j)});
     }
     std::sort(expected.begin(), expected.end());
-    for (int k = 0; k < sim.rows().length(i); ++k) {
-      int const j = sim.rows().neighbour(sim.rows().entry(i, k));
+    for (int k = 0; k < rows.length(i); ++k) {
+      int const j = rows.neighbour(rows.entry(i, k));
       listed.push_back({std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j) >= 0, p.id(j)});
     }
     EXPECT_EQ(listed, expected) << "row of disc " << p.id(i);
@@ -130,8 +133,8 @@ TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
 TEST(ContactRows, KeepTheWidthThatTheLawGivesABond) {
   Simulation sim = crushed_packing(Composite::parallel);
   for (int n = 0; n < 200; ++n) sim.step();
-  ParticleSoA const& p = sim.particles();
-  ContactRows const& rows = sim.rows();
+  HostDiscs const p(sim.particles());
+  HostRows const rows(sim.rows());
   int bonds = 0;
   for (int i = 0; i < sim.discs(); ++i) {
     for (int k = 0; k < rows.length(i); ++k) {

@@ -20,7 +20,7 @@ struct Values {
 
 Field<Real> field_of(std::vector<double> const& values) {
   Field<Real> const field("values", values.size());
-  auto host = Kokkos::create_mirror_view(field);
+  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), field);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(field, host);
   return field;

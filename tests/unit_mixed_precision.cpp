@@ -136,7 +136,7 @@ TEST(RoundingSlack, ListsEveryPairThatTheKernelTakesForTouching) {
         add_disc(s, origin + distance * std::cos(angle), origin + distance * std::sin(angle), radius);
         Disc const pushed = disc(pair_at(s, 1e-5), 0);  // listed in any case
         if (pushed.fx == 0 && pushed.fy == 0) continue;
-        EXPECT_EQ(pair_at(s, 1e-15).rows().length(0), 1) << angle << ", " << origin << ", " << k;
+        EXPECT_EQ(value(pair_at(s, 1e-15).rows().length, 0), 1) << angle << ", " << origin << ", " << k;
         apart_but_touching += std::hypot(s.x[1] - s.x[0], s.y[1] - s.y[0]) > 2 * radius + 1e-14 ? 1 : 0;
       }
     }

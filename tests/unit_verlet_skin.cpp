@@ -1,5 +1,6 @@
 /// Verlet skins of discs: how far they may move beside their box before neighbours are searched again.
 #include "kernels/verlet_skin.hpp"
+#include "on_host.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -16,13 +17,7 @@ Specimen two_of_a_hundred_fly(double slow, double fast) {
   return s;
 }
 
-double skin_of(Simulation const& sim, int id) {
-  for (int i = 0; i < sim.discs(); ++i) {
-    if (sim.particles().id(i) == id) return sim.particles().verlet_skin(i);
-  }
-  ADD_FAILURE() << "no disc " << id;
-  return 0;
-}
+double skin_of(Simulation const& sim, int id) { return value(sim.particles().verlet_skin, index_of(sim, id)); }
 
 TEST(VerletSkin, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
   Simulation const sim(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
@@ -74,8 +69,7 @@ TEST(VerletSkin, OneDiscThatFliesSeldomCallsForASearch) {
   EXPECT_GE(sim.rebuilds() - before, way / (5.5 * h) - 3);
 }
 
-bool in_row(Simulation const& sim, int i, int j) {
-  ContactRows const& rows = sim.rows();
+bool in_row(HostRows const& rows, int i, int j) {
   for (int k = 0; k < rows.length(i); ++k) {
     if (rows.neighbour(rows.entry(i, k)) == j) return true;
   }
@@ -83,10 +77,9 @@ bool in_row(Simulation const& sim, int i, int j) {
 }
 
 template <class Visit>
-void for_each_pair(Simulation const& sim, Visit const& visit) {
-  ParticleSoA const& p = sim.particles();
-  for (int i = 0; i < sim.discs(); ++i) {
-    for (int j = 0; j < sim.discs(); ++j) {
+void for_each_pair(HostDiscs const& p, Visit const& visit) {
+  for (int i = 0; i < p.owned; ++i) {
+    for (int j = 0; j < p.owned; ++j) {
       if (i != j) visit(i, j, std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j));
     }
   }
@@ -94,11 +87,13 @@ void for_each_pair(Simulation const& sim, Visit const& visit) {
 
 TEST(VerletSkin, RowsReachAsFarAsBothSkinsTogether) {
   Simulation const sim(gas(), {}, 2 * h);
+  HostDiscs const discs(sim.particles());
+  HostRows const rows(sim.rows());
   int listed = 0;
-  for_each_pair(sim, [&](int i, int j, double gap) {
-    bool const near = gap < sim.particles().verlet_skin(i) + sim.particles().verlet_skin(j);
+  for_each_pair(discs, [&](int i, int j, double gap) {
+    bool const near = gap < discs.verlet_skin(i) + discs.verlet_skin(j);
     listed += near ? 1 : 0;
-    EXPECT_EQ(in_row(sim, i, j), near) << i << " and " << j;
+    EXPECT_EQ(in_row(rows, i, j), near) << i << " and " << j;
   });
   EXPECT_GT(listed, 30);
 }
@@ -111,10 +106,11 @@ TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   int touching = 0, missing = 0;
   for (int n = 0; n < 4000; ++n) {
     sim.step();
-    for_each_pair(sim, [&](int i, int j, double gap) {
+    HostRows const rows(sim.rows());
+    for_each_pair(HostDiscs(sim.particles()), [&](int i, int j, double gap) {
       if (gap >= 0) return;
       ++touching;
-      if (!in_row(sim, i, j)) ++missing;
+      if (!in_row(rows, i, j)) ++missing;
     });
   }
   EXPECT_EQ(missing, 0);
@@ -137,7 +133,8 @@ TEST(VerletSkin, OfAStateWithoutItIsThatOfDiscsAtRest) {
   std::uint64_t const hash = sim.hash();
   Simulation resumed(std::move(state), {}, {});
   EXPECT_EQ(resumed.hash(), hash);
-  for (int i = 0; i < resumed.discs(); ++i) EXPECT_EQ(resumed.particles().verlet_skin(i), h);
+  HostDiscs const discs(resumed.particles());
+  for (int i = 0; i < discs.owned; ++i) EXPECT_EQ(discs.verlet_skin(i), h);
 }
 
 TEST(VerletSkin, LeavesASmallPeriodicCellWideEnough) {
@@ -164,7 +161,7 @@ AffineFrame motion_since(Walls const& before, Walls const& now) {
 }
 
 /// The greatest non-affine displacement of a disc as a share of its skin.
-double greatest_displacement(ParticleSoA const& p, AffineFrame const& f) {
+double greatest_displacement(HostDiscs const& p, AffineFrame const& f) {
   double greatest = 0;
   for (int i = 0; i < p.owned; ++i) {
     double const x = f.centre_x + f.stretch_x * (p.reference_x(i) - f.reference_centre_x);
@@ -184,7 +181,7 @@ void expect_searches_in_time(Simulation& sim, int steps) {
     sim.step();
     if (sim.rebuilds() > searches) at_search = sim.walls();
     AffineFrame const motion = motion_since(at_search, sim.walls());
-    double const displacement = greatest_displacement(sim.particles(), motion);
+    double const displacement = greatest_displacement(HostDiscs(sim.particles()), motion);
     EXPECT_NEAR(std::sqrt(largest_nonaffine_displacement2(sim.particles(), sim.particles().reference_x,
                                                           sim.particles().reference_y, motion)),
                 displacement, 1e-9);

@@ -5,6 +5,8 @@
 /// rows, and the faster way still: no force is written for another disc, so nothing needs an atomic, a second pass or a
 /// colouring, each thread or GPU lane sums one disc in a fixed order, and ranks owe each other no forces. Bits then cannot depend
 /// on who computes what. Half rows were measured at 0.92 of the speed unbonded and 1.05 to 1.17 bonded (docs/performance.md).
+#include <type_traits>
+
 #include "kernels/bond_law.hpp"
 #include "kernels/countable.hpp"
 #include "kernels/particles.hpp"
@@ -93,6 +95,7 @@ inline NumberFormat kept(HistoryFormat const& format, HistoryField::Quantity qua
 /// The history of an entry, field by field, here and in kernels: visit(HistoryField, whether the features need it, the field of
 /// each of the rows, which have the same features). It drives allocation, the way through a neighbour search, the hash of the
 /// state, files, other ranks and byte counts.
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Visit, class... Rows>
 KOKKOS_INLINE_FUNCTION void for_each_possible_history(ContactFeatures const& f, Visit&& visit, Rows&... rows) {
   using enum HistoryField::Quantity;
@@ -103,16 +106,24 @@ KOKKOS_INLINE_FUNCTION void for_each_possible_history(ContactFeatures const& f, 
   visit(HistoryField{"bond_moment", moment, 0, true}, f.separate_bond, rows.bond_moment...);
 }
 
+/// Visits what is needed.
+template <class Visit>
+struct WhereNeeded {
+  Visit& visit;
+  CLATHRA_OF_THE_CALLERS_SIDE
+  template <class... Fields>
+  KOKKOS_INLINE_FUNCTION void operator()(HistoryField const& about, bool needed, Fields&... fields) const {
+    if (needed) visit(about, fields...);
+  }
+};
+
 /// Those that the features need, visit(HistoryField, field...). No other exists.
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Visit, class... Rows>
 KOKKOS_INLINE_FUNCTION void for_each_history(ContactFeatures const& features, Visit&& visit, Rows&... rows) {
-  for_each_possible_history(
-      features,
-      [&](HistoryField const& about, bool needed, auto&... fields) {
-        if (needed) visit(about, fields...);
-      },
-      rows...);
+  for_each_possible_history(features, WhereNeeded<std::remove_reference_t<Visit>>{visit}, rows...);
 }
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Rows, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_history(Rows& rows, Visit&& visit) {
   for_each_history(rows.features, visit, rows);

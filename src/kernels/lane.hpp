@@ -10,7 +10,7 @@
 #include "kernels/real.hpp"
 
 // With Clang and AVX-512 a masked choice of libstdc++ takes all lanes from one side (so says a FIXME in its _S_blend_avx512).
-#if !defined(CLATHRA_SCALAR_LANES) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && \
+#if !defined(CLATHRA_DEVICE_LIKE) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && \
     !defined(KOKKOS_ENABLE_SYCL) && !(defined(__clang__) && defined(__AVX512F__)) && __has_include(<experimental/simd>)
 #define CLATHRA_SIMD 1
 #pragma GCC diagnostic push
@@ -254,9 +254,7 @@ KOKKOS_FORCEINLINE_FUNCTION R gather(R const* field, int const* index) {
 /// Discs whose rows lie side by side in memory (contacts.hpp): a multiple of the lanes of the contact kernel, whose numbers are
 /// R. Nobody's bits know it.
 template <class R>
-#ifdef CLATHRA_SLICE_WIDTH
-inline constexpr int slice_width_of = CLATHRA_SLICE_WIDTH;
-#elif defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+#if defined(CLATHRA_DEVICE_LIKE) || defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
 inline constexpr int slice_width_of = 32;  // the threads that load together
 #else
 inline constexpr int slice_width_of = lane_count_of<R>;

@@ -52,6 +52,7 @@ inline constexpr Coord far_outside = 1e10;  ///< where padding discs are [m]
 
 /// The state of a disc, field by field, here and in kernels: visit(DiscField, field). It drives allocation, padding, permutation,
 /// ghosts, the hash of the state, files, other ranks and byte counts, so that a new field cannot be forgotten.
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Particles, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_field(Particles&& p, Visit&& visit) {
   visit(DiscField{"id", -1}, p.id);
@@ -67,6 +68,7 @@ KOKKOS_INLINE_FUNCTION void for_each_field(Particles&& p, Visit&& visit) {
 }
 
 /// Likewise what is computed from the state: the forces
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Particles, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_force(Particles& p, Visit&& visit) {
   visit(DiscField{"force_x"}, p.force_x);
@@ -74,12 +76,14 @@ KOKKOS_INLINE_FUNCTION void for_each_force(Particles& p, Visit&& visit) {
   visit(DiscField{"torque"}, p.torque);
 }
 /// and what the last neighbour search has left.
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Particles, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_mark_of_search(Particles& p, Visit&& visit) {
   visit(DiscField{"reference_x", far_outside}, p.reference_x);
   visit(DiscField{"reference_y", far_outside}, p.reference_y);
   visit(DiscField{"verlet_skin", 1}, p.verlet_skin);
 }
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Particles, class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_derived_field(Particles& p, Visit&& visit) {
   for_each_force(p, visit);

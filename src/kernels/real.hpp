@@ -27,11 +27,23 @@ struct MixedPrecision {
 };
 
 using ExecutionSpace = Kokkos::DefaultExecutionSpace;
+#ifdef CLATHRA_MEMORY_SPACE  // of tests, instead of the memory that kernels have (tests/device_like)
+using MemorySpace = CLATHRA_MEMORY_SPACE;
+#else
 using MemorySpace = ExecutionSpace::memory_space;
+#endif
 template <class T>
 using Field = Kokkos::View<T*, MemorySpace>;
 
 inline constexpr Real pi = 3.14159265358979323846;
+
+/// Before a function template that kernels and the host call alike with something to call in turn: what they give belongs to
+/// their side, which nvcc does not know and would warn of.
+#ifdef __NVCC__
+#define CLATHRA_OF_THE_CALLERS_SIDE _Pragma("nv_exec_check_disable")
+#else
+#define CLATHRA_OF_THE_CALLERS_SIDE
+#endif
 
 /// A field whose old contents are not wanted: allocated without the zero fill.
 template <class T>

@@ -73,7 +73,7 @@ void copy_pairs(Snapshot& s, Simulation const& simulation) {
   for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<double>(s.first_disc) + static_cast<double>(i);
   if (!simulation.ranks().alone()) {  // ghosts have the numbers that their owners gave them
     Field<double> const numbers("numbers", p.x.extent(0));
-    auto host = Kokkos::create_mirror_view(numbers);
+    auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), numbers);
     std::copy_n(number.begin(), p.owned, host.data());
     Kokkos::deep_copy(numbers, host);
     simulation.refresh_ghosts(numbers);

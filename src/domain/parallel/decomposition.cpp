@@ -164,7 +164,7 @@ void Decomposition::follow(AffineFrame const& f) {
 
 Decomposition::OwnerOf Decomposition::owner_of() const {
   OwnerOf owner{Field<Cut>("cuts", cuts_.size())};
-  auto host = Kokkos::create_mirror_view(owner.cuts);
+  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), owner.cuts);
   for (std::size_t k = 0; k < cuts_.size(); ++k) host(k) = cuts_[k];
   Kokkos::deep_copy(owner.cuts, host);
   return owner;

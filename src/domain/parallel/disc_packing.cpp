@@ -109,7 +109,7 @@ int history_columns(ContactFeatures const& features) {
 template <class T>
 Field<T> on_device(char const* label, std::vector<T> const& values) {
   Field<T> const field = uninitialised<T>(label, values.size());
-  auto host = Kokkos::create_mirror_view(field);
+  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), field);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(field, host);
   return field;
@@ -152,7 +152,7 @@ DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxi
   }
   records.numbers.resize(records.begin.back());
   auto const home = on_host_view(records.numbers);
-  auto const numbers = Kokkos::create_mirror_view(ExecutionSpace::memory_space(), home);  // itself where kernels reach the host
+  auto const numbers = Kokkos::create_mirror_view(MemorySpace(), home);  // itself where kernels reach the host
   using Numbers = std::remove_const_t<decltype(numbers)>;
   Offsets const begin = on_device("record_offsets", signed_offsets(records.begin));
   Kokkos::parallel_for("pack_discs", each, Pack<Numbers>{indices, particles, rows, others, begin, numbers});

@@ -122,7 +122,7 @@ void Halo::exchange_known(Ranks const& ranks, ParticleSoA const& particles, std:
   };
   for (AnyField const& column : columns) std::visit(pack, column);
   auto const host_out = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), out);
-  auto host_in = Kokkos::create_mirror_view(in);
+  auto host_in = Kokkos::create_mirror_view(Kokkos::HostSpace(), in);
   Kokkos::fence();
   Kokkos::Profiling::pushRegion("halo_trade");
   ranks.exchange_known(host_out.data(), times(sent_, columns.size()), host_in.data(), times(received_, columns.size()));

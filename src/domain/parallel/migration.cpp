@@ -29,7 +29,7 @@ std::vector<int> owners(Decomposition const& decomposition, ParticleSoA const& p
 /// Drops the discs that left: their rows stay in `old`, where no slot names them any more.
 void keep_only(std::vector<int> const& staying, ParticleSoA& particles, AuxiliaryFields const& auxiliary, Field<int>& slot) {
   Field<int> const order = uninitialised<int>("staying", staying.size());
-  auto host = Kokkos::create_mirror_view(order);
+  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), order);
   for (std::size_t k = 0; k < staying.size(); ++k) host(k) = staying[k];
   Kokkos::deep_copy(order, host);
   permute(particles, order);

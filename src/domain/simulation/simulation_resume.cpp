@@ -198,7 +198,7 @@ void Simulation::find_listed_neighbours() {
   }
   if (ranks_.any(lost)) throw std::runtime_error("a checkpoint's row names a neighbour that is not near");
   rows_.neighbour = uninitialised<int>("rows.neighbour", index.size());
-  auto host = Kokkos::create_mirror_view(rows_.neighbour);
+  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), rows_.neighbour);
   std::copy(index.begin(), index.end(), host.data());
   Kokkos::deep_copy(rows_.neighbour, host);
 }

@@ -17,7 +17,7 @@ namespace {
 /// Copies host values into the first `values.size()` places of a field.
 template <class T, class Number>
 void upload(Field<T> const& field, std::vector<Number> const& values) {
-  auto host = Kokkos::create_mirror_view(field);
+  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), field);
   Kokkos::deep_copy(host, field);
   std::copy(values.begin(), values.end(), host.data());
   Kokkos::deep_copy(field, host);

@@ -1,0 +1,43 @@
+/// What a device is asked to do for a step: each launch and each wait of the host has a price there.
+#include "device_like/host_access.hpp"
+#include "golden_states.hpp"
+
+namespace clathra {
+namespace {
+
+using device_like::LaunchCount;
+
+struct Asked {
+  LaunchCount::Counts launches, round_trips;
+  int allocations;
+};
+
+/// For steps without a search and without a look for faults.
+Asked for_steps(Precision precision, int steps) {
+  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
+  sim.loading.x = sim.loading.y = AxisDrive::held();
+  sim.set_skin(0.3 * grain_d50);
+  sim.step();
+  std::int64_t const searches = sim.rebuilds();
+  LaunchCount const count;
+  for (int n = 0; n < steps; ++n) sim.step();
+  EXPECT_EQ(sim.rebuilds(), searches);
+  return {count.launches(), count.round_trips(), count.allocations()};
+}
+
+class Launches : public testing::TestWithParam<Precision> {};
+INSTANTIATE_TEST_SUITE_P(, Launches, testing::Values(Precision::full, Precision::mixed),
+                         [](auto const& test) { return std::string(precision_names[static_cast<int>(test.param)]); });
+
+TEST_P(Launches, OfAStepAreThreeAndTwoOfThemMakeTheHostWait) {
+  Asked const asked = for_steps(GetParam(), 10);
+  LaunchCount::Counts const launches{
+      {"reduce kick_and_drift", 10}, {"for contact_forces_bonded", 10}, {"reduce wall_forces", 10}};
+  LaunchCount::Counts const waits{{"kick_and_drift", 10}, {"wall_forces", 10}};
+  EXPECT_EQ(asked.launches, launches);
+  EXPECT_EQ(asked.round_trips, waits);
+  EXPECT_EQ(asked.allocations, 0);
+}
+
+}  // namespace
+}  // namespace clathra
