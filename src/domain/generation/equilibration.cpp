@@ -42,13 +42,6 @@ void close_homogeneously(Simulation& simulation, double rate, double present_rat
   simulation.add_uniform_strain_rate(rate - present_rate, rate - present_rate);
 }
 
-/// The masses stay as they are.
-void set_friction(Simulation& simulation, Scene const& scene, GenerationFriction const& friction) {
-  SimulationLaws laws = generation_laws(scene, friction);
-  laws.scaling = simulation.laws().scaling;
-  simulation.set_laws(laws);
-}
-
 /// Closes the assembly to the target's void ratio, ever slower towards it, so that it arrives at rest: the force network of a
 /// flowing assembly would collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
 /// @return the lowest share of the friction that was needed
@@ -69,7 +62,7 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
     double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
     friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
     lowest = std::min(lowest, friction.share);
-    set_friction(simulation, scene, friction);
+    simulation.set_laws(generation_laws(scene, friction));
     if (friction.share < 1e-3 && mean_stress(simulation) > 4 * target.stress) {
       throw Refused("without friction these grains resist densification beyond a void ratio of " +
                     std::to_string(simulation.void_ratio()) + " at " + std::to_string(target.stress / 1e3) + " kPa; " +
@@ -114,11 +107,6 @@ SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& fri
   return laws;
 }
 
-MassScaling generation_masses(Grading const& grading) {
-  constexpr double inertia = 4, share = 0.3;
-  return {inertia, 0.5 * grading.diameter_finer(share)};
-}
-
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step) {
   simulation.choose_time_step(step);
   if (simulation.periodic()) return;
@@ -158,7 +146,7 @@ double compress_to_void_ratio(Simulation& simulation, Scene const& scene, Genera
   double const lowest = compress_until_void_ratio(simulation, scene, friction, target, progress);
   // With the full friction back the assembly creeps no further.
   friction.share = 1;
-  set_friction(simulation, scene, friction);
+  simulation.set_laws(generation_laws(scene, friction));
   simulation.loading.x = servo_x;
   simulation.loading.y = servo_y;
   hold_stress(simulation, target.stress, 1e-3, 200000, progress, "generate");

@@ -3,7 +3,6 @@
 ///
 /// The void ratio is reached by closing the box at a rate with the friction as a knob, not by waiting for a servo: a servo at
 /// constant friction stops wherever the grains jam, and says so only after the whole compression.
-#include "domain/scene/grading.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/simulation.hpp"
@@ -34,11 +33,6 @@ struct GenerationFriction {
 
 /// The laws of generation for a scene: frictionless walls, no bonds, strong local damping (0.7).
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction);
-
-/// Masses of generation: the finest 30 % (by mass) of a grading are as heavy as the next disc and all turn four times as hard,
-/// for time steps about 1.5 times as long. Rates are those of the same inertial number; at rest nothing depends on masses, and a
-/// specimen does not keep them.
-MassScaling generation_masses(Grading const& grading);
 
 /// Closes the box homogeneously, walls and discs together, from a looser state to the target void ratio; the friction is lowered
 /// where the stress exceeds the target and raised where it falls short, so that the assembly yields everywhere alike. Then it

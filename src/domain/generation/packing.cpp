@@ -13,7 +13,7 @@ namespace clathra {
 namespace {
 
 constexpr double loose_solid_fraction = 0.46;    // of the random placement
-constexpr double unjammed = 0.03;                // in void ratio: how far above e_(i) a layer's compaction stops
+constexpr double unjammed = 0.04;                // in void ratio: how far above e_(i) a layer's compaction stops
 constexpr double slowing_range = 0.15;           // in void ratio: the wall slows down as the layers are about to jam
 constexpr std::int64_t most_in_patch = 100'000;  // discs placed one after the other
 constexpr double loose_skin = 0.2;               // in d50, while discs still fly
@@ -71,9 +71,11 @@ double highest_point(Specimen const& specimen, Ranks const& ranks) {
   return ranks.max(highest);
 }
 
-/// Laws for layers that only meet: springs that are just stiff enough for the stress, so that far fewer steps do. Where grains
-/// come to lie before they carry a load does not depend on how stiff they are.
-SimulationLaws loose_laws(SimulationLaws laws, double stress) {
+/// Laws for layers that only meet, for time steps that are far longer: springs that are just stiff enough for the stress, the
+/// finest 30 % (by mass) of the grading as heavy as the next disc, moments of inertia times 4. The closing that follows has the
+/// scene's own stiffness and true masses.
+SimulationLaws loose_laws(SimulationLaws laws, double stress, Grading const& grading) {
+  laws.scaling = {4, 0.5 * grading.diameter_finer(0.3)};
   double const share = std::min(1.0, loose_stiffness * stress / laws.contact.grain.normal_stiffness);
   for (auto* stiffness : {&laws.contact.grain.normal_stiffness, &laws.contact.grain.shear_stiffness, &laws.wall.normal_stiffness,
                           &laws.wall.shear_stiffness})
@@ -81,15 +83,15 @@ SimulationLaws loose_laws(SimulationLaws laws, double stress) {
   return laws;
 }
 
-/// Drives the top wall down, ever slower as the assembly is about to jam, until it has the void ratio or resists with five times
-/// the stress.
+/// Drives the top wall down, ever slower as the assembly is about to jam, until it has the void ratio or resists with twenty
+/// times the stress.
 void compact(Simulation& simulation, StepChoice const& step, double void_ratio, double stress, double speed,
              Progress const& stage, ProgressCallback const& progress) {
   simulation.choose_time_step(step);
   simulation.loading.x = AxisDrive::held();
   double mean_stress = 0;  // over the last steps: single blows of flying discs are no stress
-  while (simulation.void_ratio() > void_ratio && mean_stress < 5 * stress) {
-    double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio) / slowing_range, 0.03, 1.0);
+  while (simulation.void_ratio() > void_ratio && mean_stress < 20 * stress) {
+    double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.03, 1.0);
     simulation.loading.y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
     constexpr int interval = 200;
     mean_stress = 0;
@@ -148,15 +150,14 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   double const d50 = design.grading.d50();
   GenerationFriction friction;
   friction.shape_factor = design.void_ratio > 0.28 ? 2 : 1;  // friction alone packs to about 0.25, with impacts to 0.24
-  SimulationLaws laws = generation_laws(scene, friction);
-  laws.scaling = generation_masses(design.grading);
+  SimulationLaws const laws = generation_laws(scene, friction);
   PackedSpecimen packed;
   ProgressCallback const counted = [&](Progress p) {
     p.disc_steps += packed.disc_steps;  // of the layers before
     return !progress || progress(p);
   };
   Specimen const specimen =
-      compacted_layers(scene, design, loose_laws(laws, scene.bond.stress), counted, packed.disc_steps, ranks);
+      compacted_layers(scene, design, loose_laws(laws, scene.bond.stress, design.grading), counted, packed.disc_steps, ranks);
   Simulation simulation(specimen, laws, 0.1 * d50, ranks);
   simulation.stop_discs();
   CompressionTarget target;
