@@ -216,6 +216,21 @@ TEST(SceneFile, AStrainRateReplacesTheDefaultInertialNumberButNotAStatedOne) {
   expect_problem(sized + "[test]\ninertial_number = 0\n", "one of 'test.inertial_number' and 'test.strain_rate' must be given");
 }
 
+TEST(SceneFile, AWaveNumberBoundsTheRateOfAnInertialNumberNotAStatedRate) {
+  std::string const bounded = sized + "[test]\nwave_number = 0.1\n";
+  EXPECT_EQ(load(sized).scene.test.wave_number, 0);
+  EXPECT_EQ(load(bounded + "inertial_number = 1e-3\n").scene.test.wave_number, 0.1);
+  expect_problem(bounded + "strain_rate = \"5 %/min\"\n",
+                 "my.toml:4:15: error: 'test.wave_number' lowers the rate of 'test.inertial_number': it cannot change a stated "
+                 "'test.strain_rate'");
+  Scene const stated = load(bounded, {"test.strain_rate=5 %/min"}).scene;
+  EXPECT_EQ(stated.test.wave_number, 0) << "an override of the rate takes the place of its bound, too";
+  problems_of(sized, {"test.wave_number=0.1", "test.strain_rate=5 %/min"});
+  EXPECT_EQ(
+      load(sized + "[test]\nstrain_rate = 10\n", {"test.inertial_number=1e-3", "test.wave_number=0.1"}).scene.test.strain_rate,
+      0);
+}
+
 TEST(SceneFile, ThreeOfFourFixTheSpecimen) {
   std::string const box = "[sample]\nwidth = \"10 mm\"\nheight = \"20 mm\"\n";
   EXPECT_NO_THROW(load(box));

@@ -66,8 +66,7 @@ class SceneReader {
     std::string const name = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-    if (name == "test.strain_rate") replace("test.inertial_number", "test.strain_rate");
-    if (name == "test.inertial_number") replace("test.strain_rate", "test.inertial_number");
+    replace_rates(name);
     if (name == "sample.generator" && value == "file") leave_out_sizes();
     Key const* const key = find_key(name);
     if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
@@ -127,11 +126,17 @@ class SceneReader {
       scene_.bond.after_consolidation = false;
   }
 
-  /// An override of one rate takes the place of the other one in the file; two overrides contradict each other.
-  void replace(std::string_view other, std::string_view name) {
-    if (std::find(overridden_.begin(), overridden_.end(), other) != overridden_.end()) return;
-    places_.erase(other);
-    (name == "test.strain_rate" ? scene_.test.inertial_number : scene_.test.strain_rate) = 0;
+  /// An override of one rate takes the place of the other one in the file, and of its bound; two overrides contradict each other.
+  void replace_rates(std::string const& name) {
+    auto const drop = [this](std::string_view other, double& value) {
+      if (std::find(overridden_.begin(), overridden_.end(), other) != overridden_.end()) return;
+      places_.erase(other);
+      value = 0;
+    };
+    if (name == "test.inertial_number") drop("test.strain_rate", scene_.test.strain_rate);
+    if (name != "test.strain_rate") return;
+    drop("test.inertial_number", scene_.test.inertial_number);
+    drop("test.wave_number", scene_.test.wave_number);
   }
 
   /// A specimen that is read takes the place of the one that the file describes.

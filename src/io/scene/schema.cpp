@@ -92,6 +92,7 @@ Key const table[] = {
   {"test.axial_strain", quantity, CLATHRA_FIELD(test, axial_strain), "natural axial strain to reach", ratio, 1e-6, 0.5},
   {"test.inertial_number", quantity, CLATHRA_FIELD(test, inertial_number), "rate of the test as I = strain rate * d50 * sqrt(density / pressure)", ratio, 1e-12, 1, "strain_rate is given instead"},
   {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, instead of inertial_number", rate, 1e-12, 1e6, "test.inertial_number decides"},
+  {"test.wave_number", quantity, CLATHRA_FIELD(test, wave_number), "largest W, the stress of the wave that a platen sends out over sigma_3: the rate of inertial_number is lowered where the height of the specimen asks for it", ratio, 1e-6, 1000, "the rate is that of inertial_number"},
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5},
   {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of consolidation; a specimen that has not come to rest by then is refused, with another number than this sheared with a warning", ratio, 0, 1e9},
 
