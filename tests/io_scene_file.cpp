@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/scene/readings.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -263,27 +262,6 @@ TEST(SceneFile, ReplaceAfterConsolidationIsRefusedUnlessForced) {
   std::string const text = sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncomposite = \"replace\"\nafter_consolidation = true\n";
   expect_problem(text, "my.toml:7:23: refused: composite 'replace' with 'after_consolidation'", ExitCode::refused);
   EXPECT_EQ(load(text, {"run.force=true"}).warnings.size(), 1u);
-}
-
-TEST(SceneFile, AReadingStandsInForTheDefaultsThatAreNotStated) {
-  for (Reading const& reading : readings()) {
-    Scene const scene = load(sized + "[bond]\nreading = \"" + std::string(reading.name) + "\"\n").scene;
-    Scene const stated =
-        load(sized + "[bond]\nmoment_ratio = 0.3\ncomposite = \"memory\"\n", {"bond.reading=" + std::string(reading.name)}).scene;
-    EXPECT_EQ(stated.bond.moment_ratio, 0.3);
-    EXPECT_EQ(stated.bond.composite, Composite::memory);
-    for (ReadingKey const& said : reading.keys) {
-      EXPECT_EQ(said.key, readings().front().keys[static_cast<std::size_t>(&said - reading.keys.data())].key);
-      EXPECT_EQ(unquoted(value_text(*find_key(said.key), scene)), said.value) << reading.name << ": " << said.key;
-      if (said.key == "bond.moment_ratio" || said.key == "bond.composite") continue;
-      EXPECT_EQ(unquoted(value_text(*find_key(said.key), stated)), said.value) << reading.name << ": " << said.key;
-    }
-  }
-  Scene const defaults, usual = load(sized).scene;
-  EXPECT_EQ(defaults.bond.reading, readings().front().name);
-  for (ReadingKey const& said : readings().front().keys)
-    EXPECT_EQ(value_text(*find_key(said.key), defaults), value_text(*find_key(said.key), usual)) << said.key;
-  expect_problem(sized + "[bond]\nreading = \"litteral\"\n", "did you mean 'literal'?");
 }
 
 TEST(SceneFile, ABondThatReplacesTheContactFormsAtTheBondingStressUnlessToldOtherwise) {

@@ -57,7 +57,7 @@ struct HydrateScene {
 
 /// `[bond]`
 struct BondScene {
-  std::string reading = "calibrated";  ///< of what the paper leaves open: io/scene/readings.hpp
+  std::string reading = "calibrated";  ///< of what the paper leaves open: io/scene/presets.hpp
   BondLawKind law = BondLawKind::thickness_dependent;
   Composite composite = Composite::parallel;
   MomentScale moment_scale = MomentScale::similitude;
@@ -86,6 +86,7 @@ struct TestScene {
 
 /// `[run]`
 struct RunScene {
+  std::string accuracy = "standard";  ///< a point of the trade of speed for accuracy: io/scene/presets.hpp
   std::uint64_t seed = 1;
   int threads = 0;                        ///< 0 = OMP_NUM_THREADS or all cores
   Precision precision = Precision::full;  ///< of consolidation and shear; specimens are generated in double precision

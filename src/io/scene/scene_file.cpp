@@ -9,7 +9,7 @@
 
 #include "io/formats/text_file.hpp"
 #include "io/scene/guarded_toml.hpp"
-#include "io/scene/readings.hpp"
+#include "io/scene/presets.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_guard.hpp"
 #include "io/scene/scene_value.hpp"
@@ -76,7 +76,7 @@ class SceneReader {
 
   /// Cross-checks, then the scene; throws if anything is wrong.
   LoadedScene finish() {
-    complete_reading();
+    complete_presets();
     // Stating a strain rate replaces the default inertial number.
     if (scene_.test.strain_rate > 0 && !given("test.inertial_number")) scene_.test.inertial_number = 0;
     complete_box(scene_.sample);
@@ -118,10 +118,15 @@ class SceneReader {
     return {file_};
   }
 
-  /// What the reading says of keys that are not stated. A bond that replaces the contact, stated on its own, forms at the bonding
-  /// stress, whatever the reading has: it would drop the force of the contact.
-  void complete_reading() {
-    apply_reading(reading_of(scene_.bond.reading), scene_, [this](std::string_view key) { return places_.count(key) != 0; });
+  /// What the presets say of keys that are not stated; to state test.strain_rate is to state the rate. A bond that replaces the
+  /// contact, stated on its own, forms at the bonding stress, whatever the reading has: it would drop the force of the contact.
+  void complete_presets() {
+    auto const stated = [this](std::string_view key) {
+      bool const of_rate = key == "test.inertial_number" || key == "test.wave_number";
+      return places_.count(key) != 0 || (of_rate && given("test.strain_rate"));
+    };
+    apply_preset(readings().of(scene_.bond.reading), scene_, stated);
+    apply_preset(accuracies().of(scene_.run.accuracy), scene_, stated);
     if (scene_.bond.composite == Composite::replace && places_.count("bond.after_consolidation") == 0)
       scene_.bond.after_consolidation = false;
   }
