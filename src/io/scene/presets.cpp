@@ -46,9 +46,9 @@ constexpr PresetKey reference[] = {
 constexpr PresetKey draft[] = {
   {"test.inertial_number", "1e-3"}, {"test.wave_number", "0.5"}, {"run.precision", "mixed"}, {"run.dt_safety", "0"}, {"run.inertia_scaling", "1"}, {"run.mass_scaling", "0"}};
 constexpr Preset all_accuracies[] = {
-  {"standard", "the usual choice", standard},
-  {"reference", "what others are compared with: half the usual time step, a tenth of the usual rate, and of tall specimens less", reference},
-  {"draft", "a first look: ten times the usual rate and numbers in 32 bits", draft},
+  {"standard", "the usual choice: of five specimens of 2,000 discs at 1 MPa the peak of q is +0.6 +- 1.0 % (sand) and +0.5 +- 1.3 % (55 % of hydrate) above that at a fifth of its rate (means with 95 % intervals)", standard},
+  {"reference", "what others are to be compared with: half the usual time step, a tenth of the usual rate, and of tall specimens less", reference},
+  {"draft", "a first look: ten times the usual rate and numbers in 32 bits; the same peaks are +5.6 +- 0.8 % and +2.4 +- 2.0 % above it", draft},
 };
 // clang-format on
 
