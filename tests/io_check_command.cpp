@@ -78,6 +78,17 @@ TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
   EXPECT_LT(share, 0.3);
 }
 
+TEST_F(CheckCommand, SaysWhichErrorOfThePeakToExpectOrThatItWasNotMeasured) {
+  std::string const row = "  error of peak q    ";
+  CommandResult const usual = clathra("check", "--disc-steps-per-second 1e6");
+  EXPECT_TRUE(holds(usual.output, row + "+") || holds(usual.output, row + "-")) << usual.output;
+  EXPECT_TRUE(holds(usual.output, " % against slow shear in double precision (2000 discs at 1 MPa)\n")) << usual.output;
+  CommandResult const damped = clathra("check", "--disc-steps-per-second 1e6 --set run.damping=0.7");
+  EXPECT_TRUE(holds(damped.output, row + "not measured (measured with a local damping of 0.3 only)\n")) << damped.output;
+  CommandResult const fast = clathra("check", "--disc-steps-per-second 1e6 --set test.inertial_number=0.05 --force");
+  EXPECT_TRUE(holds(fast.output, row + "not measured (measured up to I = ")) << fast.output;
+}
+
 TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {
   std::string const soft = "--set test.confining_stress='100 MPa'";
   std::string const text = "kn / sigma_3 = 3 is below 10: grains overlap by more than a tenth of their diameter";
