@@ -76,6 +76,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_check(program, chosen);
   add_run(program, chosen);
   add_study(program, chosen);
+  add_tune(program, chosen);
   add_reproduce(program, chosen);
   add_generate(program, chosen);
   add_bond(program, chosen);

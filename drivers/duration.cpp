@@ -3,6 +3,7 @@
 #include <cctype>
 #include <charconv>
 #include <stdexcept>
+#include <string_view>
 
 namespace clathra {
 
@@ -13,13 +14,16 @@ double duration_of(std::string const& text) {
   if (text.empty()) refuse();
   while (at < end) {
     double number = 0;
-    auto const [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || next == end || !(number >= 0)) refuse();
+    auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || !(number >= 0)) refuse();
+    while (next < end && *next == ' ') ++next;
+    if (next == end) refuse();
     double const unit = *next == 'h' ? 3600 : *next == 'm' ? 60 : *next == 's' ? 1 : 0;
     if (unit == 0 || unit >= smallest) refuse();  // each unit once, the large ones first
     smallest = unit;
     seconds += number * unit;
-    at = next + 1;
+    at = next + (std::string_view(next, static_cast<std::size_t>(end - next)).starts_with("min") ? 3 : 1);
+    while (at < end && *at == ' ') ++at;
   }
   if (!(seconds < 1e9)) refuse();
   return seconds;

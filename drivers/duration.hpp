@@ -4,7 +4,7 @@
 
 namespace clathra {
 
-/// "3h50m", "90s", "2h", "1h5m30s" in seconds. @throws std::invalid_argument
+/// "3h50m", "90s", "2h", "10 min", "1h5m30s" in seconds. @throws std::invalid_argument
 double duration_of(std::string const& text);
 
 /// What is wrong with such a text, or nothing.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "available_memory.hpp"
+#include "domain/biaxial/expected_error.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/hydrate.hpp"
@@ -29,12 +30,23 @@ std::string bonds_text(HydrateScene const& hydrate) {
                      hydrate.pore_pressure * 1e-6);
 }
 
+RateNumbers rate_of(StageRecord const& n) {
+  return {n.at("strain_rate_per_s"), n.at("inertial_number"), n.at("wave_number"), n.at("rate_share")};
+}
+
+std::string expected_error_text(Scene const& scene, StageRecord const& numbers) {
+  ExpectedError const expected = expected_error(scene, rate_of(numbers));
+  if (!expected.peak_q) return fmt::format("not measured ({})", expected.range);
+  return fmt::format("{:+.1f} +- {:.1f} % against slow shear in double precision ({})", 100 * expected.peak_q->error,
+                     100 * expected.peak_q->half_width, expected.range);
+}
+
 }  // namespace
 
 Forecast forecast(Scene const& scene, int ranks) {
   Forecast result;
   result.numbers = predict(scene, ranks);
-  RateNumbers const rate{result.numbers["strain_rate_per_s"], result.numbers["inertial_number"], result.numbers["wave_number"]};
+  RateNumbers const rate = rate_of(result.numbers);
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
   if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty()) result.refusals.push_back(refusal);
@@ -85,8 +97,12 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
                                    scene.run.time_step == TimeStepRule::spectrum ? "the limit of stability" : "the estimate"));
   text += row("strain rate",
               fmt::format("{:.4g} 1/s, up to {:.4g} % axial strain", n.at("strain_rate_per_s"), scene.test.axial_strain * 100));
-  text += row("inertial number I", fmt::format("{:.3g} (quasi-static below {:g})", n.at("inertial_number"), inertial_warning));
+  std::string const lowered =
+      n.at("rate_share") < 1 ? fmt::format("lowered from {:.3g} by test.wave_number; ", scene.test.inertial_number) : "";
+  text += row("inertial number I",
+              fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning));
   text += row("wave number W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("wave_number"), wave_limit));
+  text += row("error of peak q", expected_error_text(scene, n));
   text += row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
   double const generation = n.at("generation_disc_steps") / (generation_speedup * speed.disc_steps_per_second);
   if (generation > 0)

@@ -9,6 +9,9 @@
 
 namespace clathra {
 
+/// Names of the numbers of members that people ask for; more stand in study.csv.
+std::vector<std::string> known_numbers();
+
 /// @throws SceneProblems where no member has a number of that name, with a suggestion
 void require_known_number(StudyGoal const& goal);
 

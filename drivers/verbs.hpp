@@ -16,6 +16,7 @@ inline std::string name_problem(std::string const& name) { return name.empty() ?
 void add_run(CLI::App& program, Verb& chosen);
 void add_reproduce(CLI::App& program, Verb& chosen);
 void add_study(CLI::App& program, Verb& chosen);
+void add_tune(CLI::App& program, Verb& chosen);
 void add_check(CLI::App& program, Verb& chosen);
 void add_generate(CLI::App& program, Verb& chosen);
 void add_bond(CLI::App& program, Verb& chosen);

@@ -60,6 +60,35 @@ TEST_F(CheckCommand, WarnsOfTheSameAsADryRunAndTheRunItself) {
   EXPECT_EQ(of_the_run, wanted);
 }
 
+TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
+  CommandResult const free = clathra("check", "--disc-steps-per-second 1e6");
+  EXPECT_TRUE(holds(free.output, "inertial number I  0.0001 (quasi-static below 0.001)\n")) << free.output;
+  std::string const bounded = "--set test.wave_number=1e-3 --set test.inertial_number=1e-3 ";
+  CommandResult const check = clathra("check", bounded + "--disc-steps-per-second 1e6");
+  EXPECT_TRUE(holds(check.output, "(lowered from 0.001 by test.wave_number; quasi-static below 0.001)\n")) << check.output;
+  EXPECT_TRUE(holds(check.output, "wave number W      0.001 (")) << check.output;
+  CommandResult const run =
+      clathra("run", bounded + "--set test.axial_strain=1e-4 --threads 1 --output '" + (folder / "out").string() + "'");
+  ASSERT_EQ(run.code, 0) << run.output;
+  auto const record = nlohmann::json::parse(std::ifstream(folder / "out" / "run.json"));
+  EXPECT_EQ(record["stages"]["plan"]["wave_number"].get<double>(), 1e-3);
+  EXPECT_EQ(record["scene"]["test"]["wave_number"].get<double>(), 1e-3);
+  double const share = record["stages"]["prepare"]["rate_share"].get<double>();
+  EXPECT_NEAR(record["stages"]["plan"]["inertial_number"].get<double>(), share * 1e-3, 1e-15);
+  EXPECT_LT(share, 0.3);
+}
+
+TEST_F(CheckCommand, SaysWhichErrorOfThePeakToExpectOrThatItWasNotMeasured) {
+  std::string const row = "  error of peak q    ";
+  CommandResult const usual = clathra("check", "--disc-steps-per-second 1e6");
+  EXPECT_TRUE(holds(usual.output, row + "+") || holds(usual.output, row + "-")) << usual.output;
+  EXPECT_TRUE(holds(usual.output, " % against slow shear in double precision (2000 discs at 1 MPa)\n")) << usual.output;
+  CommandResult const damped = clathra("check", "--disc-steps-per-second 1e6 --set run.damping=0.7");
+  EXPECT_TRUE(holds(damped.output, row + "not measured (measured with a local damping of 0.3 only)\n")) << damped.output;
+  CommandResult const fast = clathra("check", "--disc-steps-per-second 1e6 --set test.inertial_number=0.05 --force");
+  EXPECT_TRUE(holds(fast.output, row + "not measured (measured up to I = ")) << fast.output;
+}
+
 TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {
   std::string const soft = "--set test.confining_stress='100 MPa'";
   std::string const text = "kn / sigma_3 = 3 is below 10: grains overlap by more than a tenth of their diameter";

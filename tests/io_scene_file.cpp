@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/scene/readings.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -216,6 +215,21 @@ TEST(SceneFile, AStrainRateReplacesTheDefaultInertialNumberButNotAStatedOne) {
   expect_problem(sized + "[test]\ninertial_number = 0\n", "one of 'test.inertial_number' and 'test.strain_rate' must be given");
 }
 
+TEST(SceneFile, AWaveNumberBoundsTheRateOfAnInertialNumberNotAStatedRate) {
+  std::string const bounded = sized + "[test]\nwave_number = 0.1\n";
+  EXPECT_EQ(load(sized).scene.test.wave_number, 0);
+  EXPECT_EQ(load(bounded + "inertial_number = 1e-3\n").scene.test.wave_number, 0.1);
+  expect_problem(bounded + "strain_rate = \"5 %/min\"\n",
+                 "my.toml:4:15: error: 'test.wave_number' lowers the rate of 'test.inertial_number': it cannot change a stated "
+                 "'test.strain_rate'");
+  Scene const stated = load(bounded, {"test.strain_rate=5 %/min"}).scene;
+  EXPECT_EQ(stated.test.wave_number, 0) << "an override of the rate takes the place of its bound, too";
+  problems_of(sized, {"test.wave_number=0.1", "test.strain_rate=5 %/min"});
+  EXPECT_EQ(
+      load(sized + "[test]\nstrain_rate = 10\n", {"test.inertial_number=1e-3", "test.wave_number=0.1"}).scene.test.strain_rate,
+      0);
+}
+
 TEST(SceneFile, ThreeOfFourFixTheSpecimen) {
   std::string const box = "[sample]\nwidth = \"10 mm\"\nheight = \"20 mm\"\n";
   EXPECT_NO_THROW(load(box));
@@ -248,27 +262,6 @@ TEST(SceneFile, ReplaceAfterConsolidationIsRefusedUnlessForced) {
   std::string const text = sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncomposite = \"replace\"\nafter_consolidation = true\n";
   expect_problem(text, "my.toml:7:23: refused: composite 'replace' with 'after_consolidation'", ExitCode::refused);
   EXPECT_EQ(load(text, {"run.force=true"}).warnings.size(), 1u);
-}
-
-TEST(SceneFile, AReadingStandsInForTheDefaultsThatAreNotStated) {
-  for (Reading const& reading : readings()) {
-    Scene const scene = load(sized + "[bond]\nreading = \"" + std::string(reading.name) + "\"\n").scene;
-    Scene const stated =
-        load(sized + "[bond]\nmoment_ratio = 0.3\ncomposite = \"memory\"\n", {"bond.reading=" + std::string(reading.name)}).scene;
-    EXPECT_EQ(stated.bond.moment_ratio, 0.3);
-    EXPECT_EQ(stated.bond.composite, Composite::memory);
-    for (ReadingKey const& said : reading.keys) {
-      EXPECT_EQ(said.key, readings().front().keys[static_cast<std::size_t>(&said - reading.keys.data())].key);
-      EXPECT_EQ(unquoted(value_text(*find_key(said.key), scene)), said.value) << reading.name << ": " << said.key;
-      if (said.key == "bond.moment_ratio" || said.key == "bond.composite") continue;
-      EXPECT_EQ(unquoted(value_text(*find_key(said.key), stated)), said.value) << reading.name << ": " << said.key;
-    }
-  }
-  Scene const defaults, usual = load(sized).scene;
-  EXPECT_EQ(defaults.bond.reading, readings().front().name);
-  for (ReadingKey const& said : readings().front().keys)
-    EXPECT_EQ(value_text(*find_key(said.key), defaults), value_text(*find_key(said.key), usual)) << said.key;
-  expect_problem(sized + "[bond]\nreading = \"litteral\"\n", "did you mean 'literal'?");
 }
 
 TEST(SceneFile, ABondThatReplacesTheContactFormsAtTheBondingStressUnlessToldOtherwise) {

@@ -80,6 +80,31 @@ TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
   }
 }
 
+TEST(WaveNumber, BoundsTheRateByTheHeightOfTheSpecimenThatIsSheared) {
+  Scene scene = small_test();
+  BiaxialTest free(scene, small_specimen(), {});
+  StageRecord const plan = free.plan();
+  double const wave = plan.at("wave_number"), rate = plan.at("strain_rate_per_s");
+  EXPECT_EQ(free.preparation().count("rate_share"), 0u);
+  scene.test.wave_number = 1.01 * wave;
+  BiaxialTest const loose(scene, small_specimen(), {});
+  EXPECT_EQ(loose.plan(), plan) << "a bound that is not met changes nothing";
+  EXPECT_EQ(loose.state_hash(), free.state_hash());
+  scene.test.wave_number = wave / 4;
+  BiaxialTest bounded(scene, small_specimen(), {});
+  EXPECT_EQ(bounded.plan().at("wave_number"), wave / 4);
+  EXPECT_NEAR(bounded.plan().at("strain_rate_per_s"), rate / 4, 1e-12 * rate);
+  EXPECT_NEAR(bounded.plan().at("inertial_number"), scene.test.inertial_number / 4, 1e-16);
+  EXPECT_NEAR(bounded.preparation().at("rate_share"), 0.25, 1e-12);
+  EXPECT_NEAR(bounded.record().wave_number, wave / 4, 1e-3 * wave);
+  // The rate of a test is chosen once: as it gets lower the bound does not let it go faster.
+  scene.test.axial_strain = 0.001;
+  while (!bounded.finished() && bounded.axial_strain() < 0.001) (void)bounded.advance(1000, 0.001);
+  HistoryRow const row = bounded.record();
+  EXPECT_LT(row.wave_number, wave / 4);
+  EXPECT_NEAR(row.wave_number, wave / 4 * (1 - row.eps1), 2e-3 * wave);
+}
+
 TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
   Scene scene = small_test();
   scene.hydrate.saturation = 0;

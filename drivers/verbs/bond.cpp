@@ -7,7 +7,7 @@
 
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/units.hpp"
-#include "io/scene/readings.hpp"
+#include "io/scene/presets.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
@@ -32,7 +32,7 @@ double read(char const* option, std::string const& text, Dimension dimension) {
 BondCard evaluate(BondOptions const& options) {
   Scene scene;
   scene.bond.reading = options.reading;
-  apply_reading(reading_of(options.reading), scene, [](std::string_view) { return false; });
+  apply_preset(readings().of(options.reading), scene, [](std::string_view) { return false; });
   scene.hydrate.saturation = read("--saturation", options.saturation, Dimension::ratio);
   scene.hydrate.temperature = read("--temperature", options.temperature, Dimension::temperature);
   scene.hydrate.pore_pressure = read("--pore-pressure", options.pore_pressure, Dimension::pressure);
@@ -122,7 +122,7 @@ void add_bond(CLI::App& program, Verb& chosen) {
       ->capture_default_str();
   verb->add_option("--reading", options->reading, "reading of what the paper leaves open: the key bond.reading")
       ->capture_default_str()
-      ->check(CLI::IsMember(std::vector<std::string>(reading_names().begin(), reading_names().end())));
+      ->check(CLI::IsMember(std::vector<std::string>(readings().names.begin(), readings().names.end())));
   verb->add_option("--coefficients", options->coefficients,
                    "strengths as printed (Eq. 15) or from the state (Eq. 13) (default: those of the reading)")
       ->check(CLI::IsMember({"printed", "thm"}));

@@ -45,7 +45,8 @@ HistoryRow BiaxialTest::record() {
   row.coordination = 2 * m.interacting / s.discs();
   row.mechanical_coordination = m.mechanical_coordination();
   row.inertial_number = state_->rate.strain_rate * state_->d50 * std::sqrt(s.moving_density() / std::max(row.sigma3_Pa, 1.0));
-  row.wave_number = rate_numbers(state_->scene, state_->d50, s.walls().height(), row.void_ratio, s.added_mass()).wave_number;
+  row.wave_number = wave_number(state_->scene, state_->rate.strain_rate, s.walls().height(), row.void_ratio,
+                                state_->scene.grains.density * (1 + s.added_mass()));
   row.unbalanced = m.unbalanced_ratio(s.discs());
   return row;
 }

@@ -177,6 +177,7 @@ void BiaxialTest::State::begin_shear() {
   preparation["broken_in_consolidation"] = broken;
   preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
+  if (rate.share < 1) preparation["rate_share"] = rate.share;
   preparation["quasi_static"] = at_rest && is_quasi_static(rate) ? 1 : 0;
 }
 

@@ -15,6 +15,7 @@ struct RateNumbers {
   double strain_rate = 0;      ///< [1/s]
   double inertial_number = 0;  ///< I = rate d50 sqrt(rho / sigma_3)
   double wave_number = 0;      ///< W = rho_bulk c v_platen / sigma_3, the stress of the wave that a platen sends out
+  double share = 1;            ///< of the rate of test.inertial_number, which test.wave_number has lowered to this part
 };
 
 inline constexpr double inertial_warning = 1e-3, inertial_limit = 1e-2, wave_warning = 0.2, wave_limit = 0.5;
@@ -23,7 +24,12 @@ inline constexpr double stiffness_warning = 50, stiffness_limit = 10;  ///< of k
 /// unbalanced ratio of 5e-3 (8e-3 was measured at 3e5), and rest is below 1e-3.
 inline constexpr double stiffness_resolved = 2e4;
 
-/// @param height [m], compressed by two platens that each do half;  @param d50 [m]
+/// The stress of the wave that either platen sends out when they compress a specimen at a rate, over the confining stress.
+/// @param strain_rate [1/s];  @param height [m], compressed by two platens that each do half;  @param density [kg/m^3] of grains
+double wave_number(Scene const& scene, double strain_rate, double height, double void_ratio, double density);
+
+/// The rate of a test and what it comes to: that of test.strain_rate, or of test.inertial_number as far as test.wave_number lets
+/// it. @param height [m];  @param d50 [m];  @param added_mass  over the mass of the grains
 RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio, double added_mass = 0);
 
 /// True where a run may be called quasi-static: I below 1e-3 and W below 0.5.

@@ -73,6 +73,7 @@ StageRecord predict(Scene const& scene, int ranks) {
   p["strain_rate_per_s"] = rate.strain_rate;
   p["inertial_number"] = rate.inertial_number;
   p["wave_number"] = rate.wave_number;
+  p["rate_share"] = rate.share;
   p["steps"] = std::ceil(scene.test.axial_strain / (rate.strain_rate * p["time_step_s"]));
   p["disc_steps"] = p["steps"] * discs;
   p["generation_disc_steps"] = generation_disc_steps(scene, discs);

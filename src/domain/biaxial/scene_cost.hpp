@@ -6,7 +6,7 @@
 namespace clathra {
 
 /// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,
-/// wave_number, memory_bytes (of all ranks at their peak), disk_bytes, disc_steps.
+/// wave_number, rate_share (RateNumbers::share), memory_bytes (of all ranks at their peak), disk_bytes, disc_steps.
 /// @param ranks  that will share it
 StageRecord predict(Scene const& scene, int ranks = 1);
 

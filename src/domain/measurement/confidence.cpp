@@ -23,8 +23,12 @@ MeanInterval mean_interval(std::vector<double> const& values) {
   double squares = 0;
   for (double const value : values) squares += (value - result.mean) * (value - result.mean);
   result.deviation = std::sqrt(squares / (n - 1));
-  result.half_width = students_quantile(result.count) * *result.deviation / std::sqrt(n);
+  result.half_width = students_half_width(*result.deviation, result.count);
   return result;
+}
+
+double students_half_width(double deviation, int count) {
+  return students_quantile(count) * deviation / std::sqrt(static_cast<double>(count));
 }
 
 void SequentialMean::look(std::vector<double> const& values) {

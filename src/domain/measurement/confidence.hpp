@@ -22,6 +22,9 @@ inline constexpr double confidence_level = 0.95;
 /// @param values  one at least
 MeanInterval mean_interval(std::vector<double> const& values);
 
+/// Half of the 95 % interval of the mean of `count` values (two at least) with this standard deviation.
+double students_half_width(double deviation, int count);
+
 /// Decides how many values a mean needs that shall be known to a part of itself, looking after each few of them. To stop at the
 /// first narrow interval would favour those that are narrow by chance: they then hold the truth less often than they say. So two
 /// looks in a row must find it narrow.

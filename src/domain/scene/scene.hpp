@@ -57,7 +57,7 @@ struct HydrateScene {
 
 /// `[bond]`
 struct BondScene {
-  std::string reading = "calibrated";  ///< of what the paper leaves open: io/scene/readings.hpp
+  std::string reading = "calibrated";  ///< of what the paper leaves open: io/scene/presets.hpp
   BondLawKind law = BondLawKind::thickness_dependent;
   Composite composite = Composite::parallel;
   MomentScale moment_scale = MomentScale::similitude;
@@ -72,12 +72,13 @@ struct BondScene {
   bool after_consolidation = true;  ///< bond at the confining stress instead
 };
 
-/// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it.
+/// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it; wave_number bounds the first.
 struct TestScene {
   double confining_stress = 1e6;  ///< sigma_3 [Pa]
   double axial_strain = 0.15;     ///< to reach
   double inertial_number = 1e-4;  ///< I; 0 where strain_rate is given
   double strain_rate = 0;         ///< [1/s]
+  double wave_number = 0;         ///< the rate of inertial_number is lowered until W is no larger; 0 = whatever it is
   double wall_friction = 0;
   static constexpr int usual_consolidation_steps = 200000;
   int consolidation_steps = usual_consolidation_steps;  ///< at most; another number than the usual one is sheared at rest or not
@@ -85,6 +86,7 @@ struct TestScene {
 
 /// `[run]`
 struct RunScene {
+  std::string accuracy = "standard";  ///< a point of the trade of speed for accuracy: io/scene/presets.hpp
   std::uint64_t seed = 1;
   int threads = 0;                        ///< 0 = OMP_NUM_THREADS or all cores
   Precision precision = Precision::full;  ///< of consolidation and shear; specimens are generated in double precision

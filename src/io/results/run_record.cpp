@@ -61,6 +61,7 @@ Json program_json(RunRecord const& record) {
 Json meaning_json() {
   return {{"stages.shear.residual_q_Pa", "mean of q over the records from residual_from_eps1 on"},
           {"stages.shear.secant_modulus_Pa", "E50: half the peak of q over the axial strain where q first gets there"},
+          {"stages.prepare.rate_share", "part of the rate of test.inertial_number to which test.wave_number has lowered it"},
           {"wall_seconds.generate", "making the specimen"},
           {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; of a resumed run reading its checkpoint"},
           {"wall_seconds.shear",

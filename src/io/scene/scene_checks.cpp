@@ -111,6 +111,9 @@ void check_loading(Check& check) {
   if (test.inertial_number == 0 && test.strain_rate == 0)
     check.error({"test.inertial_number", "test.strain_rate"},
                 "one of 'test.inertial_number' and 'test.strain_rate' must be given");
+  if (test.strain_rate > 0 && test.wave_number > 0)
+    check.error({"test.wave_number", "test.strain_rate"},
+                "'test.wave_number' lowers the rate of 'test.inertial_number': it cannot change a stated 'test.strain_rate'");
   if (check.scene.bond.stress > test.confining_stress)
     check.error({"bond.stress", "test.confining_stress"},
                 fmt::format("'bond.stress' ({}) is above 'test.confining_stress' ({})",

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/scene/readings.hpp"
+#include "io/scene/presets.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
 
@@ -11,10 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keys that do not change what is computed.
+/// Keys that do not change what is computed. run.accuracy is a name for values of others.
 bool may_differ(Key const& key) {
-  return key.name == "output.folder" || key.name == "run.threads" || key.name == "run.force" || key.name == "sample.file" ||
-         key.name == "output.keep_checkpoint";
+  return key.name == "output.folder" || key.name == "run.accuracy" || key.name == "run.threads" || key.name == "run.force" ||
+         key.name == "sample.file" || key.name == "output.keep_checkpoint";
 }
 
 bool may_grow(Key const& key) { return key.name == "test.axial_strain" || key.name == "output.snapshots_at"; }
@@ -32,7 +32,7 @@ Scene defaults_of(SceneTexts const& kept) {
   Scene defaults;
   if (kept.count("bond.reading") != 0) return defaults;
   defaults.bond.reading = "first_crack";
-  apply_reading(reading_of(defaults.bond.reading), defaults, [](std::string_view) { return false; });
+  apply_preset(readings().of(defaults.bond.reading), defaults, [](std::string_view) { return false; });
   return defaults;
 }
 

@@ -12,8 +12,8 @@ namespace clathra {
 using SceneTexts = std::map<std::string, std::string>;
 
 /// The keys that results depend on, paths relative to `folder`. Left out are those that say where and with what a run computes
-/// (output.folder, run.threads, output.keep_checkpoint), whether it overrode a guard (run.force), and sample.file: what counts of
-/// a specimen is its content.
+/// (output.folder, run.threads, output.keep_checkpoint), the name of other keys' values (run.accuracy), whether it overrode a
+/// guard (run.force), and sample.file: what counts of a specimen is its content.
 SceneTexts scene_texts(Scene const& scene, std::filesystem::path const& folder);
 
 /// What has to agree. `same_test`: every key that results depend on. `further`: but for test.axial_strain and

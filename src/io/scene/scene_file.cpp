@@ -9,7 +9,7 @@
 
 #include "io/formats/text_file.hpp"
 #include "io/scene/guarded_toml.hpp"
-#include "io/scene/readings.hpp"
+#include "io/scene/presets.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_guard.hpp"
 #include "io/scene/scene_value.hpp"
@@ -66,8 +66,7 @@ class SceneReader {
     std::string const name = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-    if (name == "test.strain_rate") replace("test.inertial_number", "test.strain_rate");
-    if (name == "test.inertial_number") replace("test.strain_rate", "test.inertial_number");
+    replace_rates(name);
     if (name == "sample.generator" && value == "file") leave_out_sizes();
     Key const* const key = find_key(name);
     if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
@@ -77,7 +76,7 @@ class SceneReader {
 
   /// Cross-checks, then the scene; throws if anything is wrong.
   LoadedScene finish() {
-    complete_reading();
+    complete_presets();
     // Stating a strain rate replaces the default inertial number.
     if (scene_.test.strain_rate > 0 && !given("test.inertial_number")) scene_.test.inertial_number = 0;
     complete_box(scene_.sample);
@@ -119,19 +118,30 @@ class SceneReader {
     return {file_};
   }
 
-  /// What the reading says of keys that are not stated. A bond that replaces the contact, stated on its own, forms at the bonding
-  /// stress, whatever the reading has: it would drop the force of the contact.
-  void complete_reading() {
-    apply_reading(reading_of(scene_.bond.reading), scene_, [this](std::string_view key) { return places_.count(key) != 0; });
+  /// What the presets say of keys that are not stated; to state test.strain_rate is to state the rate. A bond that replaces the
+  /// contact, stated on its own, forms at the bonding stress, whatever the reading has: it would drop the force of the contact.
+  void complete_presets() {
+    auto const stated = [this](std::string_view key) {
+      bool const of_rate = key == "test.inertial_number" || key == "test.wave_number";
+      return places_.count(key) != 0 || (of_rate && given("test.strain_rate"));
+    };
+    apply_preset(readings().of(scene_.bond.reading), scene_, stated);
+    apply_preset(accuracies().of(scene_.run.accuracy), scene_, stated);
     if (scene_.bond.composite == Composite::replace && places_.count("bond.after_consolidation") == 0)
       scene_.bond.after_consolidation = false;
   }
 
-  /// An override of one rate takes the place of the other one in the file; two overrides contradict each other.
-  void replace(std::string_view other, std::string_view name) {
-    if (std::find(overridden_.begin(), overridden_.end(), other) != overridden_.end()) return;
-    places_.erase(other);
-    (name == "test.strain_rate" ? scene_.test.inertial_number : scene_.test.strain_rate) = 0;
+  /// An override of one rate takes the place of the other one in the file, and of its bound; two overrides contradict each other.
+  void replace_rates(std::string const& name) {
+    auto const drop = [this](std::string_view other, double& value) {
+      if (std::find(overridden_.begin(), overridden_.end(), other) != overridden_.end()) return;
+      places_.erase(other);
+      value = 0;
+    };
+    if (name == "test.inertial_number") drop("test.strain_rate", scene_.test.strain_rate);
+    if (name != "test.strain_rate") return;
+    drop("test.inertial_number", scene_.test.inertial_number);
+    drop("test.wave_number", scene_.test.wave_number);
   }
 
   /// A specimen that is read takes the place of the one that the file describes.

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "domain/scene/units.hpp"
-#include "io/scene/readings.hpp"
+#include "io/scene/presets.hpp"
 #include "io/scene/scene_value.hpp"
 
 namespace clathra {
@@ -143,7 +143,11 @@ std::string schema_markdown() {
   return text +
          "\n## Readings\n\nWhat the seed paper leaves open can be read in several ways; docs/paper.md says what speaks for "
          "which. `bond.reading` names one; keys that a scene states itself keep their values.\n\n" +
-         readings_markdown();
+         presets_markdown(readings()) +
+         "\n## Accuracy\n\n`run.accuracy` names a point of the trade of speed for accuracy; keys that a scene states itself keep "
+         "their values, and `test.strain_rate` is one that states the rate. Local damping is no part of it: it belongs to the "
+         "model.\n\n" +
+         presets_markdown(accuracies());
 }
 
 std::string schema_json() {

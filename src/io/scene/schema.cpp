@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "io/scene/readings.hpp"
+#include "io/scene/presets.hpp"
 
 namespace clathra {
 namespace {
@@ -74,7 +74,7 @@ Key const table[] = {
   {"hydrate.density", quantity, CLATHRA_FIELD(hydrate, density), "density of the hydrate", density, 100, 2000},
   {"hydrate.allow_unstable", boolean, CLATHRA_FIELD(hydrate, allow_unstable), "go on where hydrate would dissociate"},
 
-  {"bond.reading", choice, CLATHRA_FIELD(bond, reading), "reading of what the seed paper leaves open, which stands in for the defaults of this section, of grains.shape_factor and of grains.particle_stiffness_ratio; a key that is stated keeps its value", ratio, 0, 0, {}, reading_names()},
+  {"bond.reading", choice, CLATHRA_FIELD(bond, reading), "reading of what the seed paper leaves open, which stands in for the defaults of this section, of grains.shape_factor and of grains.particle_stiffness_ratio; a key that is stated keeps its value", ratio, 0, 0, {}, readings().names},
   {"bond.law", choice, CLATHRA_CHOICE(bond, law), "bonds: none, of the thickness of their gap, or all of one thickness", ratio, 0, 0, {}, laws},
   {"bond.composite", choice, CLATHRA_CHOICE(bond, composite), "a bond replaces the grain contact, acts in parallel to it, or replaces it and keeps its force", ratio, 0, 0, {}, composites},
   {"bond.moment_scale", choice, CLATHRA_CHOICE(bond, moment_scale), "length L_r that Eq. 9b lacks: 1 m, 1 mm, or moment_ratio times the bond width", ratio, 0, 0, {}, moment_scales},
@@ -92,9 +92,11 @@ Key const table[] = {
   {"test.axial_strain", quantity, CLATHRA_FIELD(test, axial_strain), "natural axial strain to reach", ratio, 1e-6, 0.5},
   {"test.inertial_number", quantity, CLATHRA_FIELD(test, inertial_number), "rate of the test as I = strain rate * d50 * sqrt(density / pressure)", ratio, 1e-12, 1, "strain_rate is given instead"},
   {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, instead of inertial_number", rate, 1e-12, 1e6, "test.inertial_number decides"},
+  {"test.wave_number", quantity, CLATHRA_FIELD(test, wave_number), "largest W, the stress of the wave that a platen sends out over sigma_3: the rate of inertial_number is lowered where the height of the specimen asks for it", ratio, 1e-6, 1000, "the rate is that of inertial_number"},
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5},
   {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of consolidation; a specimen that has not come to rest by then is refused, with another number than this sheared with a warning", ratio, 0, 1e9},
 
+  {"run.accuracy", choice, CLATHRA_FIELD(run, accuracy), "point of the trade of speed for accuracy, which stands in for the defaults of precision, dt_safety, inertia_scaling and mass_scaling here and of inertial_number and wave_number in [test]; a key that is stated keeps its value", ratio, 0, 0, {}, accuracies().names},
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},
   {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
   {"run.precision", choice, CLATHRA_CHOICE(run, precision), "numbers of consolidation and shear: forces, velocities and histories in 64 bits, or in 32 bits from exact differences of places, with sums and places in 64", ratio, 0, 0, {}, precisions},

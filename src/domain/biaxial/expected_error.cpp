@@ -1,0 +1,106 @@
+#include "domain/biaxial/expected_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "domain/scene/hydrate.hpp"
+
+namespace clathra {
+namespace {
+
+// Peak q of five specimens of 2,000 discs at 1 MPa to 10 % strain, each compared with itself at the slowest rate in double
+// precision: what perf/expected_error.py prints of the study of rates (local damping 0.3, default law, 0.95 of the limit). That
+// rate itself gets the interval of the next one.
+// clang-format off
+constexpr RateEffect rates[] = {
+    {2e-05, 0.00814, {0.0000, 0.0377}, {0.0000, 0.0054}},
+    {5e-05, 0.0204, {0.0140, 0.0377}, {0.0014, 0.0054}},
+    {0.0001, 0.0407, {0.0056, 0.0101}, {0.0049, 0.0127}},
+    {0.0002, 0.0814, {0.0065, 0.0142}, {0.0047, 0.0099}},
+    {0.0005, 0.204, {0.0282, 0.0084}, {0.0107, 0.0128}},
+    {0.001, 0.407, {0.0555, 0.0090}, {0.0270, 0.0218}},
+    {0.003, 1.22, {0.1505, 0.0214}, {0.0668, 0.0349}},
+    {0.005, 2.04, {0.3295, 0.0256}, {0.0996, 0.0414}},
+};
+constexpr SettingEffect mixed[] = {
+    {1, {-0.0021, 0.0037}, {0.0010, 0.0104}},
+};
+// clang-format on
+constexpr double stress = 1e6, damping = 0.3, saturation = 0.55, slack = 1e-6;
+
+bool is_near(double a, double b) { return std::fabs(a - b) <= slack * std::fabs(b); }
+
+std::string text_of(char const* format, double a, double b) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+/// Between two rows by the logarithm of the rate.
+MeasuredError between(MeasuredError const& a, MeasuredError const& b, double part) {
+  return {a.error + part * (b.error - a.error), a.half_width + part * (b.half_width - a.half_width)};
+}
+
+/// Of one material at a rate within the table or below it.
+MeasuredError error_at(double rate, MeasuredError RateEffect::*material) {
+  auto const above = std::find_if(std::begin(rates), std::end(rates),
+                                  [&](auto const& row) { return row.inertial_number * (1 + slack) >= rate; });
+  if (above == std::begin(rates)) return rates[0].*material;
+  RateEffect const& slow = *(above - 1);
+  if (above == std::end(rates)) return slow.*material;
+  double const part = std::log(rate / slow.inertial_number) / std::log(above->inertial_number / slow.inertial_number);
+  return between(slow.*material, *above.*material, part);
+}
+
+MeasuredError sum(MeasuredError const& a, MeasuredError const& b) {
+  return {a.error + b.error, std::hypot(a.half_width, b.half_width)};
+}
+
+/// Why the table says nothing of a scene; empty where it does.
+std::string out_of_range(Scene const& scene, double rate) {
+  Scene const usual;
+  if (scene.bond.reading != usual.bond.reading || scene.bond.composite != usual.bond.composite ||
+      scene.bond.law == BondLawKind::constant_thickness)
+    return "measured for the default law only";
+  if (!is_near(scene.test.confining_stress, stress) || !is_near(scene.grains.kn, usual.grains.kn))
+    return "measured at 1 MPa with kn of 0.3 GPa only";
+  if (!is_near(scene.run.damping, damping) || scene.grains.contact_damping > 0)
+    return "measured with a local damping of 0.3 only";
+  if (has_bonds(scene) && scene.hydrate.saturation > saturation * (1 + slack)) return "measured up to a saturation of 55 %";
+  if (scene.run.scales_masses()) return "measured without scaled masses only";
+  if (rate > std::prev(std::end(rates))->inertial_number * (1 + slack)) {
+    RateEffect const& last = *std::prev(std::end(rates));
+    return text_of("measured up to I = %.3g, W = %.3g", last.inertial_number, last.wave_number);
+  }
+  return {};
+}
+
+/// The rate at which the measured specimens have the scene's I or W, whichever is faster.
+double rate_in_table(RateNumbers const& n) {
+  RateEffect const& last = *std::prev(std::end(rates));
+  return std::max(n.inertial_number, n.wave_number * last.inertial_number / last.wave_number);
+}
+
+}  // namespace
+
+std::span<RateEffect const> rate_effects() { return rates; }
+std::span<SettingEffect const> mixed_precision_effects() { return mixed; }
+
+ExpectedError expected_error(Scene const& scene, RateNumbers const& n) {
+  double const rate = rate_in_table(n);
+  if (std::string why = out_of_range(scene, rate); !why.empty()) return {{}, std::move(why)};
+  bool const in_32_bits = scene.run.precision == Precision::mixed;
+  MeasuredError const none;
+  MeasuredError const sand = sum(error_at(rate, &RateEffect::sand), in_32_bits ? mixed[0].sand : none),
+                      bonded = sum(error_at(rate, &RateEffect::bonded), in_32_bits ? mixed[0].bonded : none);
+  auto const farthest = [](MeasuredError const& e) { return std::fabs(e.error) + e.half_width; };
+  bool const with_bonds = has_bonds(scene), full = with_bonds && is_near(scene.hydrate.saturation, saturation);
+  MeasuredError const worse = farthest(sand) > farthest(bonded) ? sand : bonded;
+  ExpectedError result{!with_bonds ? sand : full ? bonded : worse, "2000 discs at 1 MPa"};
+  if (with_bonds && !full) result.range += ", the worse of sand and 55 %";
+  if (rate > n.inertial_number * (1 + slack)) result.range += text_of(", at I = %.2g for a W of %.2g", rate, n.wave_number);
+  return result;
+}
+
+}  // namespace clathra

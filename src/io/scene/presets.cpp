@@ -1,0 +1,111 @@
+#include "io/scene/presets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "io/scene/scene_value.hpp"
+
+namespace clathra {
+namespace {
+
+// clang-format off
+constexpr PresetKey calibrated[] = {
+  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "2"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.25"},
+  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "true"}};
+constexpr PresetKey first_crack[] = {
+  {"grains.shape_factor", "2"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.07142857142857142"},
+  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "false"}};
+constexpr PresetKey long_lever[] = {
+  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.3333333333333333"},
+  {"bond.rod_thickness", "scaled"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "true"}};
+constexpr PresetKey short_lever[] = {
+  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.14285714285714285"},
+  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "true"}};
+constexpr PresetKey replacing[] = {
+  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "replace"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.07142857142857142"},
+  {"bond.rod_thickness", "scaled"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "false"}};
+constexpr PresetKey literal[] = {
+  {"grains.shape_factor", "2"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "replace"}, {"bond.moment_scale", "paper_si"}, {"bond.moment_ratio", "0.07142857142857142"},
+  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "printed"}, {"bond.after_consolidation", "false"}};
+constexpr Preset all_readings[] = {
+  {"calibrated", "what fits the words of the seed paper best: hydrate forms under the confining stress; bonds act beside the grain contact and bend up to a quarter more than the plastic moment of their section, L_r = B/4; a grain is twice as stiff as a contact; half the rolling width of the text calibrates the sand", calibrated},
+  {"first_crack", "bonds fail in bending when their section cracks, L_r = B/14; hydrate forms at 50 kPa; stiffness of grains and rolling width of the text", first_crack},
+  {"long_lever", "runner-up: as `calibrated`, but grains as stiff as contacts, L_r = B/3 and bond thicknesses scaled from grain to rod", long_lever},
+  {"short_lever", "runner-up: as `calibrated`, but grains as stiff as contacts and L_r = B/7", short_lever},
+  {"replacing", "runner-up: bonds replace the grain contact at 50 kPa, L_r = B/14, bond thicknesses scaled from grain to rod", replacing},
+  {"literal", "the text as printed: a bond replaces the grain contact, L_r = 1 m, the strengths of Eq. 15", literal},
+};
+
+constexpr PresetKey standard[] = {
+  {"test.inertial_number", "1e-4"}, {"test.wave_number", "0"}, {"run.precision", "double"}, {"run.dt_safety", "0"}, {"run.inertia_scaling", "1"}, {"run.mass_scaling", "0"}};
+constexpr PresetKey reference[] = {
+  {"test.inertial_number", "1e-5"}, {"test.wave_number", "0.05"}, {"run.precision", "double"}, {"run.dt_safety", "0.475"}, {"run.inertia_scaling", "1"}, {"run.mass_scaling", "0"}};
+constexpr PresetKey draft[] = {
+  {"test.inertial_number", "1e-3"}, {"test.wave_number", "0.5"}, {"run.precision", "mixed"}, {"run.dt_safety", "0"}, {"run.inertia_scaling", "1"}, {"run.mass_scaling", "0"}};
+constexpr Preset all_accuracies[] = {
+  {"standard", "the usual choice: of five specimens of 2,000 discs at 1 MPa the peak of q is +0.6 +- 1.0 % (sand) and +0.5 +- 1.3 % (55 % of hydrate) above that at a fifth of its rate (means with 95 % intervals)", standard},
+  {"reference", "what others are to be compared with: half the usual time step, a tenth of the usual rate, and of tall specimens less", reference},
+  {"draft", "a first look: ten times the usual rate and numbers in 32 bits; the same peaks are +5.6 +- 0.8 % and +2.4 +- 2.0 % above it", draft},
+};
+// clang-format on
+
+/// The names of presets, for the schema's lists of choices.
+template <std::size_t count>
+constexpr std::array<std::string_view, count> names_of(Preset const (&presets)[count]) {
+  std::array<std::string_view, count> all;
+  for (std::size_t i = 0; i < count; ++i) all[i] = presets[i].name;
+  return all;
+}
+constexpr auto reading_names = names_of(all_readings);
+constexpr auto accuracy_names = names_of(all_accuracies);
+
+/// What a preset gives a key, in words where it leaves it to others.
+std::string shown(PresetKey const& said) {
+  Key const& key = *find_key(said.key);
+  Scene scene;
+  set_from_text(key, scene, said.value);
+  return is_zero(key, scene) && !key.zero.empty() ? std::string(key.zero) : std::string(said.value);
+}
+
+}  // namespace
+
+PresetGroup const& readings() {
+  static constexpr PresetGroup group = {"bond.reading", all_readings, reading_names};
+  return group;
+}
+
+PresetGroup const& accuracies() {
+  static constexpr PresetGroup group = {"run.accuracy", all_accuracies, accuracy_names};
+  return group;
+}
+
+Preset const& PresetGroup::of(std::string_view name) const {
+  auto const found = std::find_if(presets.begin(), presets.end(), [&](Preset const& preset) { return preset.name == name; });
+  if (found == presets.end()) throw std::invalid_argument(fmt::format("{} has no '{}'", key, name));
+  return *found;
+}
+
+void apply_preset(Preset const& preset, Scene& scene, std::function<bool(std::string_view)> const& stated) {
+  for (PresetKey const& said : preset.keys)
+    if (!stated(said.key)) set_from_text(*find_key(said.key), scene, said.value);
+}
+
+std::string presets_markdown(PresetGroup const& group) {
+  std::string text;
+  for (Preset const& preset : group.presets) text += fmt::format("- `{}`: {}.\n", preset.name, preset.what);
+  std::string rule = "|---|";
+  text += "\n| key |";
+  for (Preset const& preset : group.presets) text += fmt::format(" `{}` |", preset.name), rule += "---|";
+  text += "\n" + rule + "\n";
+  for (std::size_t k = 0; k < group.presets.front().keys.size(); ++k) {
+    text += fmt::format("| `{}` |", group.presets.front().keys[k].key);
+    for (Preset const& preset : group.presets) text += fmt::format(" {} |", shown(preset.keys[k]));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace clathra

@@ -1,0 +1,97 @@
+/// `clathra tune` on scenes so small that its runs take a moment each.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "command.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/scene/scene_file.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TuneCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder);
+    std::ofstream(scene) << "# mine\n[sample]\nparticles = 300\nlayers = 2\n[test]\naxial_strain = \"0.2 %\"\n"
+                            "inertial_number = 2e-4  # as ever\n[output]\nrecords = 10\nsnapshots = 0\n";
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  CommandResult tune(std::string const& more) const {
+    return run_clathra("tune '" + scene.string() + "' -o '" + tuned.string() + "' --folder '" + (folder / "runs").string() +
+                       "' " + more);
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_tune_command_" + std::to_string(::getpid()));
+  fs::path const scene = folder / "mine.toml", tuned = folder / "tuned.toml";
+};
+
+TEST_F(TuneCommand, WritesASceneWithTheCheapestSettingThatIsWithinTheTolerance) {
+  CommandResult const result = tune("--tolerance 60% --quantity peak_q --budget 10min");
+  ASSERT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find("mine.toml: error of peak_q_Pa, rungs of 300 discs\n"), std::string::npos) << result.output;
+  EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.003 +\\S+ +double  0\\.475  x1 +[5-9] +[+-]\\S+ ± ")))
+      << result.output;
+  EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.0002 +\\S+ +double  usual  x1 .* 1  \\S+, as it stands\n")))
+      << result.output;
+  EXPECT_TRUE(std::regex_search(result.output, std::regex(", chosen\n"))) << result.output;
+  EXPECT_TRUE(std::regex_search(result.output,
+                                std::regex("choice    peak_q_Pa [+-]\\S+ \\+- \\S+ % \\(95 %, [5-9] seeds of 300 discs\\); "
+                                           "0\\.\\S+ of the cost as it stands\n")))
+      << result.output;
+  LoadedScene const loaded = load_scene(tuned);
+  EXPECT_GT(loaded.scene.test.inertial_number, 2e-4) << "60 % is soon reached";
+  EXPECT_GT(loaded.scene.test.wave_number, 0);
+  EXPECT_EQ(loaded.scene.sample.particles, 300);
+  std::string const text = read_text_file(tuned, 1 << 20);
+  EXPECT_TRUE(text.starts_with("# mine\n")) << text;
+  EXPECT_NE(text.find("# inertial_number = 2e-4  # as ever\n# clathra tune, within 60 %: with all its keys peak_q_Pa "),
+            std::string::npos)
+      << text;
+  for (char const* const key : {"precision", "dt_safety", "inertia_scaling", "mass_scaling"})
+    EXPECT_TRUE(
+        std::regex_search(text, std::regex(std::string("# measured with these keys: [+-]\\S+ \\+- \\S+ %\n") + key + " = ")))
+        << key << "\n"
+        << text;
+  CommandResult const run = run_clathra("run '" + tuned.string() + "' --threads 1 --output '" + (folder / "out").string() + "'");
+  EXPECT_EQ(run.code, 0) << run.output;
+  EXPECT_EQ(tune("").code, 73) << "what is written is left as it is";
+  // What was run is not run again.
+  fs::remove(tuned);
+  auto const before = fs::last_write_time(folder / "runs" / "members");
+  CommandResult const again = tune("--tolerance 60%");
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_EQ(fs::last_write_time(folder / "runs" / "members"), before);
+  EXPECT_EQ(read_text_file(tuned, 1 << 20), text);
+}
+
+TEST_F(TuneCommand, SaysSoWhereTheBudgetDoesNotTellAndWritesNothing) {
+  CommandResult const result = tune("--tolerance 0.001% --budget 1s");
+  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_NE(result.output.find("undetermined: the first 5 seeds need about "), std::string::npos) << result.output;
+  EXPECT_FALSE(fs::exists(tuned));
+}
+
+TEST_F(TuneCommand, RefusesWhatItCannotTune) {
+  CommandResult const tolerance = tune("--tolerance 1mm");
+  EXPECT_EQ(tolerance.code, 65);
+  EXPECT_NE(tolerance.output.find("--tolerance: error: needs a width like 2%, got '1mm'"), std::string::npos) << tolerance.output;
+  CommandResult const quantity = tune("--quantity peek_q");
+  EXPECT_EQ(quantity.code, 65);
+  EXPECT_NE(quantity.output.find("a test has no number 'peek_q'; did you mean 'peak_q'?"), std::string::npos) << quantity.output;
+  EXPECT_EQ(tune("--budget soon").code, 64);
+  CommandResult const file = tune("--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen-1.h5");
+  EXPECT_EQ(file.code, 77);
+  EXPECT_NE(file.output.find("rungs need specimens of several seeds"), std::string::npos) << file.output;
+  EXPECT_EQ(run_clathra("tune '" + (folder / "none.toml").string() + "'").code, 66);
+}
+
+}  // namespace
+}  // namespace clathra
