@@ -228,6 +228,28 @@ TEST(SettingSearch, LeavesOutWhatCannotBeRunAndGivesUpWithoutTheSlowRates) {
   EXPECT_FALSE(broken.choice());
 }
 
+TEST(SettingSearch, KeepsWhatItKnowsWhereASlowerRateCannotBeRunAnyMore) {
+  Planted planted;
+  planted.noise = 0;
+  planted.coefficient = 20;  // 2 % at 1e-3, which a slower rate would show to be within 2.5 %
+  for (bool const fails : {false, true}) {
+    SettingSearch search(0.025, planted_trials());
+    while (std::optional<Wish> const wish = search.next()) {
+      if (search.slow() == 3 * std::size(numerics) && search.trials()[search.slow()].values.empty()) {
+        if (fails)
+          search.trials()[search.slow()].failed = true;
+        else
+          search.stop_growing();
+        continue;
+      }
+      for (std::size_t const i : wish->trials)
+        search.trials()[i].values = planted.values(wish->seeds, search.trials()[i].rate, numerics[i % std::size(numerics)].error);
+    }
+    ASSERT_TRUE(search.choice());
+    EXPECT_EQ(*search.choice(), 2 * std::size(numerics) + 2) << "of 3e-4, with the slowest at that rate";
+  }
+}
+
 TEST(SettingSearch, RunsASlowerRateWhereTheLimitIsNotKnownWellEnough) {
   Planted planted;
   planted.noise = 0;

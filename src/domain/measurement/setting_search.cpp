@@ -18,8 +18,19 @@ Verdict SettingSearch::verdict(std::size_t trial) const {
   return found ? verdict_on(*found, tolerance_) : Verdict::open;
 }
 
+void SettingSearch::leave_out_slowest() {
+  ladder_.resize(slowest_);
+  --slowest_;
+}
+
+void SettingSearch::stop_growing() {
+  growing_ = false;
+  while (slowest_ >= first_rungs && 2 * trials_[slow()].values.size() < trials_[fast()].values.size()) leave_out_slowest();
+}
+
 std::optional<Wish> SettingSearch::next() {
   choice_.reset();
+  while (slowest_ >= first_rungs && trials_[slow()].failed) leave_out_slowest();
   if (trials_of_limit_failed()) return {};
   if (seeds() == 0) return Wish{{ladder_.begin(), ladder_.begin() + static_cast<std::ptrdiff_t>(slowest_) + 1}, first_seeds};
   if (trials_[fast()].values.empty()) return {};

@@ -39,8 +39,9 @@ class SettingSearch {
   std::vector<Trial> const& trials() const { return trials_; }
   /// What to run next; nothing where the search is over.
   std::optional<Wish> next();
-  /// From now on no more seeds and no slower rates: there is no time for them.
-  void stop_growing() { growing_ = false; }
+  /// From now on no more seeds and no slower rates: there is no time for them. A slower rate that was asked for and hardly run is
+  /// left out again.
+  void stop_growing();
 
   /// The setting that was found; nothing where none is known to be within the tolerance.
   std::optional<std::size_t> choice() const { return choice_; }
@@ -59,6 +60,7 @@ class SettingSearch {
   Verdict verdict(std::size_t trial) const;
   std::optional<Wish> more_seeds(std::size_t trial) const;
   std::optional<Wish> slower_rung();
+  void leave_out_slowest();
   std::optional<Wish> numerics_at(double rate, std::vector<std::size_t>& candidates) const;
   std::optional<Wish> choose(std::size_t rung);
   std::optional<Wish> confirm(std::size_t trial);
