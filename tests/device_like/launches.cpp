@@ -39,5 +39,26 @@ TEST_P(Launches, OfAStepAreThreeAndTwoOfThemMakeTheHostWait) {
   EXPECT_EQ(asked.allocations, 0);
 }
 
+int total(LaunchCount::Counts const& counts) {
+  int sum = 0;
+  for (auto const& [what, number] : counts) sum += number;
+  return sum;
+}
+
+// The zero fills of new fields are launches too.
+TEST_P(Launches, OfAStepWithASearchAreNoMoreThanTheyWere) {
+  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, GetParam());
+  for (int n = 0; n < 20; ++n) {  // the sixteenth search sorts in space
+    sim.request_rebuild();
+    sim.step();
+  }
+  LaunchCount const count;
+  sim.request_rebuild();
+  sim.step();
+  EXPECT_LE(total(count.launches()), 58);
+  EXPECT_LE(total(count.round_trips()), 14);
+  EXPECT_LE(count.allocations(), 39);
+}
+
 }  // namespace
 }  // namespace clathra
