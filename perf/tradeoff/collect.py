@@ -24,9 +24,10 @@ SETTINGS = [
 # Numbers of the stage `shear` of run.json.
 NUMBERS = ["peak_q_Pa", "peak_eps1", "secant_modulus_Pa", "residual_q_Pa", "largest_eps_v", "end_eps_v", "peak_intact_initial_pct",
            "end_intact_initial_pct", "end_eps1", "largest_kinetic_share"]
+EARLY = 0.0348  # axial strain that every test reaches: steps until there compare the cost of tests of different length
 LEDGER = ["damping", "dashpot", "breakage", "sliding", "rolling", "kinetic"]
 COLUMNS = (["part", "factor", "level", "saturation", "stress_Pa", "inertial_number", "wave_number", "seed", "specimen"] + [s[0] for s in SETTINGS] + NUMBERS +
-           ["contact_peak_q_Pa", "contact_peak_eps1", "contact_q_at_peak_Pa"] + [f"{name}_share" for name in LEDGER] + ["disc_steps"])
+           ["contact_peak_q_Pa", "contact_peak_eps1", "contact_q_at_peak_Pa"] + [f"{name}_share" for name in LEDGER] + ["disc_steps", "early_disc_steps"])
 
 
 def short(value):
@@ -51,6 +52,9 @@ def of_history(path):
     peak, inner_peak = (max(range(len(rows)), key=q.__getitem__) for q in ([r["q_Pa"] for r in rows], inner))
     found = {"contact_peak_q_Pa": inner[inner_peak], "contact_peak_eps1": rows[inner_peak]["eps1"], "contact_q_at_peak_Pa": inner[peak],
              "wave_number": rows[0]["wave_number"]}
+    early = next((r for r in rows if r["eps1"] >= EARLY), None)
+    if early:
+        found["early_steps"] = int(early["step"])
     work = rows[peak].get("boundary_work_J")
     if work:
         found.update({f"{name}_share": rows[peak][f"{name}_J"] / work for name in LEDGER})
@@ -67,6 +71,7 @@ def row_of(member):
         return None
     row = settings_of(run)
     row.update(of_history(member / "history.csv"))
+    row["early_disc_steps"] = row.pop("early_steps", 0) * int(row["discs"]) or ""
     row.update({name: run["stages"]["shear"].get(name, "") for name in NUMBERS})
     row.update(part=member.parent.parent.name, saturation=run["scene"]["hydrate"]["saturation"], stress_Pa=run["scene"]["test"]["confining_stress"], seed=run["seed"],
                inertial_number=run["scene"]["test"]["inertial_number"], disc_steps=run["disc_steps"],

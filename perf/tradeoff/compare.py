@@ -71,10 +71,20 @@ class Tests:
             change, half = 100 * change / mean, 100 * half / abs(mean)
         return change, half, pairs
 
+    def mean_of(self, saturation, setting, column, stress=1e6, whole=False):
+        values = [row[column] for row in self.pick(saturation, setting, stress).values() if row[column] and (not whole or row["end_eps1"] > 0.0999)]
+        return sum(values) / len(values) if values else math.nan
+
     def disc_steps(self, saturation, setting, stress=1e6):
-        """Disc-steps of a test to 10 % axial strain, the mean over its specimens."""
-        rows = self.pick(saturation, setting, stress).values()
-        return sum(row["disc_steps"] * 0.1 / row["end_eps1"] for row in rows) / len(rows) if rows else math.nan
+        """Disc-steps of a test to 10 % axial strain, the mean over its specimens; of shorter tests those of the base, as their early ones compare."""
+        whole = self.mean_of(saturation, setting, "disc_steps", stress, whole=True)
+        if whole == whole:
+            return whole
+        return self.mean_of(saturation, BASE, "disc_steps", stress, whole=True) * self.steps_over(saturation, setting, BASE, stress)
+
+    def steps_over(self, saturation, setting, other, stress=1e6):
+        """Steps of a setting over those of another one, to the same strain."""
+        return self.mean_of(saturation, setting, "early_disc_steps", stress) / self.mean_of(saturation, other, "early_disc_steps", stress)
 
 
 def verdict(found, tolerance):

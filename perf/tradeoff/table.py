@@ -108,7 +108,7 @@ def option_at_equal_rate(factor):
                 if not setting[0].startswith(factor) or not tests.pick(saturation, plain):
                     continue
                 cells = [with_interval(tests.change(saturation, setting, q, plain), 2) if saturation or "intact" not in q else "-" for q in BEFORE]
-                ratio = tests.disc_steps(saturation, plain) / tests.disc_steps(saturation, setting)
+                ratio = 1 / tests.steps_over(saturation, setting, plain)
                 found = tests.change(saturation, setting, "peak_q_Pa", plain)
                 if found:
                     rows.append([NAMES[saturation], name_of(setting), f"{setting[2]:g}"] + cells + [f"{ratio:.2f}", str(found[2]), tests.part(saturation, setting)])
