@@ -109,13 +109,13 @@ def strength(first, second, stresses):
 
 def with_interval(found, digits=1):
     """`found` as a cell: difference +- half of its interval."""
-    if found is None:
+    if found is None or found[1] != found[1]:
         return "-"
     return f"{found[0]:+.{digits}f} ± {found[1]:.{digits}f}"
 
 
 def mean_cell(values):
-    if not values:
+    if len(values) < 2:
         return "-"
     mean, half = mean_and_half_width(list(values))
     return f"{mean:.4g} ± {half:.2g}"

@@ -29,6 +29,8 @@ def name_of(setting):
 
 
 def markdown(head, rows):
+    if not rows:
+        return "Not run."
     return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(row) + " |" for row in rows])
 
 
@@ -78,7 +80,7 @@ def trade(saturation):
             seconds = cost.seconds(tests, saturation, setting)
             found = tests.change(saturation, setting, "peak_q_Pa")
             rows.append([name_of(setting), f"{setting[2]:g}"] + [with_interval(tests.change(saturation, setting, q)) for q in quantities] +
-                        [verdict(found, 2), f"{seconds:.2f}", f"{shipped / seconds:.2g}", str(found[2]) if found else "-", tests.part(saturation, setting)])
+                        [verdict(found, 2), f"{seconds:.2f}", f"{shipped / seconds:.3g}", str(found[2]) if found else "-", tests.part(saturation, setting)])
         units = ["points" if QUANTITIES[q][3] == "points" else "%" for q in quantities]
         head = ["setting", "I"] + [f"{QUANTITIES[q][0]} [{u}]" for q, u in zip(quantities, units)]
         return markdown(head + ["peak q within 2 %?", "core s", "speed", "seeds", "part"], rows)
@@ -241,7 +243,7 @@ def pictures(tests, cost, path):
                     lines[method].append((cost.seconds(tests, saturation, setting), abs(found[0]), abs(found[0]) + found[1]))
         floor = tests.change(saturation, CHAOS, quantity, PLAIN)
         panels.append(picture.panel(f"{NAMES[saturation]}: {QUANTITIES[quantity][0]}", "seconds of one core to 10 % strain", "error to the reference [%]",
-                                    lines, floor[1] if floor else None, ((0.03, 60), (0.05, 50))))
+                                    lines, floor[1] if floor else None, ((0.03, 200), (0.05, 100))))
     picture.draw(path, panels, list(METHODS))
 
 
