@@ -54,7 +54,8 @@ class Tradeoff(unittest.TestCase):
             plant(self.folder / "a", seed, {"peak_q_Pa": q, "end_eps1": 0.1}, [(0, 0)])
             plant(self.folder / "b", seed, {"peak_q_Pa": q + 2e5 + seed * 1e5, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)
         plant(self.folder / "b", 4, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)  # no partner
-        plant(self.folder / "b", 2, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], finished=False, inertia_scaling=3.0)
+        plant(self.folder / "a", 5, {"peak_q_Pa": 12e6, "end_eps1": 0.1}, [(0, 0)])
+        plant(self.folder / "b", 5, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], finished=False, inertia_scaling=3.0)
         change, half, pairs = self.collected().change(0.55, ("inertia_scaling", "3", 1e-4), "peak_q_Pa", compare.BASE)
         self.assertEqual(pairs, 3)
         self.assertAlmostEqual(change, 100 * 0.4 / 10, places=4)
