@@ -1,0 +1,112 @@
+"""The tables of docs/accuracy.md: planted tests give the planted differences and intervals: tradeoff_test.py PROJECT"""
+import csv
+import json
+import math
+import random
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROJECT = Path(sys.argv[1])
+sys.path[:0] = [str(PROJECT / "perf"), str(PROJECT / "perf" / "tradeoff")]
+
+import collect  # noqa: E402
+import compare  # noqa: E402
+import paired  # noqa: E402
+import picture  # noqa: E402
+import table  # noqa: E402
+
+SCENE = {"sample": {"aspect_ratio": 2.0}, "grains": {"kn": 3e8, "contact_damping": 0.0}, "hydrate": {"saturation": 0.55},
+         "run": {"precision": "double", "dt_safety": 0.95, "inertia_scaling": 1.0, "mass_scaling": 0.0, "damping": 0.3, "skin": 0.0},
+         "test": {"confining_stress": 1e6, "inertial_number": 1e-4}}
+
+
+def plant(folder, seed, numbers, q, finished=True, energy=False, **run):
+    """A member as `clathra study` leaves it: `q` of the walls and of the contacts, a row each."""
+    member = folder / f"members/{len(list(folder.glob('members/*')))}"
+    member.mkdir(parents=True)
+    scene = {**SCENE, "run": {**SCENE["run"], **run}}
+    document = {"scene": scene, "seed": seed, "disc_steps": 1000, "input": {"specimen_digest_xxh3_128": f"{seed:x}".ljust(32, "0")},
+                "stages": {"plan": {"discs": 2000.0}, "shear": numbers}, "exit": {"reason": "finished" if finished else "stopped"}}
+    (member / "run.json").write_text(json.dumps(document))
+    with open(member / "history.csv", "w", newline="") as file:
+        rows = csv.writer(file)
+        ledger = ["boundary_work_J"] + [f"{name}_J" for name in collect.LEDGER] if energy else []
+        rows.writerow(["eps1", "q_Pa", "contact_sigma1_Pa", "contact_sigma3_Pa", "wave_number"] + ledger)
+        for number, (walls, contacts) in enumerate(q):
+            rows.writerow([0.01 * number, walls, contacts + 1e6, 1e6, 0.04] + ([4, 2, 0, 1, 0.5, 0, 0.25] if energy else []))
+
+
+class Tradeoff(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def collected(self):
+        collect.main(self.folder, self.folder / "data.csv")
+        return compare.Tests(compare.load(self.folder / "data.csv"))
+
+    def test_a_planted_difference_is_found_on_the_same_specimens(self):
+        # Specimens scatter by 10 %, the option adds exactly 0.3, 0.4 and 0.5 MPa: paired, 0.4 +- 4.303 * 0.1 / sqrt(3).
+        for seed, q in ((1, 9e6), (2, 10e6), (3, 11e6)):
+            plant(self.folder / "a", seed, {"peak_q_Pa": q, "end_eps1": 0.1}, [(0, 0)])
+            plant(self.folder / "b", seed, {"peak_q_Pa": q + 2e5 + seed * 1e5, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)
+        plant(self.folder / "b", 4, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)  # no partner
+        plant(self.folder / "a", 5, {"peak_q_Pa": 12e6, "end_eps1": 0.1}, [(0, 0)])
+        plant(self.folder / "b", 5, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], finished=False, inertia_scaling=3.0)
+        change, half, pairs = self.collected().change(0.55, ("inertia_scaling", "3", 1e-4), "peak_q_Pa", compare.BASE)
+        self.assertEqual(pairs, 3)
+        self.assertAlmostEqual(change, 100 * 0.4 / 10, places=4)
+        self.assertAlmostEqual(half, 100 * 4.303 * 0.1 / math.sqrt(3) / 10, places=4)
+
+    def test_the_interval_of_five_holds_a_planted_mean_in_95_of_100(self):
+        random.seed(7)
+        held = 0
+        for _ in range(4000):
+            specimens = {k: random.gauss(10, 1) for k in range(5)}
+            _, change, half, _ = paired.paired_difference(specimens, {k: v + random.gauss(0.2, 0.1) for k, v in specimens.items()})
+            held += abs(change - 0.2) <= half
+        self.assertAlmostEqual(held / 4000, 0.95, delta=0.0105)  # three standard deviations
+
+    def test_what_follows_the_peak_counts_only_where_the_test_went_there(self):
+        plant(self.folder / "a", 1, {"peak_q_Pa": 9e6, "residual_q_Pa": 2e6, "end_eps1": 0.04}, [(0, 0)])
+        plant(self.folder / "a", 2, {"peak_q_Pa": 9e6, "residual_q_Pa": 3e6, "end_eps1": 0.1}, [(0, 0)])
+        tests = self.collected()
+        self.assertEqual(list(tests.values(0.55, compare.BASE, "residual_q_Pa").values()), [3])
+        self.assertEqual(len(tests.values(0.55, compare.BASE, "peak_q_Pa")), 2)
+
+    def test_a_test_that_two_parts_share_is_one_with_all_that_is_known(self):
+        plant(self.folder / "a", 1, {"peak_q_Pa": 9e6, "end_eps1": 0.1}, [(0, 0), (9, 8), (2, 8.5)])
+        plant(self.folder / "b", 1, {"peak_q_Pa": 9e6, "end_eps1": 0.04}, [(0, 0), (9, 8)], energy=True)
+        rows = collect.collect(self.folder)
+        self.assertEqual(len(rows), 1)
+        self.assertEqual((rows[0]["end_eps1"], rows[0]["damping_share"], rows[0]["breakage_share"]), (0.1, 0.5, 0.25))
+        self.assertEqual((rows[0]["contact_peak_q_Pa"], rows[0]["contact_peak_eps1"], rows[0]["contact_q_at_peak_Pa"]), (8.5, 0.02, 8))
+
+    def test_verdicts_say_when_they_hang_on_the_seeds(self):
+        self.assertEqual([compare.verdict(found, 2) for found in ((1, 0.9, 5), (-1, 1.1, 5), (3, 0.9, 5), (3, 1.1, 5), (0, math.nan, 1), None)],
+                         ["within", "open", "outside", "open", "-", "-"])
+
+    def test_strength_of_two_stresses_is_that_of_their_circles(self):
+        # c = 2 MPa and phi = 30 deg: K_p = 3, q = (K_p - 1) sigma_3 + 2 c sqrt(K_p).
+        first, second = ({"x": 2 * s + 4 * math.sqrt(3)} for s in (1, 3))
+        (cohesion, angle), = compare.strength(first, second, (1, 3)).values()
+        self.assertAlmostEqual(cohesion, 2)
+        self.assertAlmostEqual(angle, 30)
+
+    def test_the_front_holds_what_nothing_beats_in_both(self):
+        self.assertEqual(picture.front({(1, 9), (2, 5), (3, 6), (4, 1), (5, 1)}), {(1, 9), (2, 5), (4, 1)})
+
+    def test_the_page_is_what_the_committed_data_give(self):
+        docs = PROJECT / "docs"
+        (self.folder / "pictures").mkdir()
+        shutil.copy(docs / "accuracy.md", self.folder)
+        table.main(PROJECT / "perf/tradeoff/data.csv", PROJECT / "perf/tradeoff/cost.csv", self.folder)
+        for name in ("accuracy.md", "pictures/work-precision.svg"):
+            self.assertEqual((self.folder / name).read_text(), (docs / name).read_text(), f"run perf/tradeoff/table.py: {name}")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
