@@ -23,6 +23,9 @@ constexpr int digits_of_wave = 2;
 /// So does I where W bounds it.
 int digits_of_rate(RateNumbers const& n) { return n.share < 1 ? digits_of_wave : 3; }
 
+/// A rate that was asked for as the limit itself may come back a bit above it.
+bool is_too_fast(RateNumbers const& n) { return n.inertial_number > (1 + 1e-9) * inertial_limit; }
+
 double stiffness_number(Scene const& scene) { return scene.grains.kn / scene.test.confining_stress; }
 
 }  // namespace
@@ -49,8 +52,7 @@ RateNumbers rate_numbers(Scene const& scene, double d50, double height, double v
 
 std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> refusals;
-  constexpr double rounded = 1 + 1e-9;  // a rate that was asked for as the limit itself may come back a bit above it
-  if (n.inertial_number > rounded * inertial_limit)
+  if (is_too_fast(n))
     refusals.push_back("inertial number I = " + short_number(n.inertial_number, digits_of_rate(n)) + " is above " +
                        short_number(inertial_limit) + ": the loading is not quasi-static");
   if (double const stiffness = stiffness_number(scene); stiffness < stiffness_limit)
@@ -64,7 +66,7 @@ std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n)
 
 std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> warnings;
-  if (n.inertial_number > inertial_warning && n.inertial_number <= inertial_limit)
+  if (n.inertial_number > inertial_warning && !is_too_fast(n))
     warnings.push_back("inertial number I = " + short_number(n.inertial_number, digits_of_rate(n)) +
                        " is above 1e-3: rate effects of several percent");
   if (n.wave_number > wave_limit) {
