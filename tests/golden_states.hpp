@@ -53,7 +53,6 @@ inline void expect_equal_measures(Simulation const& one, Simulation const& many)
   EXPECT_EQ(a.wall_energy, b.wall_energy);
   EXPECT_EQ(a.stress_area_xy, b.stress_area_xy);
   EXPECT_EQ(a.stress_area_yy, b.stress_area_yy);
-  EXPECT_EQ(a.bond_area, b.bond_area);
   EXPECT_EQ(a.interacting, b.interacting);
   EXPECT_EQ(one.stress().x, many.stress().x);
   EXPECT_EQ(one.stress().y, many.stress().y);

@@ -9,26 +9,37 @@
 #include "kernels/real.hpp"
 #include "kernels/sum_over_ranks.hpp"
 
+// GCC unrolls short loops before it looks for vectors in them.
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#define CLATHRA_KEEP_LOOP _Pragma("GCC unroll 1")
+#else
+#define CLATHRA_KEEP_LOOP
+#endif
+
 namespace clathra {
 
-/// A number in units of its own, as four digits to the base 2^32: high + middle 2^-32 + low 2^-64 + lowest 2^-96. Each digit has
-/// 31 bits of room, so up to 2^31 terms, one a disc, can be added in any order. A term must be below 2^31 units.
+/// A number in units of its own, as four digits to the base 2^31: high + middle 2^-31 + low 2^-62 + lowest 2^-93. Each digit has
+/// 32 bits of room, so up to 2^32 terms can be added in any order. A term must be below 2^31 units: then each of its digits is
+/// one of 32 bits with a sign, for which every processor has a vector conversion.
 struct FixedPoint {
-  static constexpr int words = 4;
+  static constexpr int words = 4, bits = 31;  // of a digit
   std::int64_t word[words] = {0, 0, 0, 0};
-  static constexpr Real base = 4294967296.0;        // 2^32
-  static constexpr Real largest_term = base / 2;    // in units
-  static constexpr std::int64_t mask = 0xffffffff;  // of a digit
+  static constexpr Real base = 2147483648.0;        // 2^31
+  static constexpr Real largest_term = base;        // in units
+  static constexpr std::int64_t mask = 0x7fffffff;  // of a digit
 
   KOKKOS_INLINE_FUNCTION static bool holds(Real value) { return value < largest_term && value > -largest_term; }
 
+  /// The leading digit of a value of which holds() is true, which keeps the others.
+  KOKKOS_FORCEINLINE_FUNCTION static std::int32_t take_digit(Real& value) {
+    auto const digit = static_cast<std::int32_t>(value);
+    value = (value - static_cast<Real>(digit)) * base;
+    return digit;
+  }
   /// @param value  of which holds() is true
   KOKKOS_INLINE_FUNCTION static FixedPoint from(Real value) {
     FixedPoint number;
-    for (std::int64_t& digit : number.word) {
-      digit = static_cast<std::int64_t>(value);
-      value = (value - static_cast<Real>(digit)) * base;
-    }
+    for (std::int64_t& digit : number.word) digit = take_digit(value);
     return number;
   }
   KOKKOS_INLINE_FUNCTION Real value() const {
@@ -48,7 +59,7 @@ struct FixedPoint {
  private:
   KOKKOS_INLINE_FUNCTION void carry() {
     for (int k = words - 1; k > 0; --k) {
-      word[k - 1] += word[k] >> 32;
+      word[k - 1] += word[k] >> bits;
       word[k] &= mask;
     }
   }
@@ -79,7 +90,8 @@ struct SumUnits {
 };
 
 /// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i. Same bits for any order and thread
-/// count. Behind the sums' words one more counts the terms that are out of range.
+/// count. The sums' words stand digit by digit, word k of quantity c at Count k + c, so that loops over quantities become vector
+/// code; behind them one more counts the terms that are out of range.
 template <int Count, class Terms>
 struct ExactSumKernel {
   using value_type = std::int64_t[];
@@ -91,15 +103,21 @@ struct ExactSumKernel {
   KOKKOS_FUNCTION void operator()(int i, std::int64_t* sums) const {
     Real out[Count] = {};
     terms(i, out);
+    int beyond = 0;
+    bool empty = true;  // nearly all terms of the walls
+    CLATHRA_KEEP_LOOP
     for (int c = 0; c < Count; ++c) {
-      if (out[c] == 0) continue;  // nearly all terms of the walls
+      empty = empty && out[c] == 0;
       Real const value = out[c] * per_unit[c];
-      if (!FixedPoint::holds(value)) {
-        ++sums[words - 1];
-        continue;
-      }
-      FixedPoint const term = FixedPoint::from(value);
-      for (int k = 0; k < FixedPoint::words; ++k) sums[FixedPoint::words * c + k] += term.word[k];
+      bool const holds = FixedPoint::holds(value);
+      beyond += holds ? 0 : 1;
+      out[c] = holds ? value : 0;
+    }
+    if (empty) return;
+    sums[words - 1] += beyond;
+    for (int k = 0; k < FixedPoint::words; ++k) {
+      CLATHRA_KEEP_LOOP
+      for (int c = 0; c < Count; ++c) sums[Count * k + c] += FixedPoint::take_digit(out[c]);
     }
   }
   KOKKOS_FUNCTION void init(std::int64_t* sums) const {
@@ -168,7 +186,7 @@ void exact_sums(char const* label, int n, Terms const& terms, Real const (&unit)
   require_in_range(label, sums[Kernel::words - 1]);
   for (int c = 0; c < Count; ++c) {
     FixedPoint sum;
-    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[FixedPoint::words * c + k];
+    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[Count * k + c];
     result[c] = sum.value() * unit[c];
   }
 }

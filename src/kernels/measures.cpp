@@ -23,7 +23,6 @@ enum Sum : int {
   elastic,
   elastic_of_bonds,
   deep,
-  area,
   pair_sums
 };
 
@@ -57,10 +56,6 @@ struct DiscSums {
       out[elastic] += 0.5 * s.grain_energy;
       out[elastic_of_bonds] += 0.5 * s.bond_energy;
       out[deep] += s.overlap > 0.1 * lane_min(p.radius(i), p.radius(s.other)) ? 0.5 : 0;
-      if (s.bonded) {
-        Real const common = common_radius(p.radius(i), p.radius(s.other));
-        out[area] += 0.5 * bond_area(common, s.width, s.thickness, laws.bond.critical_thickness);
-      }
     }
     if (contacts < 2) return;
     out[non_rattlers] = 1;
@@ -112,7 +107,6 @@ void set_units(SumUnits const& scale, Real (&unit)[pair_sums]) {
   for (int const sum : {stress_xx, stress_xy, stress_yx, stress_yy, kinetic, elastic, elastic_of_bonds})
     unit[sum] = scale.energy();
   for (int const sum : {contact_force, unbalanced}) unit[sum] = scale.force();
-  unit[area] = scale.area();
 }
 
 struct LossSums {
@@ -192,7 +186,6 @@ Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactL
   m.bond_energy = pairs[elastic_of_bonds];
   m.wall_energy = at_walls[elastic];
   m.deep = pairs[deep];
-  m.bond_area = pairs[area];
   return m;
 }
 

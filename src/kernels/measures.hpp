@@ -20,7 +20,6 @@ struct Measures {
   Real kinetic = 0;                                         ///< [J/m]
   Real grain_energy = 0, bond_energy = 0, wall_energy = 0;  ///< elastic [J/m]
   Real deep = 0;                                            ///< pairs that overlap by more than 10 % of the smaller radius
-  Real bond_area = 0;                                       ///< sum of Eq. 5 over intact bonds [m^2]
 
   /// Z_m = (2 C - N_1) / (N - N_0 - N_1) of N discs with C pairs, N_0 and N_1 of them with none and with one (Thornton 2000,
   /// Geotechnique 50(1), 43-53); contacts with walls do not count. 0 where all are rattlers.

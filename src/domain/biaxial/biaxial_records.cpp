@@ -24,7 +24,7 @@ Snapshot BiaxialTest::snapshot() const {
 
 HistoryRow BiaxialTest::record() {
   Simulation const& s = *state_->simulation;
-  Measures const m = s.measures();
+  Measures const& m = state_->measures();
   WallStress const stress = s.stress();
   HistoryRow row;
   row.step = s.steps() - state_->first_step;
@@ -53,7 +53,7 @@ HistoryRow BiaxialTest::record() {
 
 EnergyRow BiaxialTest::energy() {
   Simulation const& s = *state_->simulation;
-  Measures const m = s.measures();
+  Measures const& m = state_->measures();
   LossTotals const lost = s.losses();
   EnergyRow row;
   row.boundary_work = s.boundary_work();

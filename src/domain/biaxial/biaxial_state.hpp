@@ -27,6 +27,8 @@ struct BiaxialTest::State {
   bool at_rest = false;  // when the shear began
   EnergyRow start;
   ShearWatch watch;
+  Measures measured;
+  std::int64_t measured_after = -1;  ///< steps
 
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   std::string text_of_scaling() const;
@@ -37,6 +39,8 @@ struct BiaxialTest::State {
   bool record_is_due() const { return eps1() >= static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }
   double eps1() const { return std::log(height0 / simulation->walls().height()); }
   void check();
+  /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.
+  Measures const& measures();
   double skin() const { return scene.run.skin > 0 ? scene.run.skin : chosen_skin * d50; }
   template <class Visit>
   void for_each_number(Visit&& visit);

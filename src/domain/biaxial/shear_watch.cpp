@@ -17,8 +17,7 @@ std::string text_of(char const* format, Numbers... numbers) {
 
 }  // namespace
 
-void ShearWatch::check(Simulation const& simulation, double eps1) {
-  Measures const m = simulation.measures();
+void ShearWatch::check(Simulation const& simulation, Measures const& m, double eps1) {
   double const unbalanced = m.unbalanced_ratio(simulation.discs());
   smallest_step_ = checks_ == 0 ? simulation.time_step : std::min(smallest_step_, simulation.time_step);
   largest_step_ = std::max(largest_step_, simulation.time_step);

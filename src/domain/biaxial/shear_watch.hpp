@@ -22,8 +22,8 @@ class ShearWatch {
  public:
   /// Whether the next check is due at this axial strain.
   bool due(double eps1) const { return eps1 >= (static_cast<double>(checks_) + 1) * check_interval; }
-  /// Collective; changes nothing of the simulation.
-  void check(Simulation const& simulation, double eps1);
+  /// Collective; changes nothing of the simulation. @param m  of the simulation as it stands
+  void check(Simulation const& simulation, Measures const& m, double eps1);
 
   /// False where the unbalanced ratio was above its limit in more than 1 % of the checks.
   bool balanced() const { return static_cast<double>(unbalanced_checks_) <= unbalanced_share * static_cast<double>(checks_); }
