@@ -16,7 +16,21 @@ struct WallForces {
   EnergyLosses losses;
   Faults faults;
 
+  /// The discs along a wall lie far apart in memory; each would be waited for.
+  KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(int c) const {
+    constexpr int discs_ahead = 16;
+    int const i = contacts.disc(c + discs_ahead < contacts.size ? c + discs_ahead : contacts.size - 1);
+    for (auto const& field : {&p.x, &p.y, &p.radius}) prefetch(&(*field)(i));
+    if (p.precision == Precision::mixed) {
+      prefetch(p.mirror.numbers() + static_cast<std::size_t>(i) * DiscMirror::row);
+      for (auto const& field : {&p.force_x, &p.force_y}) prefetch(field->data<float>() + i);
+    } else {
+      for (auto const& field : {&p.vx, &p.vy, &p.omega, &p.force_x, &p.force_y}) prefetch(field->data<Real>() + i);
+    }
+  }
+
   KOKKOS_FUNCTION void operator()(int c, Real* reactions) const {
+    fetch_ahead(c);
     int const i = contacts.disc(c);
     bool const friction = contacts.shear.extent(0) > 0;
     for (int wall = 0; wall < wall_count; ++wall) {
