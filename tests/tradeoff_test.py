@@ -17,17 +17,18 @@ import compare  # noqa: E402
 import paired  # noqa: E402
 import picture  # noqa: E402
 import table  # noqa: E402
+import two_rates  # noqa: E402
 
 SCENE = {"sample": {"aspect_ratio": 2.0}, "grains": {"kn": 3e8, "contact_damping": 0.0}, "hydrate": {"saturation": 0.55},
          "run": {"precision": "double", "dt_safety": 0.95, "inertia_scaling": 1.0, "mass_scaling": 0.0, "damping": 0.3, "skin": 0.0},
          "test": {"confining_stress": 1e6, "inertial_number": 1e-4}}
 
 
-def plant(folder, seed, numbers, q, finished=True, energy=False, **run):
+def plant(folder, seed, numbers, q, finished=True, energy=False, rate=1e-4, **run):
     """A member as `clathra study` leaves it: `q` of the walls and of the contacts, a row each."""
     member = folder / f"members/{len(list(folder.glob('members/*')))}"
     member.mkdir(parents=True)
-    scene = {**SCENE, "run": {**SCENE["run"], **run}}
+    scene = {**SCENE, "run": {**SCENE["run"], **run}, "test": {**SCENE["test"], "inertial_number": rate}}
     document = {"scene": scene, "seed": seed, "disc_steps": 1000, "input": {"specimen_digest_xxh3_128": f"{seed:x}".ljust(32, "0")},
                 "stages": {"plan": {"discs": 2000.0}, "shear": numbers}, "exit": {"reason": "finished" if finished else "stopped"}}
     (member / "run.json").write_text(json.dumps(document))
@@ -96,6 +97,22 @@ class Tradeoff(unittest.TestCase):
         self.assertAlmostEqual(cohesion, 2)
         self.assertAlmostEqual(angle, 30)
 
+    def test_a_fast_rise_gains_what_its_share_of_the_strain_allows(self):
+        # 15 % at 2e-4; 3 % of it five times as fast: 15 / (12 + 3 / 5). A test that ends in the rise gains all of it.
+        self.assertAlmostEqual(two_rates.largest_gain(0.03, 1e-3, 0.15), 15 / 12.6)
+        self.assertAlmostEqual(two_rates.largest_gain(0.03, 1e-3, 0.02), 5)
+        self.assertAlmostEqual(two_rates.largest_gain(0.03, two_rates.FIXED, 0.15), 1)
+
+    def test_the_rise_is_as_fast_as_leaves_its_modulus(self):
+        # E50 +0.6 and +0.8 % at 1e-3: 0.7 +- 12.706 * 0.1 is open; by +0.68 and +0.72 % it is kept. +4 % at 3e-3 is not.
+        for seed, at_1e3 in ((1, 6.8e5), (2, 7.2e5)):
+            for rate, modulus in ((2e-4, 1e8), (1e-3, 1e8 + at_1e3), (3e-3, 1.04e8)):
+                plant(self.folder / f"{rate}", seed, {"peak_q_Pa": 4e6, "secant_modulus_Pa": modulus, "end_eps1": 0.1}, [(0, 0)], rate=rate)
+        tests = self.collected()
+        self.assertEqual(two_rates.fastest_rise(tests, 0.55), 1e-3)
+        self.assertEqual(two_rates.fastest_rise(tests, 0.55, within=0.5), two_rates.FIXED)
+        self.assertAlmostEqual(two_rates.half_peak_strain(tests, 0.55, two_rates.plain(2e-4)), 2e6 / 1e8)
+
     def test_the_front_holds_what_nothing_beats_in_both(self):
         self.assertEqual(picture.front({(1, 9), (2, 5), (3, 6), (4, 1), (5, 1)}), {(1, 9), (2, 5), (4, 1)})
 
@@ -104,8 +121,9 @@ class Tradeoff(unittest.TestCase):
         (self.folder / "pictures").mkdir()
         shutil.copy(docs / "accuracy.md", self.folder)
         table.main(PROJECT / "perf/tradeoff/data.csv", PROJECT / "perf/tradeoff/cost.csv", self.folder)
-        for name in ("accuracy.md", "pictures/work-precision.svg"):
-            self.assertEqual((self.folder / name).read_text(), (docs / name).read_text(), f"run perf/tradeoff/table.py: {name}")
+        two_rates.main(PROJECT / "perf/tradeoff/data.csv", self.folder)
+        for name in ("accuracy.md", "pictures/work-precision.svg", "pictures/two-rates.svg"):
+            self.assertEqual((self.folder / name).read_text(), (docs / name).read_text(), f"run perf/tradeoff/table.py, two_rates.py: {name}")
 
 
 if __name__ == "__main__":

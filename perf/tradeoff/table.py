@@ -262,8 +262,8 @@ TABLES = {"reference": references, "cost": costs, "sand": trade(SAND), "bonded":
           "angles": angles, "stiffness": stiffness, "repeated": repeated}
 
 
-def put(page, mark, table):
-    begin, end = f"<!-- {mark}: made by perf/tradeoff/table.py -->", f"<!-- end of {mark} -->"
+def put(page, mark, table, maker="table.py"):
+    begin, end = f"<!-- {mark}: made by perf/tradeoff/{maker} -->", f"<!-- end of {mark} -->"
     before, rest = page.split(begin)
     return before + begin + "\n\n" + table + "\n\n" + end + rest.split(end)[1]
 
