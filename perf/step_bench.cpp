@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "domain/biaxial/throughput.hpp"
-#include "phases.hpp"
+#include "kernels/phases.hpp"
 
 namespace {
 

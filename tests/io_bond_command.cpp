@@ -242,5 +242,26 @@ TEST(BenchCommand, PrintsACardOfThisMachine) {
   EXPECT_EQ(run_clathra("bench --case soup").code, 64);
 }
 
+TEST(BenchCommand, PrintsATableOfSizesInBothPrecisions) {
+  CommandResult const result =
+      run_clathra("bench --card --case rolling --discs 4000 --threads 1 --seconds 0.05 --json 2>/dev/null");
+  ASSERT_EQ(result.code, 0) << result.output;
+  auto const rows = nlohmann::json::parse(result.output)["rows"];
+  ASSERT_EQ(rows.size(), 4);
+  for (std::size_t n = 0; n < 4; ++n) {
+    double const discs = n < 2 ? 2000 : 4000;
+    EXPECT_EQ(rows[n]["precision"], n % 2 == 0 ? "double" : "mixed");
+    EXPECT_NEAR(rows[n]["discs"], discs, 0.1 * discs);
+    double const speed = rows[n]["disc_steps_per_second"], step = rows[n]["seconds_per_step"];
+    EXPECT_NEAR(speed * step, rows[n]["discs"], 1);
+    EXPECT_GE(rows[n]["launches_per_step"], 3);  // drift, contacts, walls
+    EXPECT_LT(rows[n]["launches_per_step"], 20);
+    EXPECT_GT(rows[n]["bandwidth_share"], 0);
+  }
+  EXPECT_LT(rows[1]["bytes_per_disc"], rows[0]["bytes_per_disc"]);
+  EXPECT_EQ(run_clathra("bench --card --precision mixed").code, 64);
+  EXPECT_EQ(run_clathra("bench --card --discs 1000").code, 64);
+}
+
 }  // namespace
 }  // namespace clathra

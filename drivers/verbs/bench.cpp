@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "domain/biaxial/throughput.hpp"
+#include "domain/biaxial/throughput_card.hpp"
 #include "io/results/run_record.hpp"
 #include "print.hpp"
 #include "threads.hpp"
@@ -22,10 +22,11 @@ struct BenchOptions {
   double seconds = 3;
   int threads = 0;
   bool json = false;
+  bool card = false;
 };
 
-nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simulation, Throughput const& t, double bandwidth,
-                            double arithmetic) {
+nlohmann::ordered_json one_size(BenchOptions const& options, Simulation const& simulation, Throughput const& t, double bandwidth,
+                                double arithmetic) {
   double const moved = t.disc_steps_per_second * t.moved_per_step;
   return {{"case", options.what},
           {"precision", options.precision},
@@ -50,7 +51,7 @@ nlohmann::ordered_json card(BenchOptions const& options, Simulation const& simul
           {"backend", backend_name()}};
 }
 
-std::string card_text(nlohmann::ordered_json const& c) {
+std::string text_of(nlohmann::ordered_json const& c) {
   auto const number = [&](char const* key) { return c.at(key).get<double>(); };
   return fmt::format(
       "{} discs, {}, {} precision, {} threads, {} lanes, {}\n"
@@ -69,18 +70,53 @@ std::string card_text(nlohmann::ordered_json const& c) {
       number("steps") / std::max(1.0, number("rebuilds")));
 }
 
+nlohmann::ordered_json json_of(ThroughputRow const& row) {
+  return {{"precision", precision_names[static_cast<int>(row.precision)]},
+          {"discs", row.discs},
+          {"disc_steps_per_second", row.measured.disc_steps_per_second},
+          {"seconds_per_step", 1e-6 * row.microseconds_per_step()},
+          {"bytes_per_disc", row.measured.bytes_per_disc},
+          {"bytes_moved_per_disc_and_step", row.measured.moved_per_step},
+          {"bandwidth_bytes_per_s", row.bandwidth},
+          {"bandwidth_share", row.bandwidth_share()},
+          {"launches_per_step", row.launches_per_step},
+          {"rebuild_share", row.measured.rebuild_share}};
+}
+
+/// All sizes in both precisions: a line as each is there, or at the end one JSON object.
+ExitCode card(BenchOptions const& options) {
+  KokkosSession const kokkos;
+  std::string const title =
+      fmt::format("{}, {} threads, {}, {}\n", options.what, ExecutionSpace().concurrency(), backend_name(), compiler_name());
+  ExitCode code = options.json ? ExitCode::done : print_result(title + card_head());
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  throughput_card(options.setup, options.setup.discs, options.seconds, [&](ThroughputRow const& row) {
+    if (options.json) {
+      rows.push_back(json_of(row));
+    } else if (code == ExitCode::done) {
+      code = print_result(card_line(row));
+    }
+  });
+  if (!options.json) return code;
+  nlohmann::ordered_json const result = {{"case", options.what},        {"threads", ExecutionSpace().concurrency()},
+                                         {"compiler", compiler_name()}, {"kokkos", kokkos_version()},
+                                         {"backend", backend_name()},   {"rows", rows}};
+  return print_result(result.dump(2) + "\n");
+}
+
 ExitCode bench(BenchOptions options) {
   set_up_threads(options.threads);
   auto const named = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), options.what);
   options.setup.precision = options.precision == precision_names[0] ? Precision::full : Precision::mixed;
   options.setup.what = static_cast<ThroughputCase>(named - std::begin(throughput_case_names));
+  if (options.card) return card(options);
   KokkosSession const kokkos;
   Simulation simulation = throughput_simulation(options.setup);
   measure_throughput(simulation, 0.2 * options.seconds);  // caches and clock speed settle
   Throughput const measured = measure_throughput(simulation, options.seconds);
   nlohmann::ordered_json const result =
-      card(options, simulation, measured, update_bandwidth(simulation.bytes()), arithmetic_rate());
-  return print_result(options.json ? result.dump(2) + "\n" : card_text(result));
+      one_size(options, simulation, measured, update_bandwidth(simulation.bytes()), arithmetic_rate());
+  return print_result(options.json ? result.dump(2) + "\n" : text_of(result));
 }
 
 }  // namespace
@@ -92,17 +128,28 @@ void add_bench(CLI::App& program, Verb& chosen) {
                    "grains with rolling resistance, bonded with 55 % hydrate, or sheared until bonds break")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(throughput_case_names), std::end(throughput_case_names))))
       ->capture_default_str();
-  verb->add_option("--precision", options->precision, "numbers of the steps, as run.precision")
-      ->check(CLI::IsMember(std::vector<std::string>(std::begin(precision_names), std::end(precision_names))))
-      ->capture_default_str();
-  verb->add_option("--discs", options->setup.discs, "number of discs, about")
-      ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))
-      ->capture_default_str();
+  CLI::Option* const precision =
+      verb->add_option("--precision", options->precision, "numbers of the steps, as run.precision")
+          ->check(CLI::IsMember(std::vector<std::string>(std::begin(precision_names), std::end(precision_names))))
+          ->capture_default_str();
+  CLI::Option const* const discs =
+      verb->add_option("--discs", options->setup.discs, "number of discs, about; the largest of a card")
+          ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))
+          ->capture_default_str();
   verb->add_option("--threads", options->threads, "threads")->check(CLI::Range(1, 4096))->type_name("N");
   verb->add_option("--seconds", options->seconds, "time to measure")->check(CLI::Range(0.01, 3600.0))->capture_default_str();
   verb->add_flag("--json", options->json, "one JSON object, SI units");
+  verb->add_flag(
+          "--card", options->card,
+          "a table instead: 2000 discs, ten times as many each time, and --discs (1000000), in both precisions, with the share "
+          "of the bandwidth that updating as much memory reaches")
+      ->excludes(precision);
   verb->footer("Example: clathra bench --case bonded --discs 20000 --threads 1 --json");
-  verb->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
+  verb->callback([options, discs, &chosen] {
+    if (options->card && discs->count() == 0) options->setup.discs = 1'000'000;
+    if (options->card && options->setup.discs < 2000) throw CLI::ValidationError("--discs", "a card begins with 2000 discs");
+    chosen = [options] { return bench(*options); };
+  });
 }
 
 }  // namespace clathra

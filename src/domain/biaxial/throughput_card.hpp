@@ -1,0 +1,41 @@
+#pragma once
+/// A table of throughputs by size and precision: what a machine makes of specimens from a cache's size to its memory's.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "domain/biaxial/throughput.hpp"
+
+namespace clathra {
+
+/// One size in one precision.
+struct ThroughputRow {
+  Precision precision = Precision::full;
+  std::int64_t discs = 0;
+  Throughput measured;
+  double bandwidth = 0;          ///< update_bandwidth() of as much memory, of the same minute [bytes/s]
+  double launches_per_step = 0;  ///< of kernels, those of searches among them
+
+  double microseconds_per_step() const { return 1e6 * measured.seconds / static_cast<double>(measured.steps); }
+  double bandwidth_share() const {
+    return bandwidth > 0 ? measured.disc_steps_per_second * measured.moved_per_step / bandwidth : 0;
+  }
+};
+
+/// 2,000 discs and ten times as many each time, then `most_discs`; both at the least. @param most_discs  >= 2000
+std::vector<std::int64_t> card_sizes(std::int64_t most_discs);
+
+/// Steps in which a cut packing of so many discs settles: fewer of large ones, whose settling would take most of the time.
+int card_relaxation_steps(std::int64_t discs);
+
+/// Measures all sizes in both precisions and calls `visit` with each row as it is there.
+/// @param setup  what is timed, and how; its size, precision and settling are the card's
+/// @param seconds  to measure, a row
+void throughput_card(ThroughputSetup setup, std::int64_t most_discs, double seconds,
+                     std::function<void(ThroughputRow const&)> const& visit);
+
+/// The table in words, as lines that end in a newline: its head, and a row.
+std::string card_head();
+std::string card_line(ThroughputRow const& row);
+
+}  // namespace clathra
