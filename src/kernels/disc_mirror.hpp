@@ -6,8 +6,6 @@
 /// difference of two of them, as a signed number, is that of their places to the tick, at any size of the box, as long as it is
 /// below 2^31 ticks, 32 to 64 diameters: rows name no disc that far away. Sixteen numbers of four bytes gathered one by one are
 /// as many loads and as many shuffles; sixteen rows are sixteen loads for four numbers each, and eight shuffles.
-#include <cstring>
-
 #include "kernels/real_field.hpp"
 
 namespace clathra {
@@ -31,12 +29,12 @@ KOKKOS_FORCEINLINE_FUNCTION IntLanes difference(IntLanes const& a, IntLanes cons
 using IntLanes = std::int32_t;
 KOKKOS_FORCEINLINE_FUNCTION IntLanes bits_of(float value) {
   IntLanes bits;
-  std::memcpy(&bits, &value, sizeof bits);
+  __builtin_memcpy(&bits, &value, sizeof bits);
   return bits;
 }
 KOKKOS_FORCEINLINE_FUNCTION float from_bits(IntLanes bits) {
   float value;
-  std::memcpy(&value, &bits, sizeof value);
+  __builtin_memcpy(&value, &bits, sizeof value);
   return value;
 }
 KOKKOS_FORCEINLINE_FUNCTION IntLanes difference(IntLanes a, IntLanes b) {
@@ -59,7 +57,7 @@ struct RowsOfDiscs {
 
 KOKKOS_FORCEINLINE_FUNCTION float from_bits_of_one(std::int32_t bits) {
   float value;
-  std::memcpy(&value, &bits, sizeof value);
+  __builtin_memcpy(&value, &bits, sizeof value);
   return value;
 }
 
@@ -80,7 +78,7 @@ struct DiscMirror {
   KOKKOS_FORCEINLINE_FUNCTION static std::int32_t ticks(Coord place, Real per_tick) {
     double const sum = place * per_tick + shift;
     std::uint64_t bits;
-    std::memcpy(&bits, &sum, sizeof bits);
+    __builtin_memcpy(&bits, &sum, sizeof bits);
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
   }
 

@@ -2,7 +2,6 @@
 /// Logarithm, exponential and power from + - * / only, so that every CPU and GPU gives the same bits (libm differs between them).
 #include <Kokkos_Core.hpp>
 #include <cstdint>
-#include <cstring>
 
 #include "kernels/real.hpp"
 
@@ -14,12 +13,12 @@ inline constexpr Real ln2_low = 1.90821492927058770002e-10;
 
 KOKKOS_FORCEINLINE_FUNCTION std::uint64_t bits_of(Real value) {
   std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
+  __builtin_memcpy(&bits, &value, sizeof bits);
   return bits;
 }
 KOKKOS_FORCEINLINE_FUNCTION Real from_bits(std::uint64_t bits) {
   Real value;
-  std::memcpy(&value, &bits, sizeof value);
+  __builtin_memcpy(&value, &bits, sizeof value);
   return value;
 }
 }  // namespace detail
