@@ -13,7 +13,7 @@ namespace clathra {
 namespace {
 
 /// The time step that a specimen of this scene will get [s]: its smallest disc in six contacts, bonded if the scene has hydrate;
-/// the factors of the limit and of scaled masses are those of specimens of the paper's grading.
+/// the factors of the limit and of scaled masses (docs/accuracy.md) are those of specimens of the paper's grading.
 double estimated_time_step(Scene const& scene, Grading const& grading, bool bonded) {
   double const r = 0.5 * grading.smallest(), mass = pi * r * r * scene.grains.density;
   double const bond_share = bonded ? 0.5 : 0;  // Eq. 16: k_bn < k_n / 2
@@ -22,7 +22,7 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
   double const turn = 6 * (ks + rolling) * r * r;
   RunScene const& run = scene.run;
   double const limit = run.time_step == TimeStepRule::spectrum ? 1.39 / std::sqrt(1 + run.damping) : 1,
-               scaling = std::min(std::sqrt(run.inertia_scaling), 1.6) * (1 + 0.6 * run.mass_scaling);
+               scaling = std::min(std::sqrt(run.inertia_scaling), bonded ? 1.37 : 1.3) * (1 + 0.3 * run.mass_scaling);
   return run.step_choice().safety * limit * scaling * std::sqrt(2 * 0.5 * mass * r * r / turn);
 }
 
