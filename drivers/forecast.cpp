@@ -92,9 +92,11 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
   text += row("d50", fmt::format("{:.4g} mm", n.at("d50_m") * 1e3));
   text += row("bonds", has_bonds(scene) ? bonds_text(scene.hydrate) : "none");
   text += row("confining stress", fmt::format("{:.4g} MPa", scene.test.confining_stress * 1e-6));
-  text +=
-      row("time step", fmt::format("{:.3g} s ({:g} of {})", n.at("time_step_s"), scene.run.step_choice().safety,
-                                   scene.run.time_step == TimeStepRule::spectrum ? "the limit of stability" : "the estimate"));
+  std::string const rotation =
+      scene.run.inertia_scaling == 1 ? "" : fmt::format(", moments of inertia times {:g}", scene.run.inertia_scaling);
+  text += row("time step",
+              fmt::format("{:.3g} s ({:g} of {}{})", n.at("time_step_s"), scene.run.step_choice().safety,
+                          scene.run.time_step == TimeStepRule::spectrum ? "the limit of stability" : "the estimate", rotation));
   text += row("strain rate",
               fmt::format("{:.4g} 1/s, up to {:.4g} % axial strain", n.at("strain_rate_per_s"), scene.test.axial_strain * 100));
   std::string const lowered =

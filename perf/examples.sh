@@ -4,7 +4,7 @@
 # One specimen of 20,000 discs for the twelve tests of the paper, the literal reading and the scene `sand`; quick and full-size make
 # their own. Writes OUT/examples.md, the tables for that page, and OUT/pictures. A run that is there already is not made again. Needs a
 # build (cmake --preset release && cmake --build --preset release) and the packages python3-matplotlib and python3-h5py for the pictures.
-# About three quarters of an hour on two cores, half of it for full-size; WITHOUT="full-size" leaves that out.
+# About a quarter of an hour on two cores, half of it for full-size; WITHOUT="full-size" leaves that out.
 set -euo pipefail
 out=${1:?usage: perf/examples.sh OUT [threads]}
 threads=${2:-2}

@@ -1,8 +1,8 @@
 """Prints the rows of src/domain/biaxial/expected_error.cpp from the study of loading rates.
 
-usage: python3 perf/expected_error.py study.csv W_OVER_I
-W_OVER_I: W of its specimens at an inertial number of 1 (`clathra check` on its scene). Errors are paired with the slowest rate in
-double precision, seed by seed; intervals are Student's."""
+usage: python3 perf/expected_error.py study.csv
+Errors are paired with the slowest rate in double precision, seed by seed; intervals are Student's. Rows of heavier rotation are in
+docs/accuracy.md."""
 import collections
 import csv
 import sys
@@ -35,13 +35,13 @@ def text(found):
     return "not measured" if found is None else "{%.4f, %.4f}" % found[:2]
 
 
-def main(path, wave):
+def main(path):
     all_peaks = peaks(path)
     slowest = {bonded: min(all_peaks[bonded, "double"]) for bonded in (False, True)}
     reference = {bonded: all_peaks[bonded, "double"][slowest[bonded]] for bonded in (False, True)}
     for rate in sorted(set(all_peaks[True, "double"]) | set(all_peaks[False, "double"])):
         both = [error(all_peaks[bonded, "double"].get(rate, {}), reference[bonded]) for bonded in (False, True)]
-        print("    {%g, %.3g, %s, %s},  // %s seeds" % (rate, wave * rate, text(both[0]), text(both[1]), [b and b[2] for b in both]))
+        print("    {%g, %s, %s},  // %s seeds" % (rate, text(both[0]), text(both[1]), [b and b[2] for b in both]))
     for bonded in (False, True):
         differences = {}
         for rate, values in all_peaks[bonded, "mixed"].items():
@@ -53,4 +53,4 @@ def main(path, wave):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], float(sys.argv[2]))
+    main(sys.argv[1])

@@ -126,7 +126,7 @@ TEST(ExtremeScenes, AThousandTimesSofterAndStifferUnderStressesToMatch) {
     for (double* stress : {&scene.grains.kn, &scene.grains.ks, &scene.test.confining_stress, &scene.bond.stress})
       *stress *= factor;
     scene.sample.particles = 100;
-    scene.sample.void_ratio = 0.34;
+    scene.sample.void_ratio = 0.33;
     scene.sample.layers = 1;
     ratios[n++] = shear(scene, generate_specimen(scene, {}).specimen).void_ratio;
   }

@@ -62,7 +62,7 @@ TEST_F(CheckCommand, WarnsOfTheSameAsADryRunAndTheRunItself) {
 
 TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
   CommandResult const free = clathra("check", "--disc-steps-per-second 1e6");
-  EXPECT_TRUE(holds(free.output, "inertial number I  0.0001 (quasi-static below 0.001)\n")) << free.output;
+  EXPECT_TRUE(holds(free.output, "inertial number I  0.0002 (quasi-static below 0.001)\n")) << free.output;
   std::string const bounded = "--set test.wave_number=1e-3 --set test.inertial_number=1e-3 ";
   CommandResult const check = clathra("check", bounded + "--disc-steps-per-second 1e6");
   EXPECT_TRUE(holds(check.output, "(lowered from 0.001 by test.wave_number; quasi-static below 0.001)\n")) << check.output;

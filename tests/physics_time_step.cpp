@@ -127,11 +127,12 @@ TEST(TimeStep, MayChangeWithoutAnErrorInTheMotion) {
   EXPECT_NEAR(height, -0.5 * 9.81 * time * (time + first), within(1e-13, 2e-9));  // at rest half a step before the start
 }
 
-/// Amplitudes grow by (s + sqrt(s^2 - 1))^2 a step where omega dt = 2 s.
+/// Amplitudes grow by (s + sqrt(s^2 - 1))^2 a step where omega dt = 2 s. The second frequency of this packing lies 2 % below the
+/// first: up to there one mode grows alone.
 TEST(TimeStep, AboveTheLimitGrowsAtThePredictedRate) {
   if (tested_precision() == Precision::mixed) GTEST_SKIP() << "grows from motions far below a tick";
   Simulation sim = loaded_sand(1e6);
-  for (double const share : {1.02, 1.05}) {
+  for (double const share : {1.01, 1.02}) {
     Simulation copy(sim.specimen(), sim.laws(), 0.1 * packing().d50);
     SimulationLaws laws = copy.laws();
     laws.motion.damping = 0.7;
@@ -144,13 +145,13 @@ TEST(TimeStep, AboveTheLimitGrowsAtThePredictedRate) {
     copy.time_step = share * 2 / copy.largest_frequency(400);
     double const rate = 2 * std::acosh(share);
     std::vector<double> logs;
-    while (logs.size() < 400 && (logs.empty() || logs.back() < std::log(1e-6))) {
+    while (logs.size() < 400 && (logs.empty() || logs.back() < std::log(1e-5))) {
       copy.step();
       logs.push_back(0.5 * std::log(copy.measures().kinetic / copy.measures().grain_energy));
     }
     ASSERT_GT(logs.size(), 12u);
     double const measured = (logs.back() - logs[logs.size() - 4]) / 3;
-    EXPECT_NEAR(measured / rate, 1, 0.05) << share;
+    EXPECT_NEAR(measured / rate, 1, 0.02) << share;
   }
 }
 

@@ -43,7 +43,7 @@ class Package(unittest.TestCase):
     def test_snapshots_are_arrays_with_units(self):
         run = self.run_of_scene
         self.assertEqual(len(run.snapshots), 4)
-        self.assertAlmostEqual(run.snapshot_at(0.005).eps1, 0.005, delta=2e-6)
+        self.assertAlmostEqual(run.snapshot_at(0.005).eps1, 0.005, delta=4e-6)  # one step
         last = run.snapshots[-1]
         self.assertEqual(last.particles["position"].shape, (100, 2))
         self.assertEqual(len(last.particles), 100)
@@ -69,7 +69,7 @@ class Package(unittest.TestCase):
     def test_specimens_are_arrays(self):
         final = self.run_of_scene.final
         self.assertEqual(final.particles["x"].shape, (100,))
-        self.assertAlmostEqual(final.axial_strain, 0.02, delta=2e-6)
+        self.assertAlmostEqual(final.axial_strain, 0.02, delta=4e-6)
         with self.assertRaises(FileNotFoundError):
             _ = self.run_of_scene.specimen
         with self.assertRaises(ValueError):

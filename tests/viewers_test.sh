@@ -40,6 +40,6 @@ else
   "$interpreter" "$project/share/python/grains.py" "$folder/out/final.h5" -o "$folder/grains.pdf"
   "$interpreter" "$project/share/python/grains.py" "$folder/out/final.h5" -o "$folder/grains.png"
   for picture in curves.pdf bonds.pdf test.pdf test.png grains.pdf grains.png; do
-    [ "$(stat -c %s "$folder/$picture")" -gt 5000 ] || { echo "$picture is all but empty"; exit 1; }
+    [ "$(stat -c %s "$folder/$picture")" -gt 4000 ] || { echo "$picture is all but empty"; exit 1; }
   done
 fi

@@ -113,11 +113,12 @@ class Tuning {
 
   std::size_t values_of(std::size_t trial) const { return search_.trials()[trial].values.size(); }
 
-  /// Scaled masses, which a guard may refuse at the rate, are tried with one seed first.
+  /// Masses scaled further than usual, which a guard may refuse at the rate, are tried with one seed first.
   void add(Wish const& wish) {
     for (std::size_t const trial : wish.trials) {
       TuneSetting const& setting = plan_.settings[trial];
-      bool const tried = has_member(trial, 1) || (setting.inertia_scaling == 1 && setting.mass_scaling == 0);
+      bool const tried =
+          has_member(trial, 1) || (setting.inertia_scaling <= RunScene::usual_inertia_scaling && setting.mass_scaling == 0);
       for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tried ? wish.seeds : 1); ++seed)
         if (!has_member(trial, seed)) {
           add_member(plan_.study, trial, seed);

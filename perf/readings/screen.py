@@ -25,7 +25,7 @@ RODS = ["printed", "clamped", "scaled"]
 COMPOSITES = ["parallel", "memory", "replace"]
 SHAPES = [1, 2]
 STRESSES = ["1 MPa", "3 MPa"]
-SHARED = {"grains.particle_stiffness_ratio": 1, "sample.particles": 2000, "test.inertial_number": 2e-4, "output.snapshots": 0, "output.keep_checkpoint": False}
+SHARED = {"grains.particle_stiffness_ratio": 1, "sample.particles": 2000, "test.inertial_number": 2e-4, "run.inertia_scaling": 1, "output.snapshots": 0, "output.keep_checkpoint": False}
 
 
 def readings():

@@ -15,7 +15,7 @@ from paired import deviation, mean_and_half_width, paired_difference
 SAND, BONDED = 0.0, 0.55
 NAMES = {SAND: "sand", BONDED: "55 %"}
 OTHER_SPECIMENS = ("discs", "aspect_ratio", "kn_Pa")  # factors that change what is tested, not how
-FACTORS = {"base": "shipped", "precision": "precision", "dt_safety": "dt_safety", "inertia_scaling": "inertia x", "mass_scaling": "mass",
+FACTORS = {"base": "base", "precision": "precision", "dt_safety": "dt_safety", "inertia_scaling": "inertia x", "mass_scaling": "mass",
            "damping": "damping", "contact_damping": "dashpots", "skin_m": "skin [m]", "discs": "discs", "aspect_ratio": "height / width",
            "kn_Pa": "k_n [Pa]"}
 PLAIN, CHAOS = ("base", "", 2e-4), ("skin_m", "1.3552e-05", 2e-4)  # tests that differ by rounding only
@@ -51,7 +51,7 @@ def trade_settings(tests, saturation):
 
 
 def references(tests, _):
-    """What the reference and the shipped setting give, what seeds scatter, and what chaos does to a single test."""
+    """What the reference and the base give, what seeds scatter, and what chaos does to a single test."""
     rows = []
     for saturation in (SAND, BONDED):
         for quantity, (name, _, unit, _, _) in QUANTITIES.items():
@@ -64,7 +64,7 @@ def references(tests, _):
             where = "" if tests.reference(saturation, quantity) == REFERENCE else " (I = 2e-5)"
             rows.append([NAMES[saturation], f"{name} [{unit}]", mean_cell(reference.values()) + where, mean_cell(base.values()),
                          f"{deviation(list(base.values())):.2g}", f"{deviation(spread) / math.sqrt(2):.2g}" if len(spread) > 1 else "-"])
-    return markdown(["material", "number", "reference", "shipped, I = 1e-4", "scatter of seeds", "scatter of chaos"], rows)
+    return markdown(["material", "number", "reference", "base, I = 1e-4", "scatter of seeds", "scatter of chaos"], rows)
 
 
 def trade(saturation):
@@ -72,7 +72,7 @@ def trade(saturation):
 
     def table(tests, cost):
         quantities = [q for q in BEFORE if saturation or "intact" not in q]
-        shipped = cost.seconds(tests, saturation, BASE)
+        base = cost.seconds(tests, saturation, BASE)
         rows = []
         for setting in trade_settings(tests, saturation):
             if setting == REFERENCE:
@@ -80,7 +80,7 @@ def trade(saturation):
             seconds = cost.seconds(tests, saturation, setting)
             found = tests.change(saturation, setting, "peak_q_Pa")
             rows.append([name_of(setting), f"{setting[2]:g}"] + [with_interval(tests.change(saturation, setting, q)) for q in quantities] +
-                        [verdict(found, 2), f"{seconds:.2f}", f"{shipped / seconds:.3g}", str(found[2]) if found else "-", tests.part(saturation, setting)])
+                        [verdict(found, 2), f"{seconds:.2f}", f"{base / seconds:.3g}", str(found[2]) if found else "-", tests.part(saturation, setting)])
         units = ["points" if QUANTITIES[q][3] == "points" else "%" for q in quantities]
         head = ["setting", "I"] + [f"{QUANTITIES[q][0]} [{u}]" for q, u in zip(quantities, units)]
         return markdown(head + ["peak q within 2 %?", "core s", "speed", "seeds", "part"], rows)
@@ -101,7 +101,7 @@ def after(tests, _):
 
 
 def option_at_equal_rate(factor):
-    """What an option does beside the shipped value at the same inertial number, on the same specimens."""
+    """What an option does beside the value of the base at the same inertial number, on the same specimens."""
 
     def table(tests, _):
         rows = []
@@ -152,7 +152,7 @@ def waves(tests, _):
             found = paired_difference(slow_inner, inner[0])
             contact = found and (100 * found[1] / found[0], 100 * found[2] / found[0], found[3])
             lead = [100 * (inner[2][k] / inner[1][k] - 1) for k in picked]
-            rows.append([name_of(setting[:2] + (0,)).replace("shipped", "2,000 discs, 2"), f"{setting[2]:g}", f"{wave:.2g}",
+            rows.append([name_of(setting[:2] + (0,)).replace("base", "2,000 discs, 2"), f"{setting[2]:g}", f"{wave:.2g}",
                          mean_cell(tests.values(BONDED, setting, "peak_q_Pa").values()), with_interval(tests.change(BONDED, setting, "peak_q_Pa", slow)),
                          with_interval(contact), f"{sum(lead) / len(lead):+.2f}", with_interval(tests.change(BONDED, setting, "peak_eps1", slow)),
                          with_interval(tests.change(BONDED, setting, "peak_intact_initial_pct", slow)), str(len(picked)), tests.part(BONDED, setting)])
@@ -192,7 +192,7 @@ def stiffness(tests, _):
 
 
 def many(tests, _):
-    """Where verdicts hang on the seeds: up to twenty specimens, against the shipped setting."""
+    """Where verdicts hang on the seeds: up to twenty specimens, against the base."""
     rows = []
     for setting in trade_settings(tests, BONDED):
         found = tests.change(BONDED, setting, "peak_q_Pa", BASE)
@@ -223,7 +223,7 @@ def repeated(tests, _):
             apart = abs(found[0][0] - found[1][0])
             rows.append([name_of(setting), QUANTITIES[quantity][0], *(with_interval(f, 2) for f in found),
                          "yes" if apart <= math.hypot(found[0][1], found[1][1]) else "no"])
-    return markdown(["setting, less shipped at I = 2e-4", "number", "seeds 1 to 5 [%]", "seeds 6 to 10 [%]", "agree"], rows)
+    return markdown(["setting, less base at I = 2e-4", "number", "seeds 1 to 5 [%]", "seeds 6 to 10 [%]", "agree"], rows)
 
 
 METHODS = {"double": ("base", ""), "mixed": ("precision", "mixed"), "inertia x 3": ("inertia_scaling", "3"),

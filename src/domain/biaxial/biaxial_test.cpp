@@ -160,7 +160,7 @@ void BiaxialTest::State::begin_shear() {
   area0 = s.area();
   rate = rate_numbers(scene, d50, height0, s.void_ratio(), s.added_mass());
   for (std::string const& warning : check_rate(scene, rate)) warnings.push_back(warning);
-  if (scene.run.scales_masses()) warnings.push_back(text_of_scaling());
+  if (scene.run.scales_masses_further()) warnings.push_back(text_of_scaling());
   s.loading.y = AxisDrive::at_rate(rate.strain_rate);
   s.loading.x = AxisDrive::at_stress(scene.test.confining_stress, largest_lateral_speed * 0.5 * rate.strain_rate * height0);
   s.loading.x.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.walls().width();
@@ -242,11 +242,11 @@ Measures const& BiaxialTest::State::measures() {
   return measured;
 }
 
-/// Scaled masses must not carry the loads that contacts should: such a test ends.
+/// Masses scaled further than usual must not carry the loads that contacts should: such a test ends.
 void BiaxialTest::State::check() {
   watch.check(*simulation, measures(), eps1());
   if (!watch.balanced()) preparation["quasi_static"] = 0;
-  if (!scene.run.scales_masses() || watch.is_slow(scene.test.axial_strain) || scene.run.force) return;
+  if (!scene.run.scales_masses_further() || watch.is_slow(scene.test.axial_strain) || scene.run.force) return;
   throw Refused(watch.of_kinetic_energy() + "; scale less (run.inertia_scaling, run.mass_scaling) or shear slower");
 }
 

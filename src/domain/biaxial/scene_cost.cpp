@@ -13,7 +13,7 @@ namespace clathra {
 namespace {
 
 /// The time step that a specimen of this scene will get [s]: its smallest disc in six contacts, bonded if the scene has hydrate;
-/// the factors of the limit and of scaled masses are those of specimens of the paper's grading.
+/// the factors of the limit and of scaled masses (docs/accuracy.md) are those of specimens of the paper's grading.
 double estimated_time_step(Scene const& scene, Grading const& grading, bool bonded) {
   double const r = 0.5 * grading.smallest(), mass = pi * r * r * scene.grains.density;
   double const bond_share = bonded ? 0.5 : 0;  // Eq. 16: k_bn < k_n / 2
@@ -22,18 +22,18 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
   double const turn = 6 * (ks + rolling) * r * r;
   RunScene const& run = scene.run;
   double const limit = run.time_step == TimeStepRule::spectrum ? 1.39 / std::sqrt(1 + run.damping) : 1,
-               scaling = std::min(std::sqrt(run.inertia_scaling), 1.6) * (1 + 0.6 * run.mass_scaling);
+               scaling = std::min(std::sqrt(run.inertia_scaling), bonded ? 1.37 : 1.3) * (1 + 0.3 * run.mass_scaling);
   return run.step_choice().safety * limit * scaling * std::sqrt(2 * 0.5 * mass * r * r / turn);
 }
 
-/// Disc-steps until a specimen is packed and at rest, to about 20 %: fitted to specimens of 300 to 20,000 discs at void ratios of
-/// 0.22 and 0.26. Larger ones take longer to come to rest. Of tiles one cell is packed, then all come to rest together.
+/// Disc-steps until a specimen is packed and at rest, to about 20 %: fitted to specimens of 300, 1,500 and 20,000 discs at a void
+/// ratio of 0.24. Larger ones take longer to come to rest. Of tiles one cell is packed, then all come to rest together.
 double generation_disc_steps(Scene const& scene, double discs) {
-  constexpr double of_one_disc = 26e3, growth = 0.26, at_rest = 3000;
-  auto const packed = [](double n) { return of_one_disc * n * std::pow(n, growth); };
+  constexpr double at_rest = 3000;
+  auto const packed = [](double n, double of_one_disc, double growth) { return of_one_disc * n * std::pow(n, growth); };
   if (scene.sample.generator == Generator::file) return 0;
-  if (scene.sample.generator == Generator::under_compaction) return packed(discs);
-  return packed(std::min(discs, static_cast<double>(scene.sample.tile_particles))) + at_rest * discs;
+  if (scene.sample.generator == Generator::under_compaction) return packed(discs, 27.4e3, 0.143);
+  return packed(std::min(discs, static_cast<double>(scene.sample.tile_particles)), 26e3, 0.26) + at_rest * discs;
 }
 
 /// The largest resident memory of all ranks together [bytes], as measured with samples of 1,000,000 discs.

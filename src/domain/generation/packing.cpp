@@ -17,6 +17,7 @@ constexpr double unjammed = 0.04;                // in void ratio: how far above
 constexpr double slowing_range = 0.15;           // in void ratio: the wall slows down as the layers are about to jam
 constexpr std::int64_t most_in_patch = 100'000;  // discs placed one after the other
 constexpr double loose_skin = 0.2;               // in d50, while discs still fly
+constexpr double loose_stiffness = 240;          // k_n over the stress while discs still fly: overlaps of half a percent
 
 /// The loose discs of a layer. Wide layers are placed in patches side by side, whatever the number of ranks.
 struct Layer {
@@ -68,6 +69,18 @@ double highest_point(Specimen const& specimen, Ranks const& ranks) {
   double highest = specimen.bottom;
   for (std::size_t i = 0; i < specimen.size(); ++i) highest = std::max(highest, specimen.y[i] + specimen.radius[i]);
   return ranks.max(highest);
+}
+
+/// Laws for layers that only meet, for time steps that are far longer: springs that are just stiff enough for the stress, the
+/// finest 30 % (by mass) of the grading as heavy as the next disc, moments of inertia times 4. The closing that follows has the
+/// scene's own stiffness and true masses.
+SimulationLaws loose_laws(SimulationLaws laws, double stress, Grading const& grading) {
+  laws.scaling = {4, 0.5 * grading.diameter_finer(0.3)};
+  double const share = std::min(1.0, loose_stiffness * stress / laws.contact.grain.normal_stiffness);
+  for (auto* stiffness : {&laws.contact.grain.normal_stiffness, &laws.contact.grain.shear_stiffness, &laws.wall.normal_stiffness,
+                          &laws.wall.shear_stiffness})
+    *stiffness *= share;
+  return laws;
 }
 
 /// Drives the top wall down, ever slower as the assembly is about to jam, until it has the void ratio or resists with twenty
@@ -143,7 +156,8 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
     p.disc_steps += packed.disc_steps;  // of the layers before
     return !progress || progress(p);
   };
-  Specimen const specimen = compacted_layers(scene, design, laws, counted, packed.disc_steps, ranks);
+  Specimen const specimen =
+      compacted_layers(scene, design, loose_laws(laws, scene.bond.stress, design.grading), counted, packed.disc_steps, ranks);
   Simulation simulation(specimen, laws, 0.1 * d50, ranks);
   simulation.stop_discs();
   CompressionTarget target;
