@@ -7,13 +7,20 @@
 
 namespace clathra {
 
+namespace {
+/// Bonds that break in bursts take stress off the walls for some hundred steps, which moves q by less than 1 % and the mean of
+/// sigma_3 not at all; a record beyond this was not held.
+constexpr double largest_burst = 0.02;
+}  // namespace
+
 void Summary::add(HistoryRow const& row) {
-  constexpr double tolerance = 0.01;
   last_ = row;
   ++count_;
   eps1_.push_back(row.eps1), eps_v_.push_back(row.eps_v), q_.push_back(row.q_Pa), sigma3_.push_back(row.sigma3_Pa);
   intact_.push_back(row.intact_initial_pct);
-  if (std::fabs(row.sigma3_Pa - confining_stress_) <= tolerance * confining_stress_) ++held_;
+  double const off = std::fabs(row.sigma3_Pa - confining_stress_) / confining_stress_;
+  held_ += off <= 0.01 ? 1 : 0;
+  nearly_held_ += off <= largest_burst ? 1 : 0;
   double const contact_q = row.contact_sigma1_Pa - row.contact_sigma3_Pa;
   if (row.p_Pa > 0) mismatch_ = std::max(mismatch_, std::fabs(row.q_Pa - contact_q) / row.p_Pa);
 }
@@ -38,11 +45,11 @@ std::vector<std::string> Summary::warnings() const {
         fmt::format("{:.3g} % of the boundary work is unaccounted for (more than {:g} %): the time step is too long for "
                     "this test, lower run.dt_safety",
                     100 * std::fabs(energy_residual()), 100 * most_residual));
-  if (count_ > 0 && held_ < least_held * count_)
+  if (count_ > 0 && nearly_held_ < least_held * count_)
     texts.push_back(
-        fmt::format("sigma3 was within 1 % of {:g} MPa in only {:.1f} % of the records (fewer than {:g} %): the servo walls "
+        fmt::format("sigma3 was within {:g} % of {:g} MPa in only {:.1f} % of the records (fewer than {:g} %): the servo walls "
                     "did not hold it, lower the inertial number",
-                    confining_stress_ * 1e-6, 100.0 * held_ / count_, 100 * least_held));
+                    100 * largest_burst, confining_stress_ * 1e-6, 100.0 * nearly_held_ / count_, 100 * least_held));
   return texts;
 }
 
