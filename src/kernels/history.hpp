@@ -61,7 +61,9 @@ KOKKOS_FORCEINLINE_FUNCTION IntLanes load_ints(void const* from) {
   __builtin_memcpy(&value, from, sizeof value);
   return value;
 }
-KOKKOS_FORCEINLINE_FUNCTION void store_ints(std::int32_t* to, IntLanes const& value) { __builtin_memcpy(to, &value, sizeof value); }
+KOKKOS_FORCEINLINE_FUNCTION void store_ints(std::int32_t* to, IntLanes const& value) {
+  __builtin_memcpy(to, &value, sizeof value);
+}
 /// The sum modulo 2^32.
 KOKKOS_FORCEINLINE_FUNCTION IntLanes sum(IntLanes const& a, IntLanes const& b) {
   return (IntLanes)((PlainInts::Unsigned)a + (PlainInts::Unsigned)b);
