@@ -105,6 +105,25 @@ TEST(WaveNumber, BoundsTheRateByTheHeightOfTheSpecimenThatIsSheared) {
   EXPECT_NEAR(row.wave_number, wave / 4 * (1 - row.eps1), 2e-3 * wave);
 }
 
+// A check, a row of history and one of energies may fall on one step and share what was measured; the next step is another state.
+TEST(Records, AreMeasuredAnewAtEachStep) {
+  Scene scene = small_test();
+  scene.test.axial_strain = 0.01;
+  scene.test.inertial_number = 2e-5;
+  scene.output.records = 10;
+  scene.output.energy = true;
+  BiaxialTest test(scene, small_specimen(), {});
+  double grain_energy = 0;
+  while (!test.finished()) {
+    while (!test.advance(1000)) continue;
+    HistoryRow const row = test.record();
+    EXPECT_NEAR(row.contact_sigma1_Pa, row.sigma1_Pa, 0.05 * row.sigma1_Pa);
+    EXPECT_GT(test.energy().grain_elastic, grain_energy);  // up to the peak
+    grain_energy = test.energy().grain_elastic;
+  }
+  EXPECT_GT(test.record().sigma1_Pa, 2 * scene.test.confining_stress);
+}
+
 TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
   Scene scene = small_test();
   scene.hydrate.saturation = 0;
