@@ -1,7 +1,7 @@
 include(GNUInstallDirs)
 
 # clathra_precompile(TARGET headers...): reads headers of libraries that nearly every source of a target includes once for all of
-# them; a quarter of a whole build. Not for devices, whose compilers read a source twice, each time in its own way.
+# them (a source that includes nothing but Kokkos takes 1.5 s, CLI11 7 s). Not for devices, whose compilers read a source twice, each time in its own way.
 function(clathra_precompile target)
   if(NOT CLATHRA_DEVICE AND NOT CLATHRA_DEVICE_LIKE)
     target_precompile_headers(${target} PRIVATE ${ARGN})

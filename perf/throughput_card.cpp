@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
   ThroughputSetup setup;
   long long most_discs = 1'000'000;
   double seconds = 3;
-  for (int k = 1; k + 1 < argc; k += 2) {
-    std::string const name = argv[k], value = argv[k + 1];
+  for (int k = 1; k < argc; k += 2) {
+    std::string const name = argv[k], value = k + 1 < argc ? argv[k + 1] : "";
     auto const at = std::find(std::begin(throughput_case_names), std::end(throughput_case_names), value);
     if (name == "--case" && at != std::end(throughput_case_names)) {
       setup.what = static_cast<ThroughputCase>(at - std::begin(throughput_case_names));

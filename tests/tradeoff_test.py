@@ -113,6 +113,26 @@ class Tradeoff(unittest.TestCase):
         self.assertEqual(two_rates.fastest_rise(tests, 0.55, within=0.5), two_rates.FIXED)
         self.assertAlmostEqual(two_rates.half_peak_strain(tests, 0.55, two_rates.plain(2e-4)), 2e6 / 1e8)
 
+    def test_the_help_of_options_quotes_the_committed_data(self):
+        tests, page = compare.Tests(compare.load(PROJECT / "perf/tradeoff/data.csv")), (PROJECT / "docs/scene.md").read_text()
+        sand, bonded = table.SAND, table.BONDED
+
+        def peak(saturation, factor, level, rate, against):
+            change, half, _ = tests.change(saturation, (factor, level, rate), "peak_q_Pa", against)
+            return f"{change:.1f} +- {half:.1f}".replace("-0.0 ", "0.0 ")
+
+        plain = two_rates.plain
+        quoted = {"inertial_number": [peak(material, *plain(rate), compare.REFERENCE) for material in (sand, bonded) for rate in (1e-3, 5e-4, 2e-4)],
+                  "precision": [peak(material, "precision", "mixed", 1e-4, plain(1e-4)) for material in (sand, bonded)],
+                  "dt_safety": [peak(bonded, "dt_safety", "0.475", 2e-4, plain(2e-4))],
+                  "damping": [peak(bonded, "damping", "0.7", 2e-4, plain(2e-4))],
+                  "inertia_scaling": [peak(material, "inertia_scaling", "3", 2e-4, plain(2e-4)) for material in (sand, bonded)],
+                  "mass_scaling": [peak(bonded, "inertia_scaling+mass_scaling", "3+0.25", 2e-4, plain(2e-4))]}
+        for key, numbers in quoted.items():
+            row = next(line for line in page.splitlines() if line.startswith(f"| `{key}` |")).replace(" %", "")
+            for number in numbers:
+                self.assertIn(number, row)
+
     def test_the_front_holds_what_nothing_beats_in_both(self):
         self.assertEqual(picture.front({(1, 9), (2, 5), (3, 6), (4, 1), (5, 1)}), {(1, 9), (2, 5), (4, 1)})
 

@@ -25,27 +25,29 @@ struct BenchOptions {
   bool card = false;
 };
 
-nlohmann::ordered_json one_size(BenchOptions const& options, Simulation const& simulation, Throughput const& t, double bandwidth,
-                                double arithmetic) {
-  double const moved = t.disc_steps_per_second * t.moved_per_step;
-  return {{"case", options.what},
-          {"precision", options.precision},
-          {"discs", simulation.discs()},
-          {"threads", ExecutionSpace().concurrency()},
-          {"lanes", options.setup.precision == Precision::full ? lane_count : lane_count_of<float>},
+nlohmann::ordered_json json_of(ThroughputRow const& row) {
+  Throughput const& t = row.measured;
+  return {{"precision", precision_names[static_cast<int>(row.precision)]},
+          {"discs", row.discs},
           {"disc_steps_per_second", t.disc_steps_per_second},
           {"contact_steps_per_s", t.contact_steps_per_s},
+          {"seconds_per_step", 1e-6 * row.microseconds_per_step()},
           {"bytes_per_disc", t.bytes_per_disc},
           {"bytes_moved_per_disc_and_step", t.moved_per_step},
-          {"bandwidth_bytes_per_s", bandwidth},
-          {"bandwidth_share", bandwidth > 0 ? moved / bandwidth : 0},
+          {"bandwidth_bytes_per_s", row.bandwidth},
+          {"bandwidth_share", row.bandwidth_share()},
           {"flops_per_s", t.flops_per_s},
-          {"arithmetic_limit_flops_per_s", arithmetic},
-          {"flop_share", arithmetic > 0 ? t.flops_per_s / arithmetic : 0},
+          {"launches_per_step", row.launches_per_step},
           {"rebuild_share", t.rebuild_share},
           {"steps", t.steps},
           {"rebuilds", t.rebuilds},
-          {"seconds", t.seconds},
+          {"seconds", t.seconds}};
+}
+
+/// What is measured, and by what.
+nlohmann::ordered_json json_of(BenchOptions const& options) {
+  return {{"case", options.what},
+          {"threads", ExecutionSpace().concurrency()},
           {"compiler", compiler_name()},
           {"kokkos", kokkos_version()},
           {"backend", backend_name()}};
@@ -70,19 +72,6 @@ std::string text_of(nlohmann::ordered_json const& c) {
       number("steps") / std::max(1.0, number("rebuilds")));
 }
 
-nlohmann::ordered_json json_of(ThroughputRow const& row) {
-  return {{"precision", precision_names[static_cast<int>(row.precision)]},
-          {"discs", row.discs},
-          {"disc_steps_per_second", row.measured.disc_steps_per_second},
-          {"seconds_per_step", 1e-6 * row.microseconds_per_step()},
-          {"bytes_per_disc", row.measured.bytes_per_disc},
-          {"bytes_moved_per_disc_and_step", row.measured.moved_per_step},
-          {"bandwidth_bytes_per_s", row.bandwidth},
-          {"bandwidth_share", row.bandwidth_share()},
-          {"launches_per_step", row.launches_per_step},
-          {"rebuild_share", row.measured.rebuild_share}};
-}
-
 /// All sizes in both precisions: a line as each is there, or at the end one JSON object.
 ExitCode card(BenchOptions const& options) {
   KokkosSession const kokkos;
@@ -98,9 +87,8 @@ ExitCode card(BenchOptions const& options) {
     }
   });
   if (!options.json) return code;
-  nlohmann::ordered_json const result = {{"case", options.what},        {"threads", ExecutionSpace().concurrency()},
-                                         {"compiler", compiler_name()}, {"kokkos", kokkos_version()},
-                                         {"backend", backend_name()},   {"rows", rows}};
+  nlohmann::ordered_json result = json_of(options);
+  result["rows"] = rows;
   return print_result(result.dump(2) + "\n");
 }
 
@@ -111,11 +99,12 @@ ExitCode bench(BenchOptions options) {
   options.setup.what = static_cast<ThroughputCase>(named - std::begin(throughput_case_names));
   if (options.card) return card(options);
   KokkosSession const kokkos;
-  Simulation simulation = throughput_simulation(options.setup);
-  measure_throughput(simulation, 0.2 * options.seconds);  // caches and clock speed settle
-  Throughput const measured = measure_throughput(simulation, options.seconds);
-  nlohmann::ordered_json const result =
-      one_size(options, simulation, measured, update_bandwidth(simulation.bytes()), arithmetic_rate());
+  nlohmann::ordered_json result = json_of(options);
+  result.update(json_of(throughput_row(options.setup, options.seconds)));
+  double const arithmetic = arithmetic_rate();
+  result["lanes"] = options.setup.precision == Precision::full ? lane_count : lane_count_of<float>;
+  result["arithmetic_limit_flops_per_s"] = arithmetic;
+  result["flop_share"] = arithmetic > 0 ? result.at("flops_per_s").get<double>() / arithmetic : 0;
   return print_result(options.json ? result.dump(2) + "\n" : text_of(result));
 }
 

@@ -20,7 +20,7 @@ namespace clathra {
 
 /// A number in units of its own, as four digits to the base 2^31: high + middle 2^-31 + low 2^-62 + lowest 2^-93. Each digit has
 /// 32 bits of room, so up to 2^32 terms can be added in any order. A term must be below 2^31 units: then each of its digits is
-/// one of 32 bits with a sign, for which every processor has a vector conversion.
+/// one of 32 bits with a sign, which AVX2 converts in vectors, too; of 64 bits AVX-512 alone does.
 struct FixedPoint {
   static constexpr int words = 4, bits = 31;  // of a digit
   std::int64_t word[words] = {0, 0, 0, 0};

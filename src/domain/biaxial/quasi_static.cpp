@@ -73,8 +73,8 @@ std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n)
     warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
                        " is above 0.5: this run is not quasi-static, lower the inertial number");
   } else if (n.wave_number > wave_warning) {
-    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
-                       " is above 0.3: stress varies along the specimen");
+    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) + " is above " +
+                       short_number(wave_warning) + ": stress varies along the specimen");
   }
   if (double const stiffness = stiffness_number(scene); stiffness < stiffness_warning && stiffness >= stiffness_limit)
     warnings.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_warning) +

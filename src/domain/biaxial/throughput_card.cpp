@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "kernels/phases.hpp"
 
@@ -17,7 +18,22 @@ double launches_per_step(Simulation& simulation) {
   return static_cast<double>(Phases::launches()) / steps;
 }
 
-ThroughputRow measured_row(ThroughputSetup const& setup, double seconds) {
+/// 2,000 and ten times as many each time, then `most_discs`.
+std::vector<std::int64_t> card_sizes(std::int64_t most_discs) {
+  std::vector<std::int64_t> sizes;
+  for (std::int64_t discs = 2000; discs < most_discs; discs *= 10) sizes.push_back(discs);
+  sizes.push_back(most_discs);
+  return sizes;
+}
+
+int relaxation_steps(std::int64_t discs) {
+  constexpr std::int64_t disc_steps = 600'000'000, least = 100, most = 3000;
+  return static_cast<int>(std::clamp(disc_steps / discs, least, most));
+}
+
+}  // namespace
+
+ThroughputRow throughput_row(ThroughputSetup const& setup, double seconds) {
   Simulation simulation = throughput_simulation(setup);
   measure_throughput(simulation, 0.2 * seconds);  // caches and clock speed settle
   ThroughputRow row;
@@ -29,36 +45,21 @@ ThroughputRow measured_row(ThroughputSetup const& setup, double seconds) {
   return row;
 }
 
-}  // namespace
-
-std::vector<std::int64_t> card_sizes(std::int64_t most_discs) {
-  std::vector<std::int64_t> sizes;
-  for (std::int64_t discs = 2000; discs < most_discs; discs *= 10) sizes.push_back(discs);
-  sizes.push_back(most_discs);
-  return sizes;
-}
-
-int card_relaxation_steps(std::int64_t discs) {
-  constexpr std::int64_t disc_steps = 600'000'000, least = 100, most = 3000;
-  return static_cast<int>(std::clamp(disc_steps / discs, least, most));
-}
-
 void throughput_card(ThroughputSetup setup, std::int64_t most_discs, double seconds,
                      std::function<void(ThroughputRow const&)> const& visit) {
   for (std::int64_t const discs : card_sizes(most_discs)) {
     for (Precision const precision : {Precision::full, Precision::mixed}) {
       setup.discs = discs;
       setup.precision = precision;
-      setup.relaxation_steps = card_relaxation_steps(discs);
-      visit(measured_row(setup, seconds));
+      setup.relaxation_steps = relaxation_steps(discs);
+      visit(throughput_row(setup, seconds));
     }
   }
 }
 
 std::string card_head() {
-  return "   discs  precision  M disc-steps/s  us a step  bytes a disc  moved a disc-step  % of bandwidth   GB/s  launches a "
-         "step  "
-         "% searching\n";
+  return "   discs  precision  M disc-steps/s  us a step  bytes a disc  moved a disc-step  "
+         "% of bandwidth   GB/s  launches a step  % searching\n";
 }
 
 std::string card_line(ThroughputRow const& row) {

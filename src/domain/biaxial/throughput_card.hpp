@@ -2,7 +2,6 @@
 /// A table of throughputs by size and precision: what a machine makes of specimens from a cache's size to its memory's.
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "domain/biaxial/throughput.hpp"
 
@@ -22,15 +21,13 @@ struct ThroughputRow {
   }
 };
 
-/// 2,000 discs and ten times as many each time, then `most_discs`; both at the least. @param most_discs  >= 2000
-std::vector<std::int64_t> card_sizes(std::int64_t most_discs);
+/// @param seconds  to measure
+ThroughputRow throughput_row(ThroughputSetup const& setup, double seconds);
 
-/// Steps in which a cut packing of so many discs settles: fewer of large ones, whose settling would take most of the time.
-int card_relaxation_steps(std::int64_t discs);
-
-/// Measures all sizes in both precisions and calls `visit` with each row as it is there.
+/// Measures 2,000 discs, ten times as many each time, and then `most_discs`, in both precisions, and calls `visit` with each row
+/// as it is there. Large packings settle for fewer steps than setups usually do, which would take most of the time.
 /// @param setup  what is timed, and how; its size, precision and settling are the card's
-/// @param seconds  to measure, a row
+/// @param most_discs  >= 2000;  @param seconds  to measure, a row
 void throughput_card(ThroughputSetup setup, std::int64_t most_discs, double seconds,
                      std::function<void(ThroughputRow const&)> const& visit);
 

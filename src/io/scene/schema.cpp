@@ -57,7 +57,7 @@ Key const table[] = {
   {"sample.file", path, CLATHRA_FIELD(sample, file), "specimen file of generator \"file\""},
 
   {"grains.density", quantity, CLATHRA_FIELD(grains, density), "density of the grains", density, 100, 30000},
-  {"grains.kn", quantity, CLATHRA_FIELD(grains, kn), "normal stiffness of a contact, per metre thickness; measured at 55 % and 1 MPa: 1e8 for 3e8 takes 0.74 of the disc-steps, its peak of q is 10 % lower and E50 63 %", stiffness, 1e4, 1e13},
+  {"grains.kn", quantity, CLATHRA_FIELD(grains, kn), "normal stiffness of a contact, per metre thickness; measured at 55 % and 1 MPa: 1e8 for 3e8 takes 0.73 of the disc-steps, its peak of q is 10 % lower and E50 63 %", stiffness, 1e4, 1e13},
   {"grains.ks", quantity, CLATHRA_FIELD(grains, ks), "shear stiffness of a contact, per metre thickness", stiffness, 1e4, 1e13},
   {"grains.particle_stiffness_ratio", quantity, CLATHRA_FIELD(grains, particle_stiffness_ratio), "stiffness of one grain, two of which are in series with a bond (Eq. 16), over kn: 2 since two grains in series make a contact, 1 as printed", ratio, 0.01, 100},
   {"grains.friction", quantity, CLATHRA_FIELD(grains, friction), "friction coefficient between grains", ratio, 0, 5},
