@@ -20,8 +20,8 @@ class Summary {
   /// Those of record_of(), the bonds broken by mode; sigma3_held (part of the records with sigma3 within 1 %), stress_mismatch
   /// (largest difference of wall and contact q over p); energy_residual (part of the boundary work) where there is a ledger.
   StageRecord numbers() const;
-  /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work, sigma3 held in under 90 % of the
-  /// records).
+  /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work, sigma3 within 2 % in under
+  /// 90 % of the records).
   std::vector<std::string> warnings() const;
   /// A few lines for the screen.
   std::string text() const;
