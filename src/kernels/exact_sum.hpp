@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernels/real.hpp"
+#include "kernels/lane.hpp"
 #include "kernels/sum_over_ranks.hpp"
 
 // GCC unrolls short loops before it looks for vectors in them.
@@ -95,26 +95,26 @@ struct SumUnits {
 template <int Count, class Terms>
 struct ExactSumKernel {
   using value_type = std::int64_t[];
-  unsigned value_count = words;
+  unsigned value_count = FixedPoint::words * Count + 1;
   Terms terms;
-  Real per_unit[Count];
-  static constexpr int words = FixedPoint::words * Count + 1;
+  static constexpr int words = FixedPoint::words * Count + 1, padded = (Count + lane_count - 1) / lane_count * lane_count;
+  Real per_unit[padded];
 
   KOKKOS_FUNCTION void operator()(int i, std::int64_t* sums) const {
-    Real out[Count] = {};
+    Real out[padded] = {};
     terms(i, out);
-    int beyond = 0;
-    bool empty = true;  // nearly all terms of the walls
-    CLATHRA_KEEP_LOOP
-    for (int c = 0; c < Count; ++c) {
-      empty = empty && out[c] == 0;
-      Real const value = out[c] * per_unit[c];
-      bool const holds = FixedPoint::holds(value);
-      beyond += holds ? 0 : 1;
-      out[c] = holds ? value : 0;
+    bool empty = true, beyond = false;  // nearly all terms of the walls are empty
+    for (int c = 0; c < padded; c += lane_count) {
+      Lanes const value = load(&out[c]) * load(&per_unit[c]);
+      empty = empty && !any(value != Lanes(0));
+      beyond = beyond || any(!(lane_abs(value) < Lanes(FixedPoint::largest_term)));
+      store(&out[c], value);
     }
     if (empty) return;
-    sums[words - 1] += beyond;
+    if (beyond) {
+      for (int c = 0; c < Count; ++c) sums[words - 1] += FixedPoint::holds(out[c]) ? 0 : 1;
+      return;
+    }
     for (int k = 0; k < FixedPoint::words; ++k) {
       CLATHRA_KEEP_LOOP
       for (int c = 0; c < Count; ++c) sums[Count * k + c] += FixedPoint::take_digit(out[c]);

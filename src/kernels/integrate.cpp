@@ -10,10 +10,10 @@ namespace {
 template <bool Ledger, class L>
 KOKKOS_FORCEINLINE_FUNCTION L kicked(L const& velocity, L const& frame, L const& force, L const& inverse_mass, scalar_of<L> alpha,
                                      scalar_of<L> dt, L& lost) {
-  L const drag = alpha * lane_abs(force);
-  L const damping = select(velocity > frame, -drag, select(velocity < frame, drag, L(0)));
-  L const after = velocity + (force + damping) * inverse_mass * dt;
-  if constexpr (Ledger) lost -= damping * (constant<L>(0.5) * (velocity + after)) * dt;
+  L const relative = velocity - frame;
+  L const damping = select(relative != L(0), lane_copysign(alpha * force, relative), L(0));
+  L const after = velocity + (force - damping) * inverse_mass * dt;
+  if constexpr (Ledger) lost += damping * (constant<L>(0.5) * (velocity + after)) * dt;
   return after;
 }
 
@@ -124,8 +124,7 @@ struct KickAndDriftMixed : Moving {
     if constexpr (Ledger) book(lost_to_damping, i, lost);
     // At least the way: more by a millionth than its rounding takes away. No number where a spin or a place is none, whose frame
     // has no velocity either.
-    return (lane_abs(vx) + lane_abs(vy)) * constant<V>(by.drift * (1 + 1e-6)) +
-           (lane_abs(omega) + lane_abs(of_frame_x) + lane_abs(of_frame_y)) * V(0);
+    return (lane_abs(vx) + lane_abs(vy)) * constant<V>(by.drift * (1 + 1e-6)) + (omega + of_frame_x + of_frame_y) * V(0);
   }
 
  private:

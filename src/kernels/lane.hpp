@@ -84,6 +84,9 @@ KOKKOS_FORCEINLINE_FUNCTION double lane_sqrt(double a) { return std::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION float lane_sqrt(float a) { return std::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION double lane_abs(double a) { return std::fabs(a); }
 KOKKOS_FORCEINLINE_FUNCTION float lane_abs(float a) { return std::fabs(a); }
+/// The size of `a` with the sign of `b`.
+KOKKOS_FORCEINLINE_FUNCTION double lane_copysign(double a, double b) { return std::copysign(a, b); }
+KOKKOS_FORCEINLINE_FUNCTION float lane_copysign(float a, float b) { return std::copysign(a, b); }
 // Of equal zeros, and beside a NaN, the second operand counts: written so, either is one instruction with the same bits in
 // scalars and in vectors.
 KOKKOS_FORCEINLINE_FUNCTION double lane_max(double a, double b) { return a > b ? a : b; }
@@ -128,6 +131,10 @@ KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_sqrt(Simd<R, Abi> const& a) {
 template <class R, class Abi>
 KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_abs(Simd<R, Abi> const& a) {
   return stdx::abs(a);
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_copysign(Simd<R, Abi> const& a, Simd<R, Abi> const& b) {
+  return stdx::copysign(a, b);
 }
 template <class R, class Abi>
 KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_max(Simd<R, Abi> const& a, Simd<R, Abi> const& b) {

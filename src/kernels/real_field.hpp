@@ -184,6 +184,10 @@ void set_from_host(RealField const& field, std::vector<double> const& values);
 // Lanes of a field in double precision, whatever it is kept in.
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(RealField const& field, std::size_t i) {
   if (field.format().storage == Storage::as_double) return load(field.data<double>() + i);
+  if (field.format().storage == Storage::as_float && !field.is_column()) {
+    Lanes const value = load_float(field.data<float>() + i);
+    return select(value == Lanes(no_bond_single), Lanes(no_bond), value);
+  }
   Lanes value(0);
   for (int l = 0; l < lane_count; ++l) set_lane(value, l, field(i + static_cast<std::size_t>(l)));
   return value;

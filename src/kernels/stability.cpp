@@ -89,6 +89,7 @@ struct FillAbsoluteStiffness {
     Own own{0, 0, 0, 0, 0, 0};
     HistoryFormat const& format = net.rows.features.format;
     int const shift = format.slice_shift();
+    bool const narrow = format.lanes() > lane_count;
     auto const slice = static_cast<int>(first >> shift);
     std::uint64_t const active = net.rows.active(static_cast<int>(first) / format.lanes());
     std::uint64_t blocks = 0, bit = 1;
@@ -97,16 +98,16 @@ struct FillAbsoluteStiffness {
       int const* const j = &net.rows.neighbour(e);
       Lanes const dx = gather(p.x.data(), j) - x, dy = gather(p.y.data(), j) - y, other_radius = gather(p.radius.data(), j),
                   closing = may_close + leeway * gather(p.verlet_skin.data(), j), reach = radius + other_radius + closing;
-      if ((active & bit) == 0 && !any(dx * dx + dy * dy < reach * reach)) continue;
+      auto const formed = [&] { return bonds ? load(net.rows.formation_overlap, e) : Lanes(no_bond); };
+      // Whether an entry of a wider group carries something need not hold for one of this group.
+      if ((narrow || (active & bit) == 0) && !any(dx * dx + dy * dy < reach * reach) &&
+          ((active & bit) == 0 || !any(is_bonded(formed()))))
+        continue;
       blocks |= bit;
-      Pair<Lanes> const pair{dx,
-                             dy,
-                             radius,
-                             other_radius,
-                             inverse_mass,
-                             viscous ? gather(p.inverse_mass, j) : Lanes(1),
-                             bonds ? load(net.rows.formation_overlap, e) : Lanes(no_bond),
-                             bonds ? load(net.rows.width, e) : Lanes(0),
+      Pair<Lanes> const pair{dx,           dy,
+                             radius,       other_radius,
+                             inverse_mass, viscous ? gather(p.inverse_mass, j) : Lanes(1),
+                             formed(),     bonds ? load(net.rows.width, e) : Lanes(0),
                              closing};
       add(pair_spring(net, pair), own,
           [&](int entry, Lanes const& value) { store_float(&to.between[entry](e), lane_abs(value)); });
