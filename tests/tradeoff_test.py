@@ -133,6 +133,11 @@ class Tradeoff(unittest.TestCase):
             for number in numbers:
                 self.assertIn(number, row)
 
+        structures = (PROJECT / "src/domain/scene/scene.hpp").read_text()  # each docstring quotes one or two of them
+        for number in (quoted["inertial_number"][0], quoted["inertial_number"][2], quoted["precision"][1], quoted["dt_safety"][0],
+                       quoted["inertia_scaling"][1], quoted["mass_scaling"][0], peak(bonded, "damping", "0", 2e-4, plain(2e-4))):
+            self.assertIn(f"{number} %", structures)
+
     def test_the_front_holds_what_nothing_beats_in_both(self):
         self.assertEqual(picture.front({(1, 9), (2, 5), (3, 6), (4, 1), (5, 1)}), {(1, 9), (2, 5), (4, 1)})
 
