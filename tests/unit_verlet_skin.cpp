@@ -1,5 +1,5 @@
 /// Verlet skins of discs: how far they may move beside their box before neighbours are searched again.
-#include "kernels/verlet_skin.hpp"
+#include "kernels/survey.hpp"
 #include "on_host.hpp"
 #include "scenes.hpp"
 
@@ -19,9 +19,16 @@ Specimen two_of_a_hundred_fly(double slow, double fast) {
 
 double skin_of(Simulation const& sim, int id) { return value(sim.particles().verlet_skin, index_of(sim, id)); }
 
+/// Gives discs their skins as a search does. @return the largest
+double give_skins(Simulation const& sim, AffineFrame const& frame, SkinRange const& range) {
+  Survey const all = survey(sim.particles(), sim.rows(), frame, make_faults(), {});
+  assign_verlet_skins(sim.particles(), frame, range, all.mean_of_speeds({}));
+  return range.skin(all.largest[Survey::speed], all.mean_of_speeds({}));
+}
+
 TEST(VerletSkin, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
   Simulation const sim(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  EXPECT_DOUBLE_EQ(assign_verlet_skins(sim.particles(), {}, {h, 5 * h}, {}), 5 * h);
+  EXPECT_DOUBLE_EQ(give_skins(sim, {}, {h, 5 * h}), 5 * h);
   double const mean = (0.02 + 1) / 100;
   EXPECT_EQ(skin_of(sim, 0), h);
   EXPECT_NEAR(skin_of(sim, 10) / h, 1 + 0.2 * 0.02 / mean, 1e-12);
@@ -42,14 +49,14 @@ TEST(VerletSkin, IsThatOfTheMotionBesideTheBox) {
     s.vy[i] += frame.velocity_y(s.y[i]);
   }
   Simulation const moved(s, {}, 2 * h), still(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
-  assign_verlet_skins(moved.particles(), frame, {h, 5 * h}, {});
-  assign_verlet_skins(still.particles(), {}, {h, 5 * h}, {});
+  give_skins(moved, frame, {h, 5 * h});
+  give_skins(still, {}, {h, 5 * h});
   for (int id : {0, 10, 20, 99}) EXPECT_NEAR(skin_of(moved, id) / skin_of(still, id), 1, 1e-11) << id;
 }
 
 TEST(VerletSkin, IsTheSameForAllAtRest) {
   Simulation const sim(two_of_a_hundred_fly(0, 0), {}, 2 * h);
-  EXPECT_EQ(assign_verlet_skins(sim.particles(), {}, {h, 5 * h}, {}), h);
+  EXPECT_EQ(give_skins(sim, {}, {h, 5 * h}), h);
   for (int id : {0, 10, 99}) EXPECT_EQ(skin_of(sim, id), h);
 }
 

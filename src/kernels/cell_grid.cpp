@@ -7,21 +7,6 @@ namespace clathra {
 
 namespace {
 
-struct Bounds {
-  ParticleSoA p;
-  KOKKOS_FUNCTION void operator()(int i, Coord& x0, Coord& x1, Coord& y0, Coord& y1) const {
-    x0 = lane_min(x0, p.x(i));
-    x1 = lane_max(x1, p.x(i));
-    y0 = lane_min(y0, p.y(i));
-    y1 = lane_max(y1, p.y(i));
-  }
-};
-
-struct LargestRadius {
-  ParticleSoA p;
-  KOKKOS_FUNCTION void operator()(int i, Real& r) const { r = lane_max(r, p.radius(i)); }
-};
-
 struct CountCells {
   ParticleSoA p;
   CellGrid grid;
@@ -77,38 +62,28 @@ void require_countable(std::int64_t entries, std::int64_t discs) {
   if (entries > most_entries) refuse(entries, " places in the rows of neighbours", most_entries);
 }
 
-CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size) {
+CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size, Bounds const& bounds, Scratch& scratch) {
   require_countable(0, discs);
-  Kokkos::RangePolicy<ExecutionSpace> const each(0, discs);
-  Coord x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-  if (discs > 0)
-    Kokkos::parallel_reduce("bounds", each, Bounds{particles}, Kokkos::Min<Coord>(x0), Kokkos::Max<Coord>(x1),
-                            Kokkos::Min<Coord>(y0), Kokkos::Max<Coord>(y1));
+  Real const width = std::max(bounds.right - bounds.left, 0.0), height = std::max(bounds.top - bounds.bottom, 0.0);
   CellGrid grid;
-  grid.x0 = x0;
-  grid.y0 = y0;
+  grid.x0 = bounds.left;
+  grid.y0 = bounds.bottom;
   // At most about four cells a disc, whatever the extent.
-  Real const fewest = std::sqrt((x1 - x0 + cell_size) * (y1 - y0 + cell_size) / (4.0 * discs + 64));
+  Real const fewest = std::sqrt((width + cell_size) * (height + cell_size) / (4.0 * discs + 64));
   grid.cell_size = std::max(cell_size, fewest);
-  grid.columns = static_cast<int>(std::min(1e6, (x1 - x0) / grid.cell_size)) + 1;
-  grid.rows = static_cast<int>(std::min(1e6, (y1 - y0) / grid.cell_size)) + 1;
+  grid.columns = static_cast<int>(std::min(1e6, width / grid.cell_size)) + 1;
+  grid.rows = static_cast<int>(std::min(1e6, height / grid.cell_size)) + 1;
   int const cells = grid.columns * grid.rows;
-  grid.start = uninitialised<int>("grid.start", static_cast<std::size_t>(cells) + 1);
-  grid.disc = uninitialised<int>("grid.disc", static_cast<std::size_t>(discs));
-  Field<int> const count("grid.count", static_cast<std::size_t>(cells));
-  Kokkos::RangePolicy<ExecutionSpace> const each_cell(0, cells);
+  grid.start = scratch.take<int>("grid.start", static_cast<std::size_t>(cells) + 1);
+  grid.disc = scratch.take<int>("grid.disc", static_cast<std::size_t>(discs));
+  Field<int> const count = scratch.take<int>("grid.count", static_cast<std::size_t>(cells));
+  Kokkos::deep_copy(count, 0);
+  Kokkos::RangePolicy<ExecutionSpace> const each(0, discs), each_cell(0, cells);
   Kokkos::parallel_for("count_cells", each, CountCells{particles, grid, count});
   Kokkos::parallel_scan("scan_cells", each_cell, ScanCells{count, grid.start});
   Kokkos::parallel_for("fill_cells", each, FillCells{particles, grid, count});
   Kokkos::parallel_for("sort_cells", each_cell, SortCells{particles, grid});
   return grid;
-}
-
-Real largest_radius(ParticleSoA const& particles, int discs) {
-  Real radius = 0;
-  Kokkos::parallel_reduce("largest_radius", Kokkos::RangePolicy<ExecutionSpace>(0, discs), LargestRadius{particles},
-                          Kokkos::Max<Real>(radius));
-  return lane_max(radius, Real(0));  // without a disc the maximum is that of nothing
 }
 
 }  // namespace clathra

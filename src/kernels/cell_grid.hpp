@@ -6,6 +6,12 @@
 
 namespace clathra {
 
+/// A rectangle that holds the discs [m].
+struct Bounds {
+  Coord left = 0, right = 0, bottom = 0, top = 0;
+  Bounds grown(Coord by) const { return {left - by, right + by, bottom - by, top + by}; }
+};
+
 /// Discs sorted by cell, and by id within a cell.
 struct CellGrid {
   Coord x0 = 0, y0 = 0;  ///< lower left corner [m]
@@ -22,14 +28,10 @@ struct CellGrid {
   KOKKOS_INLINE_FUNCTION static int clamp_index(int i, int n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 };
 
-inline std::size_t bytes(CellGrid const& grid) { return (grid.start.span() + grid.disc.span()) * sizeof(int); }
-
 /// Bins the first `discs` discs by counting, scanning and filling. Cells are at least `cell_size` [m] wide; they grow where discs
 /// are so scattered that there would be far more cells than discs.
+/// @param bounds  what lies outside is put into the outermost cells
 /// @throws TooManyToNumber by require_countable()
-CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size);
-
-/// The largest radius among the first `discs` discs [m].
-Real largest_radius(ParticleSoA const& particles, int discs);
+CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size, Bounds const& bounds, Scratch& scratch);
 
 }  // namespace clathra

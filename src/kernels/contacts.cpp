@@ -3,6 +3,7 @@
 namespace clathra {
 
 void allocate_history(ContactRows& rows, std::size_t entries) {
+  rows.entries = static_cast<int>(entries);
   for_each_history(rows, [&](HistoryField const& about, RealField& field) {
     field = RealField(about.name, entries, kept(rows.features.format, about.quantity), false);
     fill(field, about.empty);

@@ -62,6 +62,7 @@ static_assert(longest_row <= 255);
 /// discs are stored. Both sides of a pair hold equal `shear` and `formation_overlap` and exactly opposite `moment`.
 struct ContactRows {
   ContactFeatures features;
+  int entries = 0;              ///< of all slices; the fields below may have room for more
   Field<int> slice_start;       ///< [slices + 1] in units of slice_width() entries
   Field<RowLength> length;      ///< [owned] entries in use
   Field<int> neighbour;         ///< [entries] index of the other disc, or the padding disc

@@ -1,6 +1,7 @@
 #pragma once
 /// Neighbour search: rows of nearby discs, with the history of contacts and bonds carried from the old rows to the new.
 #include "kernels/bond_law.hpp"
+#include "kernels/cell_grid.hpp"
 #include "kernels/contacts.hpp"
 #include "kernels/countable.hpp"
 #include "kernels/reports.hpp"
@@ -32,26 +33,40 @@ struct OldRows {
   }
 };
 
-/// Replaces the neighbours' indices in the rows by their ids, and takes the rows as old ones.
-OldRows take_as_old(ParticleSoA const& particles, ContactRows const& rows);
+/// Replaces the neighbours' indices in the rows by their ids.
+void name_neighbours(ParticleSoA const& particles, ContactRows const& rows);
+
+/// The rows with neighbours named; what they were taken from has none any more.
+OldRows take_as_old(ParticleSoA const& particles, ContactRows& rows);
 
 /// [owned] the slot of each disc, before discs move: its index.
-Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old);
+Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old, Scratch& scratch);
+
+/// What the host has to know of a search before it goes on, counted by kernels and read at once.
+struct SearchSizes {
+  std::int64_t blocks = 0;  ///< of slice_width() entries in the rows
+  int near_walls = 0;       ///< discs
+};
+/// Their places in what the kernels write.
+enum SizeOf : int { blocks_of_rows, discs_near_walls, sizes_of_search };
+
+/// How far a search looks, the same on all ranks.
+struct SearchReach {
+  Real largest_radius, largest_skin;  ///< [m]
+  Real bonded_gap;                    ///< the widest of an intact bond before the search [m]
+  Bounds bounds;                      ///< of the discs and ghosts; not of all of them if need be
+};
 
 /// Makes rows of all pairs closer than the sum of their skins (surface to surface), plus all bonded pairs at any distance.
 /// History is kept by the pair's ids.
-/// @param largest_skin  of all ranks [m]
-/// @param slot  [owned] where the old row of each disc is
-/// @param bonded_gap  widest_bonded_gap() before the search, of all ranks [m]
+/// @param old  loses its history;  @param slot  [owned] where the old row of each disc is
+/// @param sizes  [sizes_of_search] what the host then reads; that of the walls' has been set
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
-/// @return the most bytes that it held at once beside particles and old rows;  @throws TooManyToNumber by require_countable()
-std::size_t find_neighbours(ParticleSoA const& particles, Real largest_skin, OldRows const& old, Field<int> const& slot,
-                            ContactRows& rows, Faults const& faults, Real bonded_gap);
+/// @throws TooManyToNumber by require_countable()
+SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& reach, OldRows& old, Field<int> const& slot,
+                            ContactRows& rows, Faults const& faults, Field<std::int64_t> const& sizes, Scratch& scratch);
 
 /// Intact bonds whose break this rank would report: those of its discs to discs with a larger id.
 int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows);
-
-/// The widest gap of an intact bond [m] in the present state; 0 without bonds.
-Real widest_bonded_gap(ParticleSoA const& particles, ContactRows const& rows);
 
 }  // namespace clathra

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -89,9 +88,9 @@ struct GatherRows {
   }
 };
 
-void permute_mirror(ParticleSoA& particles, Field<int> const& order) {
+void permute_mirror(ParticleSoA& particles, Field<int> const& order, Scratch& scratch) {
   if (particles.precision == Precision::full) return;
-  Field<std::uint32_t> const rows = like(particles.mirror.rows, "mirror", particles.mirror.rows.extent(0), false);
+  Field<std::uint32_t> const rows = take_like(scratch, particles.mirror.rows, "mirror", particles.mirror.rows.extent(0));
   Kokkos::parallel_for("permute_mirror", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        GatherRows{particles.mirror.rows, rows, order});
   set_mirror(particles, rows);
@@ -146,20 +145,15 @@ void update_mirror(ParticleSoA const& particles, int first, int count) {
                        UpdateMirror{particles, first, 1 / particles.mirror.tick});
 }
 
-void permute(ParticleSoA& particles, Field<int> const& order) {
+void permute(ParticleSoA& particles, Field<int> const& order, Scratch& scratch) {
   particles.owned = static_cast<int>(order.extent(0));
   particles.ghosts = 0;
-  // Each field is gathered into the storage that the one of its type before it left free.
-  std::tuple<Field<int>, Field<double>, RealField> free;
   bool const mixed = particles.precision == Precision::mixed;
+  // What one field has left is free for the next one of its type.
   for_each_field(particles, [&](DiscField const& about, auto& field) {
-    if (mixed && about.mirror_at >= 0) return;
-    auto& to = std::get<std::decay_t<decltype(field)>>(free);
-    if (to.extent(0) != field.extent(0)) to = like(field, about.name, field.extent(0), false);
-    gather_field(field, to, order);
-    std::swap(field, to);
+    if (!mixed || about.mirror_at < 0) field = permuted(field, order, field.extent(0), scratch);
   });
-  permute_mirror(particles, order);
+  permute_mirror(particles, order, scratch);
   fill_padding(particles);
 }
 

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "kernels/disc_mirror.hpp"
+#include "kernels/scratch.hpp"
 
 namespace clathra {
 
@@ -116,7 +117,7 @@ void reserve(ParticleSoA& particles, int discs);
 void fill_padding(ParticleSoA const& particles);
 
 /// Reorders the owned discs: disc `order(i)` becomes disc i. Discs that `order` does not name, and ghosts, are dropped.
-void permute(ParticleSoA& particles, Field<int> const& order);
+void permute(ParticleSoA& particles, Field<int> const& order, Scratch& scratch);
 
 /// Adds the velocity field of a homogeneous strain rate: v += -rate * (x - centre), compression positive [1/s]; a uniform strain
 /// starts without waves when the discs and not only the walls begin to move.
@@ -125,25 +126,25 @@ void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y,
 /// Scales all owned centres about a fixed point: x = fixed + factor (x - fixed).
 void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, Coord fixed_y);
 
-/// Gathers from(order(i)) into to(i).
+/// Gathers from(order(i)) into to(i), and zeros into what is left of it.
 template <class T>
 struct GatherField {
   Field<T> from, to;
   Field<int> order;
-  KOKKOS_FUNCTION void operator()(int i) const { to(i) = from(order(i)); }
+  KOKKOS_FUNCTION void operator()(int i) const { to(i) = i < static_cast<int>(order.extent(0)) ? from(order(i)) : T(0); }
 };
 template <class T>
 void gather_field(Field<T> const& from, Field<T> const& to, Field<int> const& order) {
-  Kokkos::parallel_for("gather_field", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(order.extent(0))),
+  Kokkos::parallel_for("gather_field", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(to.extent(0))),
                        GatherField<T>{from, to, order});
 }
 inline void gather_field(RealField const& from, RealField const& to, Field<int> const& order) {
   visit_as_kept(from, [&]<class T>(Field<T> const& numbers) { gather_field(numbers, to.as<T>(), order); });
 }
-/// `field` in the order `order`, as permute() does, in a new field of `size` places.
+/// `field` in the order `order`, as permute() does, in `size` places.
 template <class AField>
-AField permuted(AField const& field, Field<int> const& order, std::size_t size) {
-  AField const to = like(field, field.label(), size);
+AField permuted(AField const& field, Field<int> const& order, std::size_t size, Scratch& scratch) {
+  AField const to = take_like(scratch, field, "permuted", size);
   gather_field(field, to, order);
   return to;
 }

@@ -2,6 +2,7 @@
 /// Fields of reals whose storage is chosen when the program runs: one kernel reads a state of either precision, and only those
 /// that are worth it are compiled for each.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernels/bond_kind.hpp"
@@ -28,13 +29,20 @@ class RealField {
   RealField() = default;
   /// @param zero  whether it is filled with zeros
   RealField(std::string const& label, std::size_t size, NumberFormat format = {}, bool zero = true)
-      : words_(zero ? Field<Word>(label, size * words(format))
-                    : Field<Word>(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), size * words(format))),
+      : words_(zero ? Field<Word>(label, words(format, size))
+                    : Field<Word>(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), words(format, size))),
         format_(format) {}
+  using Word = std::uint32_t;
+  /// Numbers that stand in these words.
+  RealField(Field<Word> words, NumberFormat format) : words_(std::move(words)), format_(format) {}
+  /// How many words `size` numbers take.
+  KOKKOS_INLINE_FUNCTION static std::size_t words(NumberFormat const& format, std::size_t size) {
+    return static_cast<std::size_t>(format.bytes()) / sizeof(Word) * size;
+  }
 
   /// One column of a table of single precision numbers, which it shares.
   /// @param table  [rows][columns]
-  static RealField column(Field<std::uint32_t> const& table, int columns, int which) {
+  static RealField column(Field<Word> const& table, int columns, int which) {
     RealField field;
     field.words_ = table;
     field.format_ = {Storage::as_float};
@@ -75,7 +83,7 @@ class RealField {
 
   KOKKOS_INLINE_FUNCTION NumberFormat const& format() const { return format_; }
   KOKKOS_INLINE_FUNCTION std::size_t extent(int) const {
-    return words_.extent(0) / (words(format_) * static_cast<std::size_t>(stride_));
+    return words_.extent(0) / words(format_, static_cast<std::size_t>(stride_));
   }
   std::size_t bytes() const { return is_column() ? 0 : words_.span() * sizeof(Word); }  ///< of its own
   std::string label() const { return words_.label(); }
@@ -98,12 +106,8 @@ class RealField {
   }
 
  private:
-  using Word = std::uint32_t;
   KOKKOS_INLINE_FUNCTION std::size_t place(std::size_t i) const {
     return i * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(offset_);
-  }
-  KOKKOS_INLINE_FUNCTION static std::size_t words(NumberFormat const& format) {
-    return static_cast<std::size_t>(format.bytes()) / sizeof(Word);
   }
 
   Field<Word> words_;

@@ -1,7 +1,5 @@
 #include "kernels/spatial_order.hpp"
 
-#include "kernels/cell_grid.hpp"
-
 namespace clathra {
 
 namespace {
@@ -32,72 +30,62 @@ struct WorkOfSlots {
   }
 };
 
-/// Sorts the discs of one window by falling work; equal ones keep their order.
-struct SortByWork {
-  static constexpr int most = slices_a_window * widest_slice;
-  Field<int> order, slot, work;
-  int discs, window_size;
-
-  KOKKOS_FUNCTION void operator()(int window) const {
-    int const begin = window * window_size, size = begin + window_size < discs ? window_size : discs - begin;
-    int disc[most], by_length[most];
-    for (int k = 0; k < size; ++k) disc[k] = order(begin + k);
-    spread(disc, by_length, size, [this](int d) { return work_on(d) % (longest_row + 1); });
-    spread(by_length, disc, size, [this](int d) { return work_on(d) / (longest_row + 1); });
-    for (int k = 0; k < size; ++k) order(begin + k) = disc[k];
+/// Windows of discs and what they are sorted by.
+struct Window {
+  Field<int> order;  ///< empty: the order of the storage
+  Field<int> key;    ///< [discs] no two of a window are equal
+  int size;          ///< a power of two
+  KOKKOS_INLINE_FUNCTION int disc(int i) const { return order.extent(0) > 0 ? order(i) : i; }
+};
+struct SetKeys {
+  Window window;
+  Field<int> slot, work;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    int const at = slot(window.disc(i)), behind = (window.size - 1) & ~i;
+    window.key(i) = (at < 0 ? 0 : work(at)) * window.size + behind;
   }
-
-  KOKKOS_INLINE_FUNCTION int work_on(int disc) const { return slot(disc) < 0 ? 0 : work(slot(disc)); }
-
-  /// One pass of a counting sort, the largest digit first.
-  template <class Digit>
-  KOKKOS_INLINE_FUNCTION static void spread(int const* from, int* to, int size, Digit const& digit) {
-    int place[longest_row + 1] = {};
-    for (int k = 0; k < size; ++k) ++place[digit(from[k])];
-    int next = 0;
-    for (int d = longest_row; d >= 0; --d) {
-      int const count = place[d];
-      place[d] = next;
-      next += count;
-    }
-    for (int k = 0; k < size; ++k) to[place[digit(from[k])]++] = from[k];
+};
+static_assert((longest_row + 1) * (longest_row + 1) * slices_a_window * widest_slice < (1 << 30), "keys are ints");
+/// Ranks the discs of a window by falling work; equal ones keep their order. Each disc counts those before it: that is more to do
+/// than in a sort, but all of them do it side by side, and nothing is kept by any.
+struct RankByWork {
+  Window window;
+  Field<int> ranked;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    int const begin = i & ~(window.size - 1), discs = static_cast<int>(window.key.extent(0));
+    int const end = begin + window.size < discs ? begin + window.size : discs;
+    int const* const key = window.key.data();
+    int const own = key[i];
+    int rank = 0;
+    for (int k = begin; k < end; ++k) rank += key[k] > own ? 1 : 0;
+    ranked(begin + rank) = window.disc(i);
   }
 };
 
-Field<int> work_of_slots(OldRows const& old) {
+Field<int> work_of_slots(OldRows const& old, Scratch& scratch) {
   auto const arrived = static_cast<int>(old.arrived.length.extent(0));
-  Field<int> const work = uninitialised<int>("work_of_slots", static_cast<std::size_t>(old.slots_here + arrived));
+  Field<int> const work = scratch.take<int>("work_of_slots", static_cast<std::size_t>(old.slots_here + arrived));
   Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(old.slots_here)),
                        WorkOfSlots{old.here, 0, work});
-  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(arrived)),
-                       WorkOfSlots{old.arrived, old.slots_here, work});
+  if (arrived > 0)
+    Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(arrived)),
+                         WorkOfSlots{old.arrived, old.slots_here, work});
   return work;
-}
-
-Field<int> by_cells(ParticleSoA const& particles, Real skin) {
-  return bin_particles(particles, particles.owned, 2 * largest_radius(particles, particles.owned) + skin).disc;
-}
-
-struct Number {
-  Field<int> order;
-  KOKKOS_FUNCTION void operator()(int i) const { order(i) = i; }
-};
-
-Field<int> as_stored(ParticleSoA const& particles) {
-  Field<int> const order = uninitialised<int>("order", static_cast<std::size_t>(particles.owned));
-  Kokkos::parallel_for("as_stored", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), Number{order});
-  return order;
 }
 
 }  // namespace
 
-Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, Real skin, bool anew) {
-  Field<int> const order = anew ? by_cells(particles, skin) : as_stored(particles);
-  int const window = slices_a_window * old.here.features.format.slice_width();
-  Kokkos::parallel_for("sort_by_work", Kokkos::RangePolicy<ExecutionSpace>(0, (particles.owned + window - 1) / window),
-                       SortByWork{order, slot, work_of_slots(old), particles.owned, window});
-  permute(particles, order);
-  slot = permuted(slot, order, order.extent(0));
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, std::optional<CellsOfOrder> const& cells,
+                         Scratch& scratch) {
+  auto const discs = static_cast<std::size_t>(particles.owned);
+  Field<int> const order = scratch.take<int>("order", discs);
+  Window window{{}, scratch.take<int>("keys", discs), slices_a_window * old.here.features.format.slice_width()};
+  if (cells) window.order = bin_particles(particles, particles.owned, cells->size, cells->bounds, scratch).disc;
+  Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
+  Kokkos::parallel_for("set_keys", each, SetKeys{window, slot, work_of_slots(old, scratch)});
+  Kokkos::parallel_for("rank_by_work", each, RankByWork{window, order});
+  permute(particles, order, scratch);
+  slot = permuted(slot, order, discs, scratch);
   return order;
 }
 

@@ -4,30 +4,15 @@ namespace clathra {
 
 namespace {
 
-constexpr Real share = 0.2;  // of h, for a disc at the mean speed: rows grow by that much of the skin on the average
-
-/// Speed against the homogeneous motion [m/s].
-struct Wandering {
-  ParticleSoA p;
-  AffineFrame frame;
-  KOKKOS_INLINE_FUNCTION Real speed(int i) const {
-    Real const vx = p.vx(i) - frame.velocity_x(p.x(i)), vy = p.vy(i) - frame.velocity_y(p.y(i));
-    return lane_sqrt(vx * vx + vy * vy);
-  }
-  KOKKOS_INLINE_FUNCTION void operator()(int i, Real* out) const {
-    out[0] = lane_min(speed(i), Real(1e6));
-    out[1] = 1;
-  }
-};
-
 struct GiveLeeway {
   ParticleSoA p;
-  Wandering wandering;
+  AffineFrame frame;
   SkinRange range;
   Real mean_speed;
-  KOKKOS_FUNCTION void operator()(int i, Real& greatest) const {
-    p.verlet_skin(i) = lane_min(range.least * (1 + share * wandering.speed(i) / mean_speed), range.most);
-    greatest = lane_max(greatest, p.verlet_skin(i));
+  KOKKOS_FUNCTION void operator()(int i) const {
+    p.verlet_skin(i) = range.skin(wandering_speed(p, frame, i), mean_speed);
+    p.reference_x(i) = p.x(i);
+    p.reference_y(i) = p.y(i);
   }
 };
 
@@ -49,21 +34,9 @@ struct Stray {
 
 }  // namespace
 
-Real assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range,
-                         Summation const& summation) {
-  Wandering const wandering{particles, frame};
-  Real sums[2];
-  exact_sums<2>("mean_wandering", particles.owned, wandering, {summation.unit.speed(), 1}, sums, summation.over_ranks);
-  Real const mean_speed = lane_max(sums[0] / lane_max(sums[1], Real(1)), Real(1e-300));
-  Real greatest = 0;
-  Kokkos::parallel_reduce("assign_verlet_skins", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                          GiveLeeway{particles, wandering, range, mean_speed}, Kokkos::Max<Real>(greatest));
-  return lane_max(greatest, range.least);
-}
-
-void mark_reference(ParticleSoA const& particles) {
-  Kokkos::deep_copy(particles.reference_x, particles.x);
-  Kokkos::deep_copy(particles.reference_y, particles.y);
+void assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range, Real mean_speed) {
+  Kokkos::parallel_for("assign_verlet_skins", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                       GiveLeeway{particles, frame, range, mean_speed});
 }
 
 Real largest_nonaffine_displacement2(ParticleSoA const& particles, Field<Coord> const& x, Field<Coord> const& y,

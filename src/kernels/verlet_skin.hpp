@@ -1,25 +1,32 @@
 #pragma once
 /// A Verlet skin for each disc: how far it may move beside the homogeneous motion of its box (its non-affine displacement) before
 /// the neighbour rows are outdated.
-#include "kernels/exact_sum.hpp"
 #include "kernels/integrate.hpp"
 
 namespace clathra {
 
+/// Speed of a disc against the homogeneous motion [m/s].
+KOKKOS_INLINE_FUNCTION Real wandering_speed(ParticleSoA const& p, AffineFrame const& frame, int i) {
+  Real const vx = p.vx(i) - frame.velocity_x(p.x(i)), vy = p.vy(i) - frame.velocity_y(p.y(i));
+  return lane_sqrt(vx * vx + vy * vy);
+}
+
 /// The skin of discs at rest, and the most that a flying one may get [m].
 struct SkinRange {
   Real least, most;
+  /// The skin of a disc that wanders at this speed, not below that of a slower one: h_i = min(h (1 + v_i / 5 v_mean), h_most).
+  KOKKOS_INLINE_FUNCTION Real skin(Real speed, Real mean_speed) const {
+    constexpr Real share = 0.2;  // of h, for a disc at the mean speed: rows grow by that much of the skin on the average
+    return lane_min(least * (1 + share * speed / mean_speed), most);
+  }
 };
 
-/// Gives each owned disc its skin h_i = min(h (1 + v_i / 5 v_mean), h_most), where v_i is its speed against the homogeneous
-/// motion: the few discs that no contact holds fly far while all others hardly move, and would call for a search of all. Rows
-/// that hold every pair nearer than h_i + h_j are complete until the non-affine displacement of some disc is its h_i. Does not
-/// depend on the discs' order.
-/// @return the greatest skin of this rank's discs [m], h without discs
-Real assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range, Summation const& sums);
-
-/// Remembers the present centres as those of a neighbour search.
-void mark_reference(ParticleSoA const& particles);
+/// Begins the ways of the owned discs anew: gives each its skin and remembers its present centre as that of a neighbour search.
+/// The few discs that no contact holds fly far while all others hardly move, and would call for a search of all. Rows that hold
+/// every pair nearer than h_i + h_j are complete until the non-affine displacement of some disc is its h_i. Does not depend on
+/// the discs' order.
+/// @param mean_speed  of all discs of all ranks (survey.hpp) [m/s]
+void assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range, Real mean_speed);
 
 /// Non-affine displacements since discs were at (x, y).
 /// @param frame  the homogeneous motion since then

@@ -66,12 +66,17 @@ struct WallForces {
   }
 };
 
-/// Lists the discs within twice their skin of a wall.
+/// Lists the discs within twice their skin of a wall, and behind the last disc writes how many there are.
 struct FindNearWalls {
   ParticleSoA p;
   Walls walls;
   Field<int> disc;
+  Field<std::int64_t> number;
   KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
+    if (i == p.owned) {
+      if (final) number(0) = slot;
+      return;
+    }
     Real nearest = -1e300;
     for (int wall = 0; wall < wall_count; ++wall)
       nearest = lane_max(nearest, p.radius(i) - wall_face(walls, wall, p.x(i), p.y(i)).distance);
@@ -99,27 +104,38 @@ struct CollectShear {
 
 }  // namespace
 
-WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts) {
+WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts, Scratch& scratch) {
   WallShear shear;
   if (contacts.shear.extent(0) == 0 && !contacts.rough) return shear;
-  for (auto& field : shear.of) field = Field<Real>("wall_shear_of_discs", particles.x.extent(0));
+  for (auto& field : shear.of) {
+    field = scratch.take<Real>("wall_shear_of_discs", particles.x.extent(0));
+    Kokkos::deep_copy(field, 0);
+  }
   Kokkos::parallel_for("spread_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, contacts.size), SpreadShear{contacts, shear});
   return shear;
 }
 
-WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, bool friction, WallShear const& shear) {
+Field<int> list_near_walls(ParticleSoA const& particles, Walls const& walls, Field<std::int64_t> const& number,
+                           Scratch& scratch) {
+  Field<int> const near = scratch.take<int>("near_walls", static_cast<std::size_t>(particles.owned));
+  Kokkos::parallel_scan("find_near_walls", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned + 1),
+                        FindNearWalls{particles, walls, near, number});
+  return near;
+}
+
+WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction, WallShear const& shear, Scratch& scratch) {
   WallContacts found;
-  Field<int> const candidates = uninitialised<int>("wall_candidates", static_cast<std::size_t>(particles.owned));
-  Kokkos::parallel_scan("find_near_walls", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                        FindNearWalls{particles, walls, candidates}, found.size);
-  found.disc = candidates;
+  found.size = size;
+  found.disc = near;
   found.rough = friction;
-  if (friction) {
-    found.shear = decltype(found.shear)("wall_shear", static_cast<std::size_t>(found.size));
-    if (shear.of[0].extent(0) > 0) {
-      Kokkos::parallel_for("collect_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, found.size), CollectShear{found, shear});
-    }
-  }
+  if (!friction) return found;
+  auto const contacts = static_cast<std::size_t>(size);
+  found.history = scratch.take<Real>("wall_shear", wall_count * contacts);
+  found.shear = decltype(found.shear)(found.history.data(), contacts);
+  if (shear.of[0].extent(0) > 0)
+    Kokkos::parallel_for("collect_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, size), CollectShear{found, shear});
+  else
+    Kokkos::deep_copy(found.history, 0);
   return found;
 }
 

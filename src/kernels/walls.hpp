@@ -56,6 +56,7 @@ struct WallContacts {
   bool rough = false;
   Field<int> disc;                                      ///< [size]
   Kokkos::View<Real* [wall_count], MemorySpace> shear;  ///< [size][4] F_s [N/m], empty for smooth walls
+  Field<Real> history;                                  ///< where it stands
 };
 
 /// What the walls feel, summed without regard to order (fixed point).
@@ -69,11 +70,15 @@ struct WallReactions {
 struct WallShear {
   Field<Real> of[wall_count];
 };
-WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts);
+WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts, Scratch& scratch);
 
-/// Finds the discs whose surface is within twice their skin of a wall (found again after a restart, discs may have
-/// moved away from it by one and may come back by two); those of a rough wall have the shear history `shear`.
-WallContacts find_wall_contacts(ParticleSoA const& particles, Walls const& walls, bool friction, WallShear const& shear);
+/// Lists the discs whose surface is within twice their skin of a wall (found again after a restart, discs may have moved away
+/// from it by one and may come back by two).
+/// @param number  [1] on the device: how many; the list is not whole until the host has read it
+Field<int> list_near_walls(ParticleSoA const& particles, Walls const& walls, Field<std::int64_t> const& number, Scratch& scratch);
+
+/// The contacts of the listed discs; those of a rough wall have the shear history `shear`.
+WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction, WallShear const& shear, Scratch& scratch);
 
 /// Adds the wall forces to the discs near the walls and returns the reactions of all ranks. A wall is a disc of infinite radius
 /// without rolling. A disc whose centre lies behind a wall (overlap above its radius) is

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "domain/parallel/decomposition.hpp"
+#include "domain/parallel/exchange_buffer.hpp"
 
 namespace clathra {
 
@@ -18,14 +19,22 @@ class Halo {
   void refresh(Ranks const& ranks, ParticleSoA const& particles) const;
   /// Gives every ghost the value of its disc.
   void refresh(Ranks const& ranks, ParticleSoA const& particles, AnyField const& field) const;
-  std::size_t discs_sent() const { return source_.extent(0); }
-  std::size_t bytes() const;
+  std::size_t discs_sent() const { return total(sent_); }
+  std::size_t bytes() const { return source_.span() * sizeof(int) + out_.bytes() + in_.bytes(); }
 
  private:
-  void exchange_known(Ranks const& ranks, ParticleSoA const& particles, std::vector<AnyField> const& columns) const;
+  /// Sends `columns` numbers of each disc on the list and puts those that came into the ghosts.
+  template <class Columns>
+  void exchange(Ranks const& ranks, ParticleSoA const& particles, Columns const& columns) const;
+  void list_sent(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA const& particles, Real reach);
+  static std::size_t total(std::vector<BufferRange> const& stretches) {
+    return stretches.empty() ? 0 : stretches.back().begin + stretches.back().size;
+  }
 
-  Field<int> source_;                         ///< [sent] index of each disc that goes to another rank
+  Field<int> source_;                         ///< [room] index of each disc that goes to another rank
+  Field<std::int64_t> listed_;                ///< [near ranks] where the discs for each end on that list
   std::vector<BufferRange> sent_, received_;  ///< discs, by rank
+  mutable ExchangeBuffer out_, in_;           ///< kept from step to step
 };
 
 }  // namespace clathra

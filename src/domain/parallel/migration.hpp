@@ -9,6 +9,6 @@ namespace clathra {
 /// The discs that stay keep their order; those that came stand behind them.
 /// @param slot  [owned] the slot of each disc in `old`; brought up to date
 void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, AuxiliaryFields const& auxiliary,
-             OldRows& old, Field<int>& slot);
+             OldRows& old, Field<int>& slot, Scratch& scratch);
 
 }  // namespace clathra

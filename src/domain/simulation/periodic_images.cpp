@@ -17,13 +17,12 @@ struct Wrap {
   }
 };
 
-/// The images of one disc: up to three where it lies near a corner.
+/// Lists the images of discs, as far as there is room: up to three of a disc, where it lies near a corner.
 struct ListImages {
   ParticleSoA p;
   PeriodicCell cell;
   Real reach;
   Field<int> source, shift_x, shift_y;
-  bool counting;
   KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
     int const sx = p.x(i) < cell.left + reach ? 1 : p.x(i) >= cell.left + cell.width - reach ? -1 : 0;
     int const sy = p.y(i) < cell.bottom + reach ? 1 : p.y(i) >= cell.bottom + cell.height - reach ? -1 : 0;
@@ -32,7 +31,7 @@ struct ListImages {
     if (sx != 0 && sy != 0) add(i, sx, sy, slot, final);
   }
   KOKKOS_INLINE_FUNCTION void add(int i, int sx, int sy, int& slot, bool final) const {
-    if (final && !counting) {
+    if (final && slot < static_cast<int>(source.extent(0))) {
       source(slot) = i;
       shift_x(slot) = sx;
       shift_y(slot) = sy;
@@ -74,12 +73,14 @@ void PeriodicImages::rebuild(ParticleSoA& particles, PeriodicCell const& cell, R
   particles.ghosts = 0;
   Kokkos::parallel_for("wrap", each, Wrap{particles, cell});
   int count = 0;
-  Kokkos::parallel_scan("count_images", each, ListImages{particles, cell, reach, source_, shift_x_, shift_y_, true}, count);
-  auto const images = static_cast<std::size_t>(count);
-  source_ = uninitialised<int>("images.source", images);
-  shift_x_ = uninitialised<int>("images.shift_x", images);
-  shift_y_ = uninitialised<int>("images.shift_y", images);
-  Kokkos::parallel_scan("list_images", each, ListImages{particles, cell, reach, source_, shift_x_, shift_y_, false}, count);
+  auto const list = [&] {
+    Kokkos::parallel_scan("list_images", each, ListImages{particles, cell, reach, source_, shift_x_, shift_y_}, count);
+  };
+  list();
+  if (auto const images = static_cast<std::size_t>(count); images > source_.extent(0)) {
+    for (Field<int>* field : {&source_, &shift_x_, &shift_y_}) *field = uninitialised<int>("images", images + images / 8);
+    list();
+  }
   reserve(particles, particles.owned + count);
   particles.ghosts = count;
   fill_padding(particles);

@@ -24,8 +24,8 @@ class PeriodicImages {
  private:
   void copy(ParticleSoA const& particles, PeriodicCell const& cell, bool all) const;
 
-  Field<int> source_;             // owned index of each ghost
-  Field<int> shift_x_, shift_y_;  // in cell sizes
+  Field<int> source_;             // [room] owned index of each ghost
+  Field<int> shift_x_, shift_y_;  // [room] in cell sizes
 };
 
 }  // namespace clathra

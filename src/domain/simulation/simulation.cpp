@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domain/parallel/migration.hpp"
 #include "domain/simulation/fault_report.hpp"
-#include "kernels/spatial_order.hpp"
 
 namespace clathra {
 
 namespace {
 
-constexpr int check_every = 64;         // steps between checks of the fault flags
-constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
-constexpr Real calm_leeway = 0.3;       // of its skin that a calm disc may stray before the step is chosen anew
+constexpr int check_every = 64;    // steps between checks of the fault flags
+constexpr Real calm_leeway = 0.3;  // of its skin that a calm disc may stray before the step is chosen anew
 constexpr int most_steps_of_a_choice = 1000, least_steps_of_a_calm_choice = 150;
 
 Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
@@ -67,78 +64,6 @@ void Simulation::step() {
   if (step_ % check_every == 0) throw_if_unstable();
 }
 
-/// @param also  what goes with the discs beside auxiliary_fields()
-void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
-  throw_if_unstable();  // discs that are nowhere have no cell
-  Kokkos::Timer const clock;
-  broken_bonds_.collect();
-  if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
-  Real const bonded_gap = ranks_.max(widest_bonded_gap(particles_, rows_));
-  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
-  AuxiliaryFields const with_discs = with(auxiliary_fields(wall_shear), also);
-  OldRows old = take_as_old(particles_, rows_);
-  Field<int> slot = slots_of_discs(particles_, old);
-  if (!ranks_.alone()) {
-    decomposition_.follow(frame());
-    rebalance_if_it_pays();
-    migrate(ranks_, decomposition_, particles_, with_discs, old, slot);
-  }
-  Field<int> const order = sort_in_space(particles_, old, slot, skin_, sorting_is_due());
-  for_each_auxiliary_field(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0)); });
-  Real const largest_skin =
-      ranks_.max(in_range([&] { return assign_verlet_skins(particles_, frame(), skin_range(skin_by_speed), sums_); }));
-  Real const slack = rounding_slack(particles_, largest_radius_);
-  reach_ = 2 * largest_radius_ + std::max(2 * largest_skin + slack, bonded_gap);
-  if (periodic()) images_.rebuild(particles_, cell_, reach_);
-  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
-  refresh_ghosts(particles_.verlet_skin);
-  search_bytes_ = std::max(search_bytes_, find_neighbours(particles_, largest_skin, old, slot, rows_, faults_, bonded_gap));
-  prepare_rows(particles_, rows_, laws_.contact.bond);
-  update_mirror(particles_, 0, particles_.all());
-  make_room_for_breaks();
-  if (!periodic()) wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
-  mark_reference(particles_);
-  search_mark_ = {walls_, cell_, 0};
-  following_.due = following_.on;  // pairs that were not listed may touch from now on
-  rebuild_pending_ = false;
-  ++rebuilds_;
-  Kokkos::fence();
-  rebuild_seconds_ += clock.seconds();
-}
-
-/// Where no rank sends or gets discs their order in space holds for a while.
-bool Simulation::sorting_is_due() {
-  bool const due = !ranks_.alone() || searches_until_sorting_ == 0;
-  searches_until_sorting_ = due ? searches_a_sorting - 1 : searches_until_sorting_ - 1;
-  return due;
-}
-
-/// Cuts anew when the time that ranks have waited for the slowest, since the last check, is well above what cutting costs.
-void Simulation::rebalance_if_it_pays() {
-  constexpr double worth = 4, least_imbalance = 1.05;
-  double slowest[2] = {busy_seconds_, rebuild_seconds_ / static_cast<double>(std::max<std::int64_t>(rebuilds_, 1))};
-  ranks_.max(slowest, 2);
-  double const mean = 1e-9 * static_cast<double>(ranks_.sum(std::llround(1e9 * busy_seconds_))) / ranks_.count();
-  if (slowest[0] < least_imbalance * mean || slowest[0] - mean < worth * slowest[1]) return;
-  double const seconds_a_disc = busy_seconds_ / std::max(particles_.owned, 1);
-  double const weight = 1e6 * seconds_a_disc / std::max(ranks_.max(seconds_a_disc), 1e-300);
-  decomposition_ = Decomposition::bisect(ranks_, particles_, std::max<std::int64_t>(1, std::llround(weight)));
-  busy_seconds_ = 0;
-}
-
-AuxiliaryFields Simulation::auxiliary_fields(WallShear& wall_shear) {
-  AuxiliaryFields with_discs;
-  for_each_account(losses_, {}, [&](char const* name, Field<Accum>& account, bool) {
-    if (account.extent(0) > 0) with_discs.push_back({name, &account});
-  });
-  if (start_x_.extent(0) > 0) with_discs.insert(with_discs.end(), {{"start_x", &start_x_}, {"start_y", &start_y_}});
-  static constexpr char const* shear_names[] = {"shear_left", "shear_right", "shear_bottom", "shear_top"};
-  if (wall_contacts_.rough) {
-    for (std::size_t wall = 0; wall < wall_count; ++wall) with_discs.push_back({shear_names[wall], &wall_shear.of[wall]});
-  }
-  return with_discs;
-}
-
 void Simulation::set_sums() {
   sums_ = {SumUnits::of(d50_ > 0 ? d50_ : 2 * largest_radius_, laws_.contact.grain.normal_stiffness, density_),
            ranks_.summation()};
@@ -148,6 +73,16 @@ ContactFeatures Simulation::features_of_rows() const {
   ContactFeatures features = laws_.features();
   features.format = history_format(laws_.precision, laws_.contact, largest_radius_);
   return features;
+}
+
+/// Of the discs of all ranks; throws where there are faults.
+Survey Simulation::survey_discs() const {
+  Survey all = survey(particles_, rows_, frame(), faults_, sums_.unit);
+  ranks_.sum(all.sums, Survey::sum_count);
+  ranks_.max(all.largest, Survey::largest_count);
+  throw_of(all.largest + Survey::faults);
+  all.mean_speed = in_range([&] { return all.mean_of_speeds(sums_.unit); });
+  return all;
 }
 
 /// The homogeneous motion since a mark: that of the walls, or of the periodic cell.
@@ -329,12 +264,6 @@ Real Simulation::largest_frequency(int iterations) const {
 
 Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, calm_leeway, across()); }
 
-/// Where no rank sends or gets discs, intact bonds only become fewer after restore_history().
-void Simulation::make_room_for_breaks() {
-  if (laws_.contact.bond_kind == BondKind::none || (ranks_.alone() && broken_bonds_.has_log())) return;
-  broken_bonds_.make_room(broken_bonds_.keeps_events ? static_cast<std::size_t>(count_own_bonds(particles_, rows_)) : 0);
-}
-
 void Simulation::keep_break_events(bool on) {
   broken_bonds_.collect();
   broken_bonds_.keeps_events = on;
@@ -368,6 +297,11 @@ void Simulation::throw_if_unstable() const {
   double disc[fault_count];
   for (int fault = 0; fault < fault_count; ++fault) disc[fault] = here(fault);
   ranks_.max(disc, fault_count);
+  throw_of(disc);
+}
+
+/// @param disc  [fault_count] the largest id of a disc of any rank that met each fault, or -1
+void Simulation::throw_of(double const* disc) const {
   for (int fault = 0; fault < fault_count; ++fault) {
     if (disc[fault] < 0) continue;
     double place[2] = {0, 0};

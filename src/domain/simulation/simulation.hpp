@@ -17,6 +17,7 @@
 #include "kernels/neighbours.hpp"
 #include "kernels/spectrum.hpp"
 #include "kernels/stability.hpp"
+#include "kernels/survey.hpp"
 #include "kernels/verlet_skin.hpp"
 #include "kernels/walls.hpp"
 
@@ -151,10 +152,10 @@ class Simulation {
   /// seen by one rank.
   std::vector<BreakEvent> break_events(int first) const { return detailed_break_events(first).rows; }
   BreakEvents detailed_break_events(int first) const;  ///< the same, with the details where these are kept
-  /// Bytes of this rank's fields, with the ledger, the log of breaks and the most that a neighbour search has needed beside them.
+  /// Bytes of this rank's fields, with the ledger, the log of breaks and what neighbour searches need beside them.
   std::size_t bytes() const {
     return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) + broken_bonds_.bytes() +
-           (start_x_.span() + start_y_.span() + step_x_.span() + step_y_.span()) * sizeof(Coord) + search_bytes_;
+           (start_x_.span() + start_y_.span() + step_x_.span() + step_y_.span()) * sizeof(Coord) + scratch_.bytes();
   }
   // Of this rank:
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
@@ -171,6 +172,9 @@ class Simulation {
  private:
   void refresh_ghosts() const;  // all of their state
   void rebuild(bool skin_by_speed = true, AuxiliaryFields const& also = {});
+  void find_rows_and_walls(SearchReach const& reach, OldRows& old, Field<int> const& slot, WallShear const& wall_shear);
+  Survey survey_discs() const;
+  Bounds own_bounds(Bounds const& all) const;
   void upload_discs(Specimen const& specimen);
   void restore_history(Specimen const& specimen);
   /// The box when the discs were where a reference says, and how far they have strayed since.
@@ -204,7 +208,9 @@ class Simulation {
   void for_each_later_number(Visit&& visit);
   std::vector<SpecimenContact> contacts_by_id() const;
   void account_boundary_work(WallReactions const& before);
+  bool log_lasts() const;  // until all bonds are broken
   void make_room_for_breaks();
+  void throw_of(double const* disc) const;
   Real height() const { return periodic() ? cell_.height : walls_.height(); }
 
   Ranks ranks_;
@@ -236,7 +242,7 @@ class Simulation {
   std::int64_t renewals_ = 0;
   double busy_seconds_ = 0;  // of this rank since the cuts were made
   bool rebuild_pending_ = true;
-  std::size_t search_bytes_ = 0;  // at most
+  Scratch scratch_;  // of neighbour searches
 };
 
 }  // namespace clathra

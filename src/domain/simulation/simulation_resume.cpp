@@ -107,12 +107,12 @@ SimulationState Simulation::state() {
   SimulationState s;
   for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
   s.numbers["marked_start"] = start_x_.extent(0) > 0 ? 1 : 0;
-  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_, scratch_);
   AuxiliaryFields const with_discs = with(auxiliary_fields(wall_shear), derived());
   ContactRows named = rows_;
   named.neighbour = uninitialised<int>("named", rows_.neighbour.extent(0));
   Kokkos::deep_copy(named.neighbour, rows_.neighbour);
-  (void)take_as_old(particles_, named);
+  name_neighbours(particles_, named);
   std::vector<int> all(static_cast<std::size_t>(particles_.owned));
   std::iota(all.begin(), all.end(), 0);
   s.discs = pack_discs(particles_, with_discs, named, all);
@@ -137,7 +137,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   if (laws_.contact.ledger) open_accounts(losses_, laws_.losses(), 1);
   if (state.numbers.at("marked_start") != 0) mark_start();
   wall_contacts_.rough = laws_.wall.friction > 0;
-  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_);
+  WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_, scratch_);
   AuxiliaryFields with_discs = with(auxiliary_fields(wall_shear), derived());
   auto const& columns = state.disc_columns;
   bool const one_skin = std::find(columns.begin(), columns.end(), "verlet_skin") == columns.end();
@@ -151,7 +151,10 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   find_listed_neighbours();
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
-  wall_contacts_ = find_wall_contacts(particles_, walls_, laws_.wall.friction > 0, wall_shear);
+  Field<std::int64_t> const number = scratch_.take<std::int64_t>("near_walls", 1);
+  Field<int> const near_walls = list_near_walls(particles_, walls_, number, scratch_);
+  auto const size = static_cast<int>(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), number)(0));
+  wall_contacts_ = make_wall_contacts(near_walls, size, laws_.wall.friction > 0, wall_shear, scratch_);
   broken_bonds_.read(state, ranks_);
 }
 

@@ -1,0 +1,132 @@
+#include "kernels/survey.hpp"
+
+#include <cstdint>
+
+namespace clathra {
+
+namespace {
+
+/// A number as an integer that orders likewise, so that one array holds sums and maxima; and the way back.
+KOKKOS_INLINE_FUNCTION std::int64_t folded(std::int64_t bits) { return bits ^ ((bits >> 63) & INT64_MAX); }
+KOKKOS_INLINE_FUNCTION std::int64_t ordered(double value) {
+  std::int64_t bits;
+  __builtin_memcpy(&bits, &value, sizeof bits);
+  return folded(bits);
+}
+double number_of(std::int64_t order) {
+  std::int64_t const bits = folded(order);
+  double value;
+  __builtin_memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// One group of discs.
+struct SurveyDiscs {
+  using value_type = std::int64_t[];
+  static constexpr int value_number = Survey::sum_count + Survey::largest_count;
+  unsigned value_count = value_number;
+  ParticleSoA p;
+  ContactRows rows;
+  AffineFrame frame;
+  Faults faults;
+  Real per_unit;
+  bool bonds;
+
+  KOKKOS_FUNCTION void operator()(int group, std::int64_t* out) const {
+    int const first = group * lane_count, end = first + lane_count < p.owned ? first + lane_count : p.owned;
+    Real most[Survey::faults] = {-1e300, -1e300, -1e300, -1e300, 0, 0};
+    for (int i = first; i < end; ++i) {
+      Real const x = p.x(i), y = p.y(i), speed = wandering_speed(p, frame, i);
+      most[Survey::leftwards] = lane_max(most[Survey::leftwards], -x);
+      most[Survey::rightwards] = lane_max(most[Survey::rightwards], x);
+      most[Survey::downwards] = lane_max(most[Survey::downwards], -y);
+      most[Survey::upwards] = lane_max(most[Survey::upwards], y);
+      most[Survey::speed] = lane_max(most[Survey::speed], speed);
+      add(speed, out);
+    }
+    if (bonds) most[Survey::bonded_gap] = widest_gap(static_cast<std::size_t>(first));
+    for (int n = 0; n < Survey::faults; ++n) raise(out, n, most[n]);
+    if (group > 0) return;
+    for (int fault = 0; fault < fault_count; ++fault) raise(out, Survey::faults + fault, faults.disc(fault));
+  }
+
+  KOKKOS_INLINE_FUNCTION void add(Real speed, std::int64_t* sums) const {
+    Real value = lane_min(speed, Real(1e6)) * per_unit;
+    bool const holds = FixedPoint::holds(value);
+    if (!holds) value = 0;
+    for (int k = 0; k < FixedPoint::words; ++k) sums[Survey::speed_digits + k] += FixedPoint::take_digit(value);
+    sums[Survey::speeds_out_of_range] += holds ? 0 : 1;
+    sums[Survey::discs] += 1;
+  }
+
+  /// Of the bonds in the rows of the group.
+  KOKKOS_INLINE_FUNCTION Real widest_gap(std::size_t i) const {
+    int const shift = rows.features.format.slice_shift();
+    auto const slice = static_cast<int>(i >> shift);
+    std::size_t const in_slice = i & ((std::size_t(1) << shift) - 1);
+    Lanes const x = load(&p.x(i)), y = load(&p.y(i)), radius = load(&p.radius(i));
+    Lanes widest(0);
+    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
+      std::size_t const e = (static_cast<std::size_t>(k) << shift) | in_slice;
+      auto const bonded = is_bonded(load(rows.formation_overlap, e));
+      if (!any(bonded)) continue;
+      int const* const other = &rows.neighbour(e);
+      Lanes const dx = gather(p.x.data(), other) - x, dy = gather(p.y.data(), other) - y;
+      Lanes const gap = lane_sqrt(dx * dx + dy * dy) - (radius + gather(p.radius.data(), other));
+      widest = lane_max(widest, select(bonded, gap, Lanes(0)));
+    }
+    return lane_max(largest(widest), Real(0));
+  }
+
+  KOKKOS_INLINE_FUNCTION static void raise(std::int64_t* out, int which, double to) {
+    std::int64_t& value = out[Survey::sum_count + which];
+    value = ordered(to) > value ? ordered(to) : value;
+  }
+  KOKKOS_FUNCTION void init(std::int64_t* values) const {
+    for (int n = 0; n < value_number; ++n) values[n] = n < Survey::sum_count ? 0 : ordered(-1e300);
+  }
+  KOKKOS_FUNCTION void join(std::int64_t* into, std::int64_t const* from) const { join_values(into, from); }
+  // Kokkos before 4 calls join with volatile pointers.
+  KOKKOS_FUNCTION void join(std::int64_t volatile* into, std::int64_t const volatile* from) const { join_values(into, from); }
+
+  template <class To, class From>
+  KOKKOS_INLINE_FUNCTION void join_values(To* into, From* from) const {
+    for (int n = 0; n < value_number; ++n) {
+      std::int64_t const mine = into[n], other = from[n];
+      into[n] = n < Survey::sum_count ? mine + other : mine > other ? mine : other;
+    }
+  }
+};
+
+}  // namespace
+
+Real Survey::mean_of_speeds(SumUnits const& unit) const {
+  require_in_range("speeds of discs", sums[speeds_out_of_range]);
+  FixedPoint sum;
+  for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[speed_digits + k];
+  Real const speeds = sum.value() * unit.speed();
+  return lane_max(speeds / lane_max(static_cast<Real>(sums[discs]), Real(1)), Real(1e-300));
+}
+
+Bounds Survey::bounds() const {
+  if (sums[discs] == 0) return {};
+  return {-largest[leftwards], largest[rightwards], -largest[downwards], largest[upwards]};
+}
+
+Survey survey(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame, Faults const& faults,
+              SumUnits const& unit) {
+  bool const bonds = rows.formation_overlap.extent(0) > 0 && rows.length.extent(0) > 0;
+  SurveyDiscs const kernel{SurveyDiscs::value_number, particles, rows, frame, faults, 1 / unit.speed(), bonds};
+  std::int64_t values[SurveyDiscs::value_number];
+  int const groups = group_count(particles.owned);
+  Kokkos::parallel_reduce("survey", Kokkos::RangePolicy<ExecutionSpace>(0, groups > 0 ? groups : 1),
+                          kernel,  // faults are read in any case
+                          Kokkos::View<std::int64_t*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(
+                              &values[0], SurveyDiscs::value_number));
+  Survey all;
+  for (int n = 0; n < Survey::sum_count; ++n) all.sums[n] = values[n];
+  for (int n = 0; n < Survey::largest_count; ++n) all.largest[n] = number_of(values[Survey::sum_count + n]);
+  return all;
+}
+
+}  // namespace clathra
