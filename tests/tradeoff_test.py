@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 PROJECT = Path(sys.argv[1])
-sys.path[:0] = [str(PROJECT / "perf"), str(PROJECT / "perf" / "tradeoff")]
+sys.path[:0] = [str(PROJECT / "perf"), str(PROJECT / "perf" / "tradeoff"), str(PROJECT / "perf" / "tradeoff" / "outside")]
 
 import collect  # noqa: E402
 import compare  # noqa: E402
@@ -18,6 +18,7 @@ import paired  # noqa: E402
 import picture  # noqa: E402
 import table  # noqa: E402
 import two_rates  # noqa: E402
+import verify  # noqa: E402
 
 SCENE = {"sample": {"aspect_ratio": 2.0}, "grains": {"kn": 3e8, "contact_damping": 0.0}, "hydrate": {"saturation": 0.55},
          "run": {"precision": "double", "dt_safety": 0.95, "inertia_scaling": 1.0, "mass_scaling": 0.0, "damping": 0.3, "skin": 0.0},
@@ -137,6 +138,28 @@ class Tradeoff(unittest.TestCase):
         for number in (quoted["inertial_number"][0], quoted["inertial_number"][2], quoted["precision"][1], quoted["dt_safety"][0],
                        quoted["inertia_scaling"][1], quoted["mass_scaling"][0], peak(bonded, "damping", "0", 2e-4, plain(2e-4))):
             self.assertIn(f"{number} %", structures)
+
+    def test_what_tune_chose_is_compared_with_its_reference(self):
+        scene = self.folder / "planted.toml"
+        (self.folder / "planted-5.toml").write_text("[test]\ninertial_number = 0.001\nconfining_stress = 2e6\n[run]\nprecision = 'mixed'\n")
+        text = verify.study(scene, self.folder)
+        self.assertIn('[groups.tuned5]\n"run.precision" = "mixed"\n"test.inertial_number" = 0.001', text)
+        self.assertNotIn("tuned1", text)
+        self.assertNotIn("confining_stress", text)
+        (self.folder / "planted-5.done").write_text("0 203\n")
+        (self.folder / "planted-1.done").write_text("77 59\n")
+        (self.folder / "planted-1.log").write_text("study 91%\nundetermined: needs about 81 seeds (22:35 more at I = 3e-05)\n")
+        (self.folder / "planted-verified").mkdir()
+        # Groups of 100, 110 and 90 MPa in the reference and 3, 4 and 5 MPa more: +4 +- 4.303 / sqrt(3) MPa of 100.
+        lines = [f"member,{group},{seed},{1e6 * (q + more)}" for seed, q, extra in ((101, 100, 3), (102, 110, 4), (103, 90, 5))
+                 for group, more in (("reference", 0), ("tuned5", extra))]
+        (self.folder / "planted-verified/study.csv").write_text("\n".join(["row,group,seed,peak_q_Pa", *lines, "mean,reference,,99e6"]))
+        with open(self.folder / "outside.csv", "w") as out:
+            verify.table(self.folder, out)
+        with open(self.folder / "outside.csv") as file:
+            none, found = csv.DictReader(file)
+        self.assertEqual((none["tune_said"], none["pairs"]), ("undetermined: needs about 81 seeds (22:35 more at I = 3e-05)", "0"))
+        self.assertEqual((found["reference_peak_q_MPa"], found["change_pct"], found["half_width_pct"], found["pairs"]), ("100.000", "4.00", "2.48", "3"))
 
     def test_the_front_holds_what_nothing_beats_in_both(self):
         self.assertEqual(picture.front({(1, 9), (2, 5), (3, 6), (4, 1), (5, 1)}), {(1, 9), (2, 5), (4, 1)})
