@@ -66,9 +66,10 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
       [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
         using Kernel = ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()>;
-        Kernel const kernel{particles, rows, constants, laws.bond, step, breaks, losses, faults, discs_ahead(particles.owned)};
-        Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
-                             UnlessStopped<Kernel>{kernel, steps});
+        Kokkos::parallel_for(
+            Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
+            UnlessStopped<Kernel>{
+                {particles, rows, constants, laws.bond, step, breaks, losses, faults, discs_ahead(particles.owned)}, steps});
       },
       bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
       on(laws.ledger));

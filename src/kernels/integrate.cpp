@@ -1,6 +1,7 @@
 #include "kernels/integrate.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace clathra {
 
@@ -189,16 +190,17 @@ void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
   int const share = std::max(1, (groups + ExecutionSpace().concurrency() - 1) / ExecutionSpace().concurrency());
-  auto const run = [&]<class Kernel>(Kernel const& kernel) {
+  // Made in place: small specimens feel each copy of all these fields.
+  auto const run = [&]<class Kernel>(std::type_identity<Kernel>) {
     Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, (groups + share - 1) / share),
-                            ByShares<Kernel>{kernel, groups, share}, steps.displacement);
+                            ByShares<Kernel>{{{particles, law, dt, steps.state, losses.damping, faults}}, groups, share},
+                            steps.displacement);
   };
-  Moving const moving{particles, law, dt, steps.state, losses.damping, faults};
   auto const run_with = [&](auto ledger) {
     if (mixed) {
-      run(KickAndDriftMixed<ledger()>{moving});
+      run(std::type_identity<KickAndDriftMixed<ledger()>>());
     } else {
-      run(KickAndDrift<ledger()>{moving});
+      run(std::type_identity<KickAndDrift<ledger()>>());
     }
   };
   if (losses.damping.extent(0) > 0) {

@@ -33,7 +33,7 @@ struct WallForces {
 
   KOKKOS_FUNCTION void operator()(int c, Real* reactions) const {
     if (is_stopped(steps)) return;
-    Walls const& walls = steps(0).box.walls;
+    Walls const walls = steps(0).box.walls;
     fetch_ahead(c);
     int const i = contacts.disc(c);
     bool const friction = contacts.shear.extent(0) > 0;
