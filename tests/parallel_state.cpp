@@ -39,6 +39,63 @@ TEST_P(StateIn, DoesNotKnowTheOrderOfTheInput) {
   }
 }
 
+/// Sheared through breakage between servo walls, at time steps that follow the limit, with all accounts.
+Simulation between_servo_walls(Precision precision) {
+  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
+  sim.loading.x = AxisDrive::at_stress(2e6, 20);
+  sim.set_ledger(true);
+  sim.keep_break_details();
+  sim.choose_time_step({});
+  return sim;
+}
+
+/// All that the device keeps of steps beside the discs.
+void expect_equal_steps(Simulation const& one, Simulation const& many) {
+  EXPECT_EQ(one.steps(), many.steps());
+  EXPECT_EQ(one.time(), many.time());
+  EXPECT_EQ(one.time_step, many.time_step);
+  EXPECT_EQ(one.rebuilds(), many.rebuilds());
+  EXPECT_EQ(one.time_step_renewals(), many.time_step_renewals());
+  EXPECT_EQ(one.loading.x.integral, many.loading.x.integral);
+  EXPECT_EQ(one.losses().breakage, many.losses().breakage);
+  for (int wall = 0; wall < wall_count; ++wall) {
+    EXPECT_EQ(one.walls().position[wall], many.walls().position[wall]) << wall;
+    EXPECT_EQ(one.walls().velocity[wall], many.walls().velocity[wall]) << wall;
+  }
+}
+
+TEST_P(StateIn, IsThatOfStepsOneByOneAfterManyAtOnce) {
+  Simulation one = between_servo_walls(GetParam()), many = between_servo_walls(GetParam());
+  for (int const steps : {1, 7, 64, 200, 1500}) {
+    for (int n = 0; n < steps; ++n) one.step();
+    many.step(steps);
+    EXPECT_EQ(one.hash(), many.hash()) << steps;
+    expect_equal_steps(one, many);
+    expect_equal_measures(one, many);
+  }
+  EXPECT_GT(many.rebuilds(), 5);
+  EXPECT_GT(many.time_step_renewals(), 3);
+  BreakEvents const first = one.detailed_break_events(0), second = many.detailed_break_events(0);
+  ASSERT_GT(first.rows.size(), 10U);
+  ASSERT_EQ(first.rows.size(), second.rows.size());
+  for (std::size_t k = 0; k < first.rows.size(); ++k) {
+    EXPECT_EQ(first.rows[k].step, second.rows[k].step);
+    EXPECT_EQ(first.details[k].eps1, second.details[k].eps1);
+  }
+}
+
+TEST(State, ComesToAHeightOfTheBoxInAsManyStepsAtOnceAsOneByOne) {
+  Simulation one = between_servo_walls(Precision::full), many = between_servo_walls(Precision::full);
+  double const height = one.walls().height() * (1 - 0.0113);
+  while (one.walls().height() > height) one.step();
+  many.step(1000000, height);
+  EXPECT_GT(many.steps(), 100);
+  EXPECT_EQ(many.steps(), one.steps());
+  EXPECT_EQ(many.hash(), one.hash());
+  many.step(10, height);
+  EXPECT_EQ(many.steps(), one.steps() + 1) << "below it one step at a time";
+}
+
 TEST(State, OfUnboundSandDoesNotKnowTheOrderOfTheInput) {
   auto const run = [](Specimen const& s) {
     SimulationLaws laws = sand_laws();

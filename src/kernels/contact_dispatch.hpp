@@ -37,10 +37,20 @@ inline std::size_t discs_ahead(int discs) {
   return static_cast<std::size_t>(512 + 2 * std::sqrt(static_cast<double>(discs))) / widest_slice * widest_slice;
 }
 
+/// A kernel of a step.
+template <class Kernel>
+struct UnlessStopped {
+  Kernel kernel;
+  Field<StepState> steps;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    if (!is_stopped(steps)) kernel(i);
+  }
+};
+
 /// @tparam P  FullPrecision or MixedPrecision
 template <class P>
 void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
-                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults) {
+                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps) {
   using R = typename P::Real;
   HistoryFormat const& format = rows.features.format;
   float const rounding = rounding_of_step(step);
@@ -55,9 +65,11 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
   std::visit(
       [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
-        ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()> const kernel{
-            particles, rows, constants, laws.bond, step, breaks, losses, faults, discs_ahead(particles.owned)};
-        Kokkos::parallel_for(kernel.bonded_code ? "contact_forces_bonded" : "contact_forces", groups, kernel);
+        using Kernel = ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()>;
+        Kokkos::parallel_for(
+            Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
+            UnlessStopped<Kernel>{
+                {particles, rows, constants, laws.bond, step, breaks, losses, faults, discs_ahead(particles.owned)}, steps});
       },
       bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
       on(laws.ledger));

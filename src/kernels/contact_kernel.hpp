@@ -335,7 +335,7 @@ struct ContactKernel {
     auto const other = static_cast<std::size_t>(rows.neighbour(block.entry + static_cast<std::size_t>(l)));
     ContactForce<Real> const force = trial_of(block, l).force;
     BreakDetails details;
-    details.eps1 = breaks.eps1;
+    details.eps1 = 0;  // the host's, from the height of the box
     details.orientation = angle_of_line(p.x(other) - p.x(disc), p.y(other) - p.y(disc));
     details.thickness = lane(block.thickness, l);
     details.width = lane(block.width, l);

@@ -89,18 +89,27 @@ struct SumUnits {
   Real speed() const { return near(std::sqrt(stress / density)); }
 };
 
+/// What exact sums are made of, and how many of them so many sums take.
+using SumWord = std::int64_t;
+constexpr int sum_words(int count) { return FixedPoint::words * count + 1; }
+
 /// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i. Same bits for any order and thread
 /// count. The sums' words stand digit by digit, word k of quantity c at Count k + c, so that loops over quantities become vector
 /// code; behind them one more counts the terms that are out of range.
 template <int Count, class Terms>
 struct ExactSumKernel {
-  using value_type = std::int64_t[];
-  unsigned value_count = FixedPoint::words * Count + 1;
+  static constexpr int words = sum_words(Count), padded = (Count + lane_count - 1) / lane_count * lane_count;
+  using value_type = SumWord[];
+  unsigned value_count = words;
   Terms terms;
-  static constexpr int words = FixedPoint::words * Count + 1, padded = (Count + lane_count - 1) / lane_count * lane_count;
-  Real per_unit[padded];
+  Real per_unit[padded] = {};
 
-  KOKKOS_FUNCTION void operator()(int i, std::int64_t* sums) const {
+  /// @param units  of each quantity, a power of two near its terms
+  ExactSumKernel(Terms const& of, Real const (&units)[Count]) : terms(of) {
+    for (int c = 0; c < Count; ++c) per_unit[c] = 1 / units[c];
+  }
+
+  KOKKOS_FUNCTION void operator()(int i, SumWord* sums) const {
     Real out[padded] = {};
     terms(i, out);
     bool empty = true, beyond = false;  // nearly all terms of the walls are empty
@@ -120,15 +129,27 @@ struct ExactSumKernel {
       for (int c = 0; c < Count; ++c) sums[Count * k + c] += FixedPoint::take_digit(out[c]);
     }
   }
-  KOKKOS_FUNCTION void init(std::int64_t* sums) const {
+  KOKKOS_FUNCTION void init(SumWord* sums) const {
     for (unsigned c = 0; c < value_count; ++c) sums[c] = 0;
   }
-  KOKKOS_FUNCTION void join(std::int64_t* into, std::int64_t const* from) const {
+  KOKKOS_FUNCTION void join(SumWord* into, SumWord const* from) const {
     for (unsigned c = 0; c < value_count; ++c) into[c] += from[c];
   }
   // Kokkos before 4 calls join with volatile pointers.
-  KOKKOS_FUNCTION void join(std::int64_t volatile* into, std::int64_t const volatile* from) const {
+  KOKKOS_FUNCTION void join(SumWord volatile* into, SumWord const volatile* from) const {
     for (unsigned c = 0; c < value_count; ++c) into[c] = into[c] + from[c];
+  }
+
+  // Of all sums together:
+  static void add_other_ranks(SumWord* sums, SumOverRanks const& over_ranks) {
+    if (over_ranks) over_ranks(sums, words);
+  }
+  KOKKOS_INLINE_FUNCTION static std::int64_t out_of_range(SumWord const* sums) { return sums[words - 1]; }
+  /// @param unit  of that quantity
+  KOKKOS_INLINE_FUNCTION static Real total(SumWord const* sums, int quantity, Real unit) {
+    FixedPoint sum;
+    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[Count * k + quantity];
+    return sum.value() * unit;
   }
 };
 
@@ -176,19 +197,13 @@ template <int Count, class Terms>
 void exact_sums(char const* label, int n, Terms const& terms, Real const (&unit)[Count], Real* result,
                 SumOverRanks const& over_ranks = {}) {
   using Kernel = ExactSumKernel<Count, Terms>;
-  Kernel kernel{Kernel::words, terms, {}};
-  for (int c = 0; c < Count; ++c) kernel.per_unit[c] = 1 / unit[c];
-  std::int64_t sums[Kernel::words];
+  SumWord sums[Kernel::words];
   Kokkos::parallel_reduce(
-      label, Kokkos::RangePolicy<ExecutionSpace>(0, n), kernel,
-      Kokkos::View<std::int64_t*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(sums, Kernel::words));
-  if (over_ranks) over_ranks(&sums[0], Kernel::words);
-  require_in_range(label, sums[Kernel::words - 1]);
-  for (int c = 0; c < Count; ++c) {
-    FixedPoint sum;
-    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[Count * k + c];
-    result[c] = sum.value() * unit[c];
-  }
+      label, Kokkos::RangePolicy<ExecutionSpace>(0, n), Kernel(terms, unit),
+      Kokkos::View<SumWord*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(sums, Kernel::words));
+  Kernel::add_other_ranks(sums, over_ranks);
+  require_in_range(label, Kernel::out_of_range(sums));
+  for (int c = 0; c < Count; ++c) result[c] = Kernel::total(sums, c, unit[c]);
 }
 
 }  // namespace clathra

@@ -1,6 +1,7 @@
 #include "kernels/integrate.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace clathra {
 
@@ -22,7 +23,7 @@ struct Moving {
   ParticleSoA p;
   MotionLaw law;
   StepLengths dt;
-  AffineFrame frame;
+  Field<StepState> steps;
   Field<Accum> lost_to_damping;
   Faults faults;
 
@@ -54,7 +55,7 @@ struct MotionConstants {
         pull_x(static_cast<R>(m.law.gravity_x * m.dt.kick)),
         pull_y(static_cast<R>(m.law.gravity_y * m.dt.kick)),
         drift(m.dt.drift),
-        frame(m.frame) {}
+        frame(m.steps(0).frame) {}
 };
 
 /// Kick and drift.
@@ -151,8 +152,10 @@ template <class Kernel>
 struct ByShares {
   Kernel kernel;
   int groups, share;  ///< in all, and of a thread
+  using value_type = Real;
 
   KOKKOS_FUNCTION void operator()(int n, Real& largest_displacement) const {
+    if (is_stopped(kernel.steps)) return;
     using R = typename Kernel::R;
     using V = LanesOf<R>;
     MotionConstants<R> const by(kernel);
@@ -166,26 +169,37 @@ struct ByShares {
     }
     largest_displacement = lane_max(largest_displacement, Real(largest(most)));
   }
+  KOKKOS_FUNCTION void init(Real& largest_displacement) const { largest_displacement = 0; }
+  KOKKOS_FUNCTION void join(Real& into, Real const& from) const { into = lane_max(into, from); }
+  // Kokkos before 4 calls join with volatile numbers.
+  KOKKOS_FUNCTION void join(Real volatile& into, Real const volatile& from) const { into = lane_max(into, from); }
+  /// Called once, when all are done.
+  KOKKOS_FUNCTION void final(Real& largest_displacement) const {
+    if (is_stopped(kernel.steps)) return;
+    StepState& now = kernel.steps(0);
+    now.displacement = largest_displacement;
+    now.end_move();
+  }
 };
 
 }  // namespace
 
-Real integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, AffineFrame const& frame,
-               EnergyLosses const& losses, Faults const& faults) {
+void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
+               Faults const& faults, DeviceSteps const& steps) {
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
   int const share = std::max(1, (groups + ExecutionSpace().concurrency() - 1) / ExecutionSpace().concurrency());
-  Real largest_displacement = 0;
-  auto const run = [&]<class Kernel>(Kernel const& kernel) {
+  // Made in place: small specimens feel each copy of all these fields.
+  auto const run = [&]<class Kernel>(std::type_identity<Kernel>) {
     Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, (groups + share - 1) / share),
-                            ByShares<Kernel>{kernel, groups, share}, Kokkos::Max<Real>(largest_displacement));
+                            ByShares<Kernel>{{{particles, law, dt, steps.state, losses.damping, faults}}, groups, share},
+                            steps.displacement);
   };
-  Moving const moving{particles, law, dt, frame, losses.damping, faults};
   auto const run_with = [&](auto ledger) {
     if (mixed) {
-      run(KickAndDriftMixed<ledger()>{moving});
+      run(std::type_identity<KickAndDriftMixed<ledger()>>());
     } else {
-      run(KickAndDrift<ledger()>{moving});
+      run(std::type_identity<KickAndDrift<ledger()>>());
     }
   };
   if (losses.damping.extent(0) > 0) {
@@ -193,7 +207,6 @@ Real integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
   } else {
     run_with(std::false_type());
   }
-  return largest_displacement;
 }
 
 }  // namespace clathra

@@ -2,6 +2,7 @@
 /// Leapfrog integration of the discs' motion.
 #include "kernels/particles.hpp"
 #include "kernels/reports.hpp"
+#include "kernels/step_state.hpp"
 
 namespace clathra {
 
@@ -12,28 +13,6 @@ struct MotionLaw {
   Real gravity_y = 0;
 };
 
-/// The homogeneous motion of the box. Neighbour lists may ignore it: x maps to centre + stretch (x_ref - reference_centre). Local
-/// damping is taken against the motion relative to it, v_frame = gradient * (x - centre) + drift: against the absolute velocity
-/// it would drag every disc of a specimen under compression the same way and hold up a share of the platens' stress that no
-/// contact carries.
-struct AffineFrame {
-  Coord centre_x = 0, centre_y = 0;
-  Coord reference_centre_x = 0, reference_centre_y = 0;
-  Real stretch_x = 1, stretch_y = 1;
-  Real gradient_x = 0, gradient_y = 0;  ///< d v_x / d x and d v_y / d y [1/s]
-  Real drift_x = 0, drift_y = 0;        ///< velocity of the centre [m/s]
-
-  /// Velocity of the homogeneous motion at a place [m/s].
-  template <class L>
-  KOKKOS_INLINE_FUNCTION L velocity_x(L const& x) const {
-    return gradient_x * (x - centre_x) + drift_x;
-  }
-  template <class L>
-  KOKKOS_INLINE_FUNCTION L velocity_y(L const& y) const {
-    return gradient_y * (y - centre_y) + drift_y;
-  }
-};
-
 /// The two parts of a step [s]. Velocities lie half a step behind: where its length changes, the kick is the mean of both.
 struct StepLengths {
   Real kick, drift;
@@ -41,9 +20,11 @@ struct StepLengths {
 
 /// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
 /// position.
+/// The longest way of a disc, max (|Delta x| + |Delta y|) at least, goes into the state of the steps, and the move ends there
+/// unless the host goes along (StepState).
 /// @param losses  the damping account is written when its field exists
-/// @return at least the longest way of a disc in this step, max (|Delta x| + |Delta y|) [m]
-Real integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, AffineFrame const& frame,
-               EnergyLosses const& losses, Faults const& faults);
+/// @param steps  whose frame is that of the step; nothing happens while they are stopped
+void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
+               Faults const& faults, DeviceSteps const& steps);
 
 }  // namespace clathra

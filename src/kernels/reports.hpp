@@ -2,6 +2,7 @@
 /// What kernels report besides forces: broken bonds, faults and energy losses.
 #include "kernels/bond_strength.hpp"
 #include "kernels/break_details.hpp"
+#include "kernels/step_state.hpp"
 
 namespace clathra {
 
@@ -15,7 +16,8 @@ struct BreakLog {
   Field<std::int8_t> mode;      ///< [bonds] BreakMode
   Field<Coord> x, y;            ///< [bonds] midpoint of the branch [m]
   Field<BreakDetails> details;  ///< [bonds] empty where nobody asked for them
-  Real eps1 = 0;                ///< axial strain at the end of the present step, for the details
+  Field<Coord> height;          ///< [bonds] of the box at the end of the step [m], likewise
+  Field<StepState> steps;       ///< that has this box
 
   /// @param details_of_it  computes them; not called where nobody asked for them
   template <class DetailsOfIt>
@@ -30,7 +32,9 @@ struct BreakLog {
     mode(slot) = static_cast<std::int8_t>(how);
     x(slot) = at_x;
     y(slot) = at_y;
-    if (details.extent(0) > 0) details(slot) = details_of_it();
+    if (details.extent(0) == 0) return;
+    details(slot) = details_of_it();
+    height(slot) = steps(0).box.height();
   }
 };
 
@@ -45,14 +49,17 @@ inline BreakLog make_break_log(std::size_t bonds, bool detailed) {
   log.mode = uninitialised<std::int8_t>("breaks.mode", bonds);
   log.x = uninitialised<Coord>("breaks.x", bonds);
   log.y = uninitialised<Coord>("breaks.y", bonds);
-  if (detailed) log.details = uninitialised<BreakDetails>("breaks.details", bonds);
+  if (detailed) {
+    log.details = uninitialised<BreakDetails>("breaks.details", bonds);
+    log.height = uninitialised<Coord>("breaks.height", bonds);
+  }
   return log;
 }
 
 inline std::size_t bytes(BreakLog const& log) {
   return log.by_mode.span() * sizeof(std::int64_t) + log.count.span() * sizeof(int) +
          log.step.span() * (sizeof(std::int64_t) + 2 * sizeof(int) + sizeof(std::int8_t) + 2 * sizeof(Coord)) +
-         log.details.span() * sizeof(BreakDetails);
+         log.details.span() * (sizeof(BreakDetails) + sizeof(Coord));
 }
 
 /// What can go wrong inside a kernel. Each holds the largest id of a disc that met it, or -1.

@@ -1,5 +1,7 @@
 #include "kernels/walls.hpp"
 
+#include <algorithm>
+
 namespace clathra {
 
 namespace {
@@ -10,7 +12,7 @@ constexpr int reaction_count = 3 * wall_count;
 struct WallForces {
   ParticleSoA p;
   WallContacts contacts;
-  Walls walls;
+  Field<StepState> steps;
   GrainLaw law;
   Real dt;
   EnergyLosses losses;
@@ -30,6 +32,8 @@ struct WallForces {
   }
 
   KOKKOS_FUNCTION void operator()(int c, Real* reactions) const {
+    if (is_stopped(steps)) return;
+    Walls const walls = steps(0).box.walls;
     fetch_ahead(c);
     int const i = contacts.disc(c);
     bool const friction = contacts.shear.extent(0) > 0;
@@ -63,6 +67,44 @@ struct WallForces {
       losses.sliding(i) += 0.5 * (old_shear + now.shear) * slid;
     }
     if (law.damping_ratio > 0 && losses.dashpot.extent(0) > 0) losses.dashpot(i) += dashpot_loss(law, motion, now.normal, dt);
+  }
+};
+
+using ReactionSums = ExactSumKernel<reaction_count, WallForces>;
+
+struct ReactionUnits {
+  Real of[reaction_count];
+  explicit ReactionUnits(SumUnits const& unit) {
+    for (int k = 0; k < reaction_count; ++k) of[k] = k < 2 * wall_count ? unit.force() : 1;
+  }
+};
+
+KOKKOS_INLINE_FUNCTION WallReactions reactions_of(SumWord const* sums, Real unit_of_force) {
+  WallReactions reactions;
+  for (int wall = 0; wall < wall_count; ++wall) {
+    reactions.normal[wall] = ReactionSums::total(sums, wall, unit_of_force);
+    reactions.shear[wall] = ReactionSums::total(sums, wall_count + wall, unit_of_force);
+    reactions.contacts[wall] = static_cast<int>(ReactionSums::total(sums, 2 * wall_count + wall, 1));
+  }
+  return reactions;
+}
+
+/// The forces of the walls, and with them the end of the step.
+struct EndOfStep : ReactionSums {
+  Real unit_of_force;
+  EndOfStep(WallForces const& forces, SumUnits const& unit)
+      : ReactionSums(forces, ReactionUnits(unit).of), unit_of_force(unit.force()) {}
+
+  /// Called once, when all are done.
+  KOKKOS_FUNCTION void final(SumWord* words) const {
+    StepState& now = terms.steps(0);
+    if (now.stop != StepStop::none || now.orders.host_goes_along) return;
+    now.out_of_range = out_of_range(words);
+    if (now.out_of_range > 0) {
+      now.stop = StepStop::out_of_range;
+    } else {
+      now.end_step(reactions_of(words, unit_of_force));
+    }
   }
 };
 
@@ -139,20 +181,22 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
   return found;
 }
 
-WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt, EnergyLosses const& losses, Faults const& faults, Summation const& summation) {
-  Real sums[reaction_count], unit[reaction_count];
-  for (int k = 0; k < reaction_count; ++k) unit[k] = k < 2 * wall_count ? summation.unit.force() : 1;
-  exact_sums<reaction_count>("wall_forces", contacts.size,
-                             WallForces{particles, contacts, walls, law.as_grain(), dt, losses, faults}, unit, sums,
-                             summation.over_ranks);
-  WallReactions reactions;
-  for (int wall = 0; wall < wall_count; ++wall) {
-    reactions.normal[wall] = sums[wall];
-    reactions.shear[wall] = sums[wall_count + wall];
-    reactions.contacts[wall] = static_cast<int>(sums[2 * wall_count + wall]);
-  }
-  return reactions;
+void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
+                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps) {
+  WallForces const forces{particles, contacts, steps.state, law.as_grain(), dt, losses, faults};
+  Kokkos::parallel_reduce("wall_forces", Kokkos::RangePolicy<ExecutionSpace>(0, contacts.size), EndOfStep(forces, unit),
+                          steps.reactions);
 }
+
+WallReactions wall_reactions(DeviceSteps const& steps, Summation const& summation) {
+  auto const here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), steps.reactions);
+  SumWord words[ReactionSums::words];
+  std::copy(here.data(), here.data() + ReactionSums::words, words);
+  ReactionSums::add_other_ranks(words, summation.over_ranks);
+  require_reactions_in_range(ReactionSums::out_of_range(words));
+  return reactions_of(words, summation.unit.force());
+}
+
+void require_reactions_in_range(std::int64_t out_of_range) { require_in_range("wall_forces", out_of_range); }
 
 }  // namespace clathra

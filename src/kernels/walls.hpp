@@ -1,27 +1,11 @@
 #pragma once
 /// Four rigid walls around the specimen, with or without friction.
-#include <algorithm>
-#include <cmath>
-
 #include "kernels/contacts.hpp"
-#include "kernels/exact_sum.hpp"
 #include "kernels/grain_contact.hpp"
 #include "kernels/reports.hpp"
+#include "kernels/step_state.hpp"
 
 namespace clathra {
-
-inline constexpr int wall_count = 4;
-enum WallName : int { left = 0, right = 1, bottom = 2, top = 3 };
-
-/// Where the walls stand and how they move: x of left and right, y of bottom and top. A wall that is absent stands at infinity.
-struct Walls {
-  Coord position[wall_count] = {-1e9, 1e9, -1e9, 1e9};  ///< [m]
-  Real velocity[wall_count] = {0, 0, 0, 0};             ///< [m/s]
-  Coord width() const { return position[right] - position[left]; }
-  Coord height() const { return position[top] - position[bottom]; }
-  /// The larger speed of two walls [m/s], >= 0.
-  Real largest_speed(WallName a, WallName b) const { return std::max(std::abs(velocity[a]), std::abs(velocity[b])); }
-};
 
 struct WallLaw {
   Real normal_stiffness = 3.0e8;  ///< k_n of a wall contact; also used with a dashpot ratio
@@ -59,13 +43,6 @@ struct WallContacts {
   Field<Real> history;                                  ///< where it stands
 };
 
-/// What the walls feel, summed without regard to order (fixed point).
-struct WallReactions {
-  Real normal[wall_count] = {0, 0, 0, 0};  ///< force pressing the wall outward [N/m], >= 0
-  Real shear[wall_count] = {0, 0, 0, 0};   ///< along +y on left/right, along +x on bottom/top [N/m]
-  int contacts[wall_count] = {0, 0, 0, 0};
-};
-
 /// The shear of rough walls by disc, while discs change their places: [owned] each, empty for smooth walls.
 struct WallShear {
   Field<Real> of[wall_count];
@@ -80,12 +57,17 @@ Field<int> list_near_walls(ParticleSoA const& particles, Walls const& walls, Fie
 /// The contacts of the listed discs; those of a rough wall have the shear history `shear`.
 WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction, WallShear const& shear, Scratch& scratch);
 
-/// Adds the wall forces to the discs near the walls and returns the reactions of all ranks. A wall is a disc of infinite radius
-/// without rolling. A disc whose centre lies behind a wall (overlap above its radius) is
-/// a fault, as between discs.
-/// @param losses  sliding and dashpot are written when their fields exist
+/// Adds the forces of the walls, where the state of the steps has them, to the discs near them, and ends the step there unless
+/// the host goes along (StepState). A wall is a disc of infinite radius without rolling. A disc whose centre lies behind a wall
+/// (overlap above its radius) is a fault, as between discs.
+/// @param losses  sliding and dashpot are written when their fields exist;  @param steps  nothing happens while they are stopped
+void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
+                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps);
+
+/// What the walls have felt of the discs of all ranks.
 /// @throws SumOutOfRange where a reaction is not finite
-WallReactions add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, Walls const& walls, WallLaw const& law,
-                              Real dt, EnergyLosses const& losses, Faults const& faults, Summation const& sums = {});
+WallReactions wall_reactions(DeviceSteps const& steps, Summation const& sums);
+/// The same of a step that found so many terms out of range: throws where there are any.
+void require_reactions_in_range(std::int64_t out_of_range);
 
 }  // namespace clathra

@@ -49,6 +49,7 @@ Access accesses[most_accesses];  // written by a signal handler, which may alloc
 int access_count = 0, allocation_count = 0;
 struct sigaction before;
 LaunchCount::Counts launched, waited_for;
+std::string last_launched;
 
 void set_access(int rights) {
   for (Block const& block : blocks) mprotect(block.data, block.bytes, rights);
@@ -79,7 +80,8 @@ void begin_kernel(char const* name, std::uint32_t, std::uint64_t*) {
   static constexpr char const* kinds[] = {"for", "reduce", "scan"};
   if (counting && working == 0) {
     ++launched[std::string(kinds[kind]) + " " + name];
-    if (kind > 0) ++waited_for[name];
+    last_launched = name;
+    if (kind == 2) ++waited_for[name];  // all scans here have totals
   }
   begin_work();
 }
@@ -135,6 +137,10 @@ void deallocate(void* memory, std::size_t) {
   auto const block = std::find_if(blocks.begin(), blocks.end(), [&](Block const& b) { return b.data == data; });
   munmap(block->data - page_bytes(), page_bytes() + block->bytes);
   blocks.erase(block);
+}
+
+void note_wait_for_reduction() {
+  if (counting && working == 0) ++waited_for[last_launched];
 }
 
 HostAccessWatch::HostAccessWatch() {

@@ -12,7 +12,7 @@ struct Asked {
   int allocations;
 };
 
-/// For steps without a search and without a look for faults.
+/// For steps at once without a search and without a look for faults.
 Asked for_steps(Precision precision, int steps) {
   Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
   sim.loading.x = sim.loading.y = AxisDrive::held();
@@ -20,7 +20,7 @@ Asked for_steps(Precision precision, int steps) {
   sim.step();
   std::int64_t const searches = sim.rebuilds();
   LaunchCount const count;
-  for (int n = 0; n < steps; ++n) sim.step();
+  sim.step(steps);
   EXPECT_EQ(sim.rebuilds(), searches);
   return {count.launches(), count.round_trips(), count.allocations()};
 }
@@ -29,14 +29,17 @@ class Launches : public testing::TestWithParam<Precision> {};
 INSTANTIATE_TEST_SUITE_P(, Launches, testing::Values(Precision::full, Precision::mixed),
                          [](auto const& test) { return std::string(precision_names[static_cast<int>(test.param)]); });
 
-TEST_P(Launches, OfAStepAreThreeAndTwoOfThemMakeTheHostWait) {
-  Asked const asked = for_steps(GetParam(), 10);
-  LaunchCount::Counts const launches{
-      {"reduce kick_and_drift", 10}, {"for contact_forces_bonded", 10}, {"reduce wall_forces", 10}};
-  LaunchCount::Counts const waits{{"kick_and_drift", 10}, {"wall_forces", 10}};
-  EXPECT_EQ(asked.launches, launches);
-  EXPECT_EQ(asked.round_trips, waits);
-  EXPECT_EQ(asked.allocations, 0);
+// The host waits once for all of them.
+TEST_P(Launches, OfAStepAreThreeAndNoneMakesTheHostWait) {
+  for (int const steps : {10, 50}) {
+    Asked const asked = for_steps(GetParam(), steps);
+    LaunchCount::Counts const launches{
+        {"reduce kick_and_drift", steps}, {"for contact_forces_bonded", steps}, {"reduce wall_forces", steps}};
+    LaunchCount::Counts const waits{{"copy of step_state", 1}};
+    EXPECT_EQ(asked.launches, launches);
+    EXPECT_EQ(asked.round_trips, waits);
+    EXPECT_EQ(asked.allocations, 0);
+  }
 }
 
 /// What a search adds to a step.

@@ -11,6 +11,8 @@ inline constexpr char const* space_name = "DeviceLike";
 /// Memory whose header, which Kokkos reads on the host, has a page of its own in front of the data.
 void* allocate(char const* label, std::size_t size);
 void deallocate(void* memory, std::size_t size);
+/// That the host waits for the reduction that was launched last.
+void note_wait_for_reduction();
 
 /// What gives the memory.
 struct Pages {
@@ -43,6 +45,18 @@ struct MemorySpaceAccess<HostSpace, clathra::device_like::MemorySpace> {
 template <>
 struct MemorySpaceAccess<clathra::device_like::MemorySpace, HostSpace> {
   enum { assignable = false, accessible = true, deepcopy = true };
+};
+
+/// The host waits for what is reduced into its own memory, and for no other reduction: noted for host_access.hpp.
+template <class Result>
+struct ParallelReduceFence<Kokkos::DefaultExecutionSpace, Result> {
+  template <class Space, class Into>
+  static void fence(Space const&, Into const&) {
+    if constexpr (Kokkos::is_view<Result>::value) {
+      if (std::is_same<typename Result::memory_space, clathra::device_like::MemorySpace>::value) return;
+    }
+    clathra::device_like::note_wait_for_reduction();
+  }
 };
 
 /// Copies as between places of the host.

@@ -1,5 +1,8 @@
 #pragma once
 /// Everything a running biaxial test knows; of biaxial_test.cpp and biaxial_records.cpp alone.
+#include <algorithm>
+#include <cmath>
+
 #include "domain/biaxial/biaxial_test.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
@@ -36,7 +39,13 @@ struct BiaxialTest::State {
   void consolidate(double stress, ProgressCallback const& progress);
   void require_rest(std::int64_t steps);
   void begin_shear();
-  bool record_is_due() const { return eps1() >= static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }
+  double next_record() const { return static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }
+  bool record_is_due() const { return eps1() >= next_record(); }
+  /// Of the box [m]: above it there is nothing to be seen to. A hair too high for the rounding, which costs a look at most.
+  double height_of_next_look(double pause_at) const {
+    double const last = scene.test.axial_strain * (1 - 1e-9);
+    return height0 * std::exp(-std::min({watch.next(), next_record(), last, pause_at})) * (1 + 1e-12);
+  }
   double eps1() const { return std::log(height0 / simulation->walls().height()); }
   void check();
   /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.

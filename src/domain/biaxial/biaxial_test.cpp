@@ -116,7 +116,7 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
     s.loading.x = s.loading.y = AxisDrive::at_rate(closing_rate);
     s.add_uniform_strain_rate(closing_rate, closing_rate);
     while (mean_stress(s) < 0.98 * stress && s.steps() < most_steps) {
-      for (int n = 0; n < 20 && s.steps() < most_steps; ++n) s.step();
+      s.step(std::min<std::int64_t>(20, most_steps - s.steps()));
       if (s.steps() % 2000 == 0)
         report(progress, {"consolidate", 0.5 * mean_stress(s) / stress, "compressing", s.steps() * s.discs()});
     }
@@ -220,8 +220,8 @@ bool BiaxialTest::advance(std::int64_t most_steps, double pause_at) {
 
 bool BiaxialTest::advance_unobserved(std::int64_t most_steps, double pause_at) {
   Simulation& s = *state_->simulation;
-  for (std::int64_t n = 0; n < most_steps; ++n) {
-    s.step();
+  for (std::int64_t const last = s.steps() + most_steps; s.steps() < last;) {
+    s.step(last - s.steps(), state_->height_of_next_look(pause_at));
     if (state_->watch.due(state_->eps1())) state_->check();
     bool const due = state_->record_is_due() || finished();
     if (!due && state_->eps1() >= pause_at) {

@@ -21,7 +21,8 @@ inline constexpr double deep_overlap_share =
 class ShearWatch {
  public:
   /// Whether the next check is due at this axial strain.
-  bool due(double eps1) const { return eps1 >= (static_cast<double>(checks_) + 1) * check_interval; }
+  bool due(double eps1) const { return eps1 >= next(); }
+  double next() const { return (static_cast<double>(checks_) + 1) * check_interval; }
   /// Collective; changes nothing of the simulation. @param m  of the simulation as it stands
   void check(Simulation const& simulation, Measures const& m, double eps1);
 

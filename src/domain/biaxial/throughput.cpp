@@ -113,7 +113,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
   // The walls have to find the cut packing, fast enough that it keeps its stress, before searches are those of a test.
   prepare_servo(simulation, scene.bond.stress, 1e-2, specimen.d50, scene.run.step_choice());
-  for (int n = 0; n < setup.relaxation_steps; ++n) simulation.step();
+  simulation.step(setup.relaxation_steps);
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
   prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
   RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
@@ -127,9 +127,9 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
                  rate_factor = std::max(1.0, rate_factor_of_small / length);
     simulation.loading.y = AxisDrive::at_rate(rate_factor * rate.strain_rate);
     auto const steps = static_cast<int>(strain / (rate_factor * rate.strain_rate * simulation.time_step));
-    for (int n = 0; n < steps; ++n) simulation.step();
+    simulation.step(steps);
     simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
-    for (int n = 0; n < calming_of_small * length; ++n) simulation.step();
+    simulation.step(static_cast<std::int64_t>(std::ceil(calming_of_small * length)));
   }
   return simulation;
 }
@@ -140,9 +140,7 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   int const broken = simulation.broken_bonds();
   double const rebuilding = simulation.rebuild_seconds();
   Kokkos::Timer const clock;
-  while (simulation.ranks().max(clock.seconds()) < seconds) {
-    for (int n = 0; n < 20; ++n) simulation.step();
-  }
+  while (simulation.ranks().max(clock.seconds()) < seconds) simulation.step(20);
   Kokkos::fence();
   result.seconds = clock.seconds();
   result.steps = simulation.steps() - first;

@@ -58,7 +58,7 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
     double const slowed = full_rate * rate_factor * std::clamp(above / slowing_range, 0.05, 1.0);
     close_homogeneously(simulation, slowed, rate);
     rate = slowed;
-    for (int n = 0; n < interval; ++n) simulation.step();
+    simulation.step(interval);
     double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
     friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
     lowest = std::min(lowest, friction.share);
@@ -126,7 +126,7 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
   while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
     if (simulation.periodic()) steer_cell(simulation, stress, largest_rate);
     std::int64_t const steps = std::min<std::int64_t>(chunk, first + most_steps - simulation.steps());
-    for (std::int64_t n = 0; n < steps; ++n) simulation.step();
+    simulation.step(steps);
     Measures const m = simulation.measures();
     checks_at_rest =
         holds_stress(simulation, m, stress) && m.unbalanced_ratio(simulation.discs()) < rest ? checks_at_rest + 1 : 0;

@@ -166,12 +166,12 @@ PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, Pr
   prepare_servo(simulation, scene.bond.stress, 1e-3, d50, StepChoice{});
   double const quiet = 0.5 * scene.bond.stress / (simulation.density() / (1 + design.void_ratio) * wave_speed(simulation));
   simulation.loading.x.largest_speed = simulation.loading.y.largest_speed = quiet;
-  for (std::int64_t n = 0; n < relaxation_steps; ++n) {
-    simulation.step();
-    if (n % 100 == 99) {
-      report(progress, {"generate", 0.7 + 0.3 * static_cast<double>(n) / relaxation_steps, "relaxing near the walls",
-                        packed.disc_steps + simulation.steps() * simulation.discs()});
-    }
+  constexpr int interval = 100;
+  static_assert(relaxation_steps % interval == 0);
+  for (int n = interval; n <= relaxation_steps; n += interval) {
+    simulation.step(interval);
+    report(progress, {"generate", 0.7 + 0.3 * static_cast<double>(n) / relaxation_steps, "relaxing near the walls",
+                      packed.disc_steps + simulation.steps() * simulation.discs()});
   }
   packed.disc_steps += simulation.steps() * simulation.discs();
   packed.specimen = simulation.specimen();

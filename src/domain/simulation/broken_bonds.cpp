@@ -30,8 +30,8 @@ BreakEvents sorted(BreakEvents const& events, std::size_t first) {
   return all;
 }
 
-BreakLog const& BrokenBonds::log_at(Real height) {
-  if (detailed()) log_.eps1 = std::log(details_from_height / height);
+BreakLog const& BrokenBonds::log_of(Field<StepState> const& steps) {
+  log_.steps = steps;
   return log_;
 }
 
@@ -56,8 +56,12 @@ void BrokenBonds::collect() {
   auto const mode = download(log_.mode);
   auto const x = download(log_.x), y = download(log_.y);
   auto const details = download(log_.details);
+  auto const height = download(log_.height);
   for (int k = 0; k < count; ++k) events_.rows.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
-  if (detailed()) events_.details.insert(events_.details.end(), details.data(), details.data() + count);
+  for (int k = 0; detailed() && k < count; ++k) {
+    events_.details.push_back(details(k));
+    events_.details.back().eps1 = std::log(details_from_height / height(k));
+  }
   Kokkos::deep_copy(log_.count, 0);
 }
 

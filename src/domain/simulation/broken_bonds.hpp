@@ -15,9 +15,9 @@ namespace clathra {
 /// Those of one rank; each break is seen by one rank.
 class BrokenBonds {
  public:
-  /// What kernels write into in a step that ends with the box of this height [m]. Bonds break once: a log as long as the number
-  /// of intact bonds cannot overflow.
-  BreakLog const& log_at(Real height);
+  /// What kernels write into in steps with this state. Bonds break once: a log as long as the number of intact bonds cannot
+  /// overflow.
+  BreakLog const& log_of(Field<StepState> const& steps);
   bool has_log() const { return log_.count.extent(0) > 0; }
   void drop_log() { log_ = BreakLog(); }
   /// Has a log with room for so many bonds from now on, if their events are kept. What it holds must have been collected.

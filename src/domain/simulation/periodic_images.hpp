@@ -1,15 +1,9 @@
 #pragma once
 /// Images of discs across the boundary of a periodic cell, kept as ghosts behind the owned discs.
+#include "kernels/box.hpp"
 #include "kernels/particles.hpp"
 
 namespace clathra {
-
-/// A rectangular periodic cell. Its stretching is homogeneous: discs and images move with it.
-struct PeriodicCell {
-  Coord left = 0, bottom = 0;
-  Real width = 0, height = 0;  ///< [m]; 0 = not periodic
-  bool exists() const { return width > 0; }
-};
 
 /// The ghosts and the discs they are images of.
 class PeriodicImages {

@@ -9,59 +9,13 @@ namespace clathra {
 
 namespace {
 
-constexpr int check_every = 64;    // steps between checks of the fault flags
 constexpr Real calm_leeway = 0.3;  // of its skin that a calm disc may stray before the step is chosen anew
-constexpr int most_steps_of_a_choice = 1000, least_steps_of_a_calm_choice = 150;
-
-Coord middle(Coord a, Coord b) { return 0.5 * (a + b); }
+constexpr int least_steps_of_a_calm_choice = 150;
 
 }  // namespace
 
-/// A sum over the specimen. A term that is out of its range is a fault, of the disc that another fault names if there is one.
-template <class Work>
-auto Simulation::in_range(Work const& sum) const {
-  try {
-    return sum();
-  } catch (SumOutOfRange const& problem) {
-    throw_if_unstable();
-    throw Diverged("step " + std::to_string(step_) + ", time " + std::to_string(time_) + " s: " + problem.what());
-  }
-}
-
-WallReactions Simulation::apply_wall_forces(Real dt) {
-  return in_range([&] { return add_wall_forces(particles_, wall_contacts_, walls_, laws_.wall, dt, losses_, faults_, sums_); });
-}
-
-void Simulation::step() {
-  if (following_.on && (following_.due || rebuild_pending_)) renew_time_step();
-  loading.move(walls_, time_step);
-  Kokkos::Timer const moving;
-  StepLengths const lengths{following_.last > 0 ? middle(following_.last, time_step) : time_step, time_step};
-  Real const largest_displacement = integrate(particles_, laws_.motion, lengths, frame(), losses_, faults_);
-  following_.last = time_step;
-  busy_seconds_ += moving.seconds();
-  if (periodic()) stretch_homogeneously();
-  Real const way = way_in_skins(ranks_.max(largest_displacement));
-  if (rebuild_pending_ || have_strayed(search_mark_, particles_.reference_x, particles_.reference_y, way, 1)) {
-    rebuild();
-  } else {
-    refresh_ghosts();
-    if (following_.on)
-      following_.due =
-          ++following_.age >= most_steps_of_a_choice || have_strayed(step_mark_, step_x_, step_y_, way, following_.leeway);
-  }
-  WallReactions const before = reactions_;
-  Kokkos::Timer const pushing;
-  compute_forces(particles_, rows_, laws_.contact, time_step, step_ + 1, broken_bonds_.log_at(height()), losses_, faults_);
-  busy_seconds_ += pushing.seconds();
-  if (!periodic()) {
-    reactions_ = apply_wall_forces(time_step);
-    account_boundary_work(before);
-    loading.steer(walls_, reactions_, time_step);
-  }
-  time_ += time_step;
-  ++step_;
-  if (step_ % check_every == 0) throw_if_unstable();
+void Simulation::throw_out_of_range(SumOutOfRange const& problem) const {
+  throw Diverged("step " + std::to_string(now_.step) + ", time " + std::to_string(now_.time) + " s: " + problem.what());
 }
 
 void Simulation::set_sums() {
@@ -85,72 +39,14 @@ Survey Simulation::survey_discs() const {
   return all;
 }
 
-/// The homogeneous motion since a mark: that of the walls, or of the periodic cell.
-AffineFrame Simulation::frame_since(Mark const& mark) const {
-  AffineFrame f;
-  if (periodic()) {
-    f.centre_x = f.reference_centre_x = cell_.left;
-    f.centre_y = f.reference_centre_y = cell_.bottom;
-    f.stretch_x = cell_.width / mark.cell.width;
-    f.stretch_y = cell_.height / mark.cell.height;
-    return f;
-  }
-  f.centre_x = middle(walls_.position[left], walls_.position[right]);
-  f.centre_y = middle(walls_.position[bottom], walls_.position[top]);
-  f.reference_centre_x = middle(mark.walls.position[left], mark.walls.position[right]);
-  f.reference_centre_y = middle(mark.walls.position[bottom], mark.walls.position[top]);
-  f.stretch_x = walls_.width() / mark.walls.width();
-  f.stretch_y = walls_.height() / mark.walls.height();
-  f.gradient_x = (walls_.velocity[right] - walls_.velocity[left]) / walls_.width();
-  f.gradient_y = (walls_.velocity[top] - walls_.velocity[bottom]) / walls_.height();
-  f.drift_x = middle(walls_.velocity[left], walls_.velocity[right]);
-  f.drift_y = middle(walls_.velocity[bottom], walls_.velocity[top]);
-  return f;
-}
-
 /// A periodic cell must stay twice as wide as neighbours reach.
 SkinRange Simulation::skin_range(bool by_speed) const {
   constexpr Real times = 5;
   Real const least = skin_ / 2;
   if (!by_speed) return {least, least};
   Real most = times * least;
-  if (periodic()) most = std::min(most, 0.49 * (0.5 * std::min(cell_.width, cell_.height) - 2 * largest_radius_));
+  if (periodic()) most = std::min(most, 0.49 * (0.5 * std::min(now_.box.cell.width, now_.box.cell.height) - 2 * largest_radius_));
   return {least, std::max(most, least)};
-}
-
-/// What this step may have brought a disc away from the homogeneous motion, as a share of the least skin.
-/// @param largest_displacement  of a disc of any rank in this step [m]
-Real Simulation::way_in_skins(Real largest_displacement) const {
-  Real const of_frame = periodic() ? 0 : (walls_.largest_speed(left, right) + walls_.largest_speed(bottom, top)) * time_step;
-  return (largest_displacement + of_frame) / skin_range(false).least;
-}
-
-/// Whether two discs whose gap was wider than a share of both their skins, where a mark stands, could touch: the largest
-/// non-affine displacement of a disc as a share of its skin, plus what the homogeneous motion itself brings two discs nearer, as
-/// a share of the least skin. Ways are added up until they could amount to that, and only then are the discs' own ones computed.
-/// @param x,y  where the discs were then;  @param way  of this step, in least skins;  @param leeway  the share
-bool Simulation::have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real way, Real leeway) {
-  AffineFrame const f = frame_since(mark);
-  Real const closing = std::max({std::abs(1 - f.stretch_x), std::abs(1 - f.stretch_y)});
-  Real const spent = closing * (2 * largest_radius_ / skin_ + 1);
-  mark.strayed += way;
-  if (mark.strayed * (1 + closing) + spent < leeway) return false;
-  mark.strayed = std::sqrt(ranks_.max(largest_nonaffine_displacement2(particles_, x, y, f)));
-  return mark.strayed + spent >= leeway;
-}
-
-void Simulation::account_boundary_work(WallReactions const& before) {
-  // The mean force over the step times the way: what leapfrog's kinetic energy sees to the digit.
-  for (int wall = 0; wall < wall_count; ++wall) {
-    Real const outward = wall == right || wall == top ? 1 : -1;
-    boundary_work_ -= 0.5 * (before.normal[wall] + reactions_.normal[wall]) * outward * walls_.velocity[wall] * time_step;
-  }
-}
-
-void Simulation::evaluate_forces() {
-  if (rebuild_pending_) rebuild();
-  compute_forces(particles_, rows_, laws_.contact, 0, step_, broken_bonds_.log_at(height()), losses_, faults_);
-  if (!periodic()) reactions_ = apply_wall_forces(0);
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
@@ -169,7 +65,7 @@ void Simulation::set_ledger(bool on) {
   laws_.contact.ledger = on;
   losses_ = EnergyLosses();
   if (on) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
-  boundary_work_ = 0;
+  now_.boundary_work = 0;
 }
 
 void Simulation::mark_start() {
@@ -185,7 +81,7 @@ void Simulation::set_decomposition(Decomposition const& cuts) {
 }
 
 void Simulation::refresh_ghosts() const {
-  if (periodic()) images_.refresh(particles_, cell_);
+  if (periodic()) images_.refresh(particles_, now_.box.cell);
   if (!ranks_.alone()) halo_.refresh(ranks_, particles_);
 }
 
@@ -199,17 +95,8 @@ void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
   add_affine_velocity(particles_, rate_x, rate_y, f.centre_x, f.centre_y);
 }
 
-/// Isotropic stretching of the periodic cell with all its discs.
-void Simulation::stretch_homogeneously() {
-  if (cell_rate_ == 0) return;
-  Real const stretch = 1 - cell_rate_ * time_step;
-  scale_positions(particles_, stretch, cell_.left, cell_.bottom);
-  cell_.width *= stretch;
-  cell_.height *= stretch;
-}
-
 Measures Simulation::measures() const {
-  return in_range([&] { return measure(particles_, rows_, laws_.contact, wall_contacts_, walls_, laws_.wall, sums_); });
+  return in_range([&] { return measure(particles_, rows_, laws_.contact, wall_contacts_, now_.box.walls, laws_.wall, sums_); });
 }
 
 LossTotals Simulation::losses() const {
@@ -221,7 +108,7 @@ std::uint64_t Simulation::hash() const {
   return static_cast<std::uint64_t>(ranks_.sum(static_cast<std::int64_t>(state_hash(particles_, rows_))));
 }
 
-SpringNetwork Simulation::springs() const { return {particles_, rows_, laws_.contact, walls_, laws_.wall}; }
+SpringNetwork Simulation::springs() const { return {particles_, rows_, laws_.contact, now_.box.walls, laws_.wall}; }
 
 AcrossRanks Simulation::across() const {
   return {sums_, [this](double value) { return ranks_.max(value); }, [this](Field<Real> const& field) { refresh_ghosts(field); }};
@@ -251,7 +138,7 @@ void Simulation::renew_time_step() {
   following_.age = 0;
   following_.due = false;
   ++renewals_;
-  step_mark_ = {walls_, cell_, 0};
+  now_.choice = {now_.box, 0};
   for (auto* field : {&step_x_, &step_y_})
     if (field->extent(0) != particles_.x.extent(0)) *field = Field<Coord>("step_reference", particles_.x.extent(0));
   Kokkos::deep_copy(step_x_, particles_.x);
@@ -309,7 +196,7 @@ void Simulation::throw_of(double const* disc) const {
         fault_text(*this, {static_cast<Fault>(fault), static_cast<int>(disc[fault]), last_good_step_}, place);
     throw Diverged(text, place[0], place[1]);
   }
-  last_good_step_ = step_;
+  last_good_step_ = now_.step;
 }
 
 }  // namespace clathra

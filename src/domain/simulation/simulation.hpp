@@ -9,7 +9,6 @@
 #include "domain/scene/stage.hpp"
 #include "domain/scene/step_choice.hpp"
 #include "domain/simulation/broken_bonds.hpp"
-#include "domain/simulation/loading.hpp"
 #include "domain/simulation/periodic_images.hpp"
 #include "domain/simulation/simulation_state.hpp"
 #include "kernels/forces.hpp"
@@ -18,6 +17,7 @@
 #include "kernels/spectrum.hpp"
 #include "kernels/stability.hpp"
 #include "kernels/survey.hpp"
+#include "kernels/step_state.hpp"
 #include "kernels/verlet_skin.hpp"
 #include "kernels/walls.hpp"
 
@@ -82,9 +82,10 @@ class Simulation {
   /// All that is needed to go on; not of a periodic cell.
   SimulationState state();
 
-  /// One time step of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step
-  /// behind.
-  void step();
+  /// Time steps of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step
+  /// behind. Many at once are cheaper on a GPU than one by one, and the same to the bit.
+  /// @param count  of steps, or fewer: the first after which the box is as low as `until_height` [m] is the last
+  void step(std::int64_t count = 1, Real until_height = 0);
 
   /// The present state of this rank's discs on the host, ordered by id; of a pair of discs of two ranks, the one with the smaller
   /// id brings the contact.
@@ -114,26 +115,26 @@ class Simulation {
   void evaluate_forces();                             ///< forces of the present state without advancing it
 
   // Reading.
-  std::int64_t steps() const { return step_; }
+  std::int64_t steps() const { return now_.step; }
   std::int64_t rebuilds() const { return rebuilds_; }
   double rebuild_seconds() const { return rebuild_seconds_; }  ///< wall time of all neighbour searches
-  Real time() const { return time_; }
+  Real time() const { return now_.time; }
   int discs() const { return discs_; }
   Ranks const& ranks() const { return ranks_; }
   Decomposition const& decomposition() const { return decomposition_; }
-  Walls const& walls() const { return walls_; }
-  PeriodicCell const& cell() const { return cell_; }
-  bool periodic() const { return cell_.exists(); }
+  Walls const& walls() const { return now_.box.walls; }
+  PeriodicCell const& cell() const { return now_.box.cell; }
+  bool periodic() const { return now_.box.periodic(); }
   Real density() const { return density_; }                             ///< of the grains [kg/m^3]
   Real added_mass() const { return added_mass_; }                       ///< by MassScaling, over the mass of all discs
   Real moving_density() const { return density_ * (1 + added_mass_); }  ///< what inertia and wave number go by [kg/m^3]
   Real critical_thickness() const { return critical_thickness_; }       ///< h_max of the bonds [m], 0 = none
-  Real area() const { return periodic() ? cell_.width * cell_.height : walls_.width() * walls_.height(); }
+  Real area() const { return now_.box.width() * now_.box.height(); }
   Real solid_area() const { return solid_area_; }
   Real void_ratio() const { return area() / solid_area_ - 1; }  ///< nominal
-  WallReactions const& reactions() const { return reactions_; }
-  WallStress stress() const { return wall_stress(walls_, reactions_); }
-  Real boundary_work() const { return boundary_work_; }
+  WallReactions const& reactions() const { return now_.reactions; }
+  WallStress stress() const { return wall_stress(now_.box.walls, now_.reactions); }
+  Real boundary_work() const { return now_.boundary_work; }
   Measures measures() const;
   LossTotals losses() const;
   Real deepest_overlap() const { return ranks_.max(clathra::deepest_overlap(particles_, rows_)); }
@@ -177,17 +178,19 @@ class Simulation {
   Bounds own_bounds(Bounds const& all) const;
   void upload_discs(Specimen const& specimen);
   void restore_history(Specimen const& specimen);
-  /// The box when the discs were where a reference says, and how far they have strayed since.
-  struct Mark {
-    Walls walls;
-    PeriodicCell cell;
-    Real strayed = 1e300;  ///< at most, beside the homogeneous motion, as a share of a skin
-  };
-  AffineFrame frame() const { return frame_since(search_mark_); }
-  AffineFrame frame_since(Mark const& mark) const;
+  AffineFrame frame() const { return frame_since(now_.box, now_.search.box); }
   SkinRange skin_range(bool by_speed) const;
-  Real way_in_skins(Real largest_displacement) const;
-  bool have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real way, Real leeway);
+  Real reach_in_skins() const { return 2 * largest_radius_ / skin_ + 1; }
+  bool have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real leeway) const;
+  bool host_goes_along() const { return !ranks_.alone() || periodic() || rebuild_pending_; }
+  int steps_at_once(std::int64_t most) const;
+  void advance(int steps);
+  void hand_over(bool host_goes_along);
+  void take_back();
+  void move_discs(int ahead);
+  void push_discs(int ahead);
+  void end_move();
+  void end_step();
   void renew_time_step();
   void stretch_homogeneously();
   bool sorting_is_due();
@@ -197,9 +200,17 @@ class Simulation {
   ContactFeatures features_of_rows() const;
   AuxiliaryFields forces();
   AuxiliaryFields derived();
+  /// A sum over the specimen. A term that is out of its range is a fault, of the disc that another fault names if there is one.
   template <class Work>
-  auto in_range(Work const& sum) const;
-  WallReactions apply_wall_forces(Real dt);
+  auto in_range(Work const& sum) const {
+    try {
+      return sum();
+    } catch (SumOutOfRange const& problem) {
+      throw_if_unstable();
+      throw_out_of_range(problem);
+    }
+  }
+  [[noreturn]] void throw_out_of_range(SumOutOfRange const& problem) const;
   std::vector<double> records_of_own_discs(DiscRecords discs);
   void find_listed_neighbours();
   template <class Visit>
@@ -207,11 +218,10 @@ class Simulation {
   template <class Visit>
   void for_each_later_number(Visit&& visit);
   std::vector<SpecimenContact> contacts_by_id() const;
-  void account_boundary_work(WallReactions const& before);
   bool log_lasts() const;  // until all bonds are broken
   void make_room_for_breaks();
   void throw_of(double const* disc) const;
-  Real height() const { return periodic() ? cell_.height : walls_.height(); }
+  Real height() const { return now_.box.height(); }
 
   Ranks ranks_;
   Summation sums_;
@@ -219,24 +229,22 @@ class Simulation {
   ParticleSoA particles_;
   ContactRows rows_;
   SimulationLaws laws_;
-  Walls walls_;
+  StepState now_;      // as it was after the last step that is done
+  DeviceSteps steps_;  // the same on the device, where steps are under way
   WallContacts wall_contacts_;
-  WallReactions reactions_;
-  PeriodicCell cell_;
   PeriodicImages images_;
   Halo halo_;
   mutable BrokenBonds broken_bonds_;  // collected when they are asked for
   EnergyLosses losses_;
   Faults faults_;
-  Real skin_ = 0, reach_ = 0, cell_rate_ = 0, time_ = 0, solid_area_ = 0, largest_radius_ = 0, boundary_work_ = 0;
+  Real skin_ = 0, reach_ = 0, cell_rate_ = 0, solid_area_ = 0, largest_radius_ = 0;
   Real density_ = 0, d50_ = 0, critical_thickness_ = 0, added_mass_ = 0;
-  std::int64_t step_ = 0, rebuilds_ = 0;
+  std::int64_t rebuilds_ = 0;
   mutable std::int64_t last_good_step_ = 0;  // of the last look for faults that found none
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Coord> start_x_, start_y_;
   int searches_until_sorting_ = 0;  // in space; the first sorts
-  Mark search_mark_, step_mark_;    // of the last search, of the last choice of the time step
   StepFollowing following_;
   Field<Coord> step_x_, step_y_;  // [owned] where that choice found the discs [m]; empty where no step was chosen
   std::int64_t renewals_ = 0;

@@ -38,8 +38,8 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
 /// Visits every number of the whole: (name, double, integer, bool or enumeration).
 template <class Visit>
 void Simulation::for_each_number(Visit&& visit) {
-  visit("step", step_);
-  visit("time", time_);
+  visit("step", now_.step);
+  visit("time", now_.time);
   visit("time_step", time_step);
   visit("rebuilds", rebuilds_);
   visit("rebuild_pending", rebuild_pending_);
@@ -51,16 +51,16 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("density", density_);
   visit("d50", d50_);
   visit("critical_thickness", critical_thickness_);
-  visit("boundary_work", boundary_work_);
+  visit("boundary_work", now_.boundary_work);
   visit("ledger", laws_.contact.ledger);
   visit("keeps_break_events", broken_bonds_.keeps_events);
-  visit_walls("wall", walls_, visit);
-  visit_walls("reference_wall", search_mark_.walls, visit);
+  visit_walls("wall", now_.box.walls, visit);
+  visit_walls("reference_wall", now_.search.box.walls, visit);
   for (int wall = 0; wall < wall_count; ++wall) {
     std::string const name = std::string("reaction_") + wall_names[wall];
-    visit(name, reactions_.normal[wall]);
-    visit(name + "_shear", reactions_.shear[wall]);
-    visit(name + "_contacts", reactions_.contacts[wall]);
+    visit(name, now_.reactions.normal[wall]);
+    visit(name + "_shear", now_.reactions.shear[wall]);
+    visit(name + "_contacts", now_.reactions.contacts[wall]);
   }
   visit_drive("drive_x", loading.x, visit);
   visit_drive("drive_y", loading.y, visit);
@@ -82,7 +82,7 @@ void Simulation::for_each_later_number(Visit&& visit) {
   visit("time_step_age", following_.age);
   visit("time_step_due", following_.due);
   visit("time_step_renewals", renewals_);
-  visit_walls("step_wall", step_mark_.walls, visit);
+  visit_walls("step_wall", now_.choice.box.walls, visit);
   visit("break_details_from_height", broken_bonds_.details_from_height);
 }
 
@@ -152,7 +152,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
   Field<std::int64_t> const number = scratch_.take<std::int64_t>("near_walls", 1);
-  Field<int> const near_walls = list_near_walls(particles_, walls_, number, scratch_);
+  Field<int> const near_walls = list_near_walls(particles_, now_.box.walls, number, scratch_);
   auto const size = static_cast<int>(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), number)(0));
   wall_contacts_ = make_wall_contacts(near_walls, size, laws_.wall.friction > 0, wall_shear, scratch_);
   broken_bonds_.read(state, ranks_);

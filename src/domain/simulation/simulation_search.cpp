@@ -41,7 +41,7 @@ void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
   for_each_auxiliary_field(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0), scratch_); });
   SearchReach reach{largest_radius_, largest_skin, all.largest[Survey::bonded_gap], bounds};
   reach_ = 2 * largest_radius_ + std::max(2 * largest_skin + rounding_slack(particles_, largest_radius_), reach.bonded_gap);
-  if (periodic()) images_.rebuild(particles_, cell_, reach_);
+  if (periodic()) images_.rebuild(particles_, now_.box.cell, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
   assign_verlet_skins(particles_, frame(), skins, all.mean_speed);
   refresh_ghosts(particles_.verlet_skin);
@@ -50,7 +50,7 @@ void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
   prepare_rows(particles_, rows_, laws_.contact.bond);
   update_mirror(particles_, 0, particles_.all());
   make_room_for_breaks();
-  search_mark_ = {walls_, cell_, 0};
+  now_.search = {now_.box, 0};
   following_.due = following_.on;  // pairs that were not listed may touch from now on
   rebuild_pending_ = false;
   ++rebuilds_;
@@ -62,7 +62,7 @@ void Simulation::find_rows_and_walls(SearchReach const& reach, OldRows& old, Fie
                                      WallShear const& wall_shear) {
   Field<std::int64_t> const sizes = scratch_.take<std::int64_t>("sizes_of_search", sizes_of_search);
   Field<int> near_walls;
-  if (!periodic()) near_walls = list_near_walls(particles_, walls_, Kokkos::subview(sizes, std::pair(1, 2)), scratch_);
+  if (!periodic()) near_walls = list_near_walls(particles_, now_.box.walls, Kokkos::subview(sizes, std::pair(1, 2)), scratch_);
   SearchSizes const found = find_neighbours(particles_, reach, old, slot, rows_, faults_, sizes, scratch_);
   if (!periodic())
     wall_contacts_ = make_wall_contacts(near_walls, found.near_walls, laws_.wall.friction > 0, wall_shear, scratch_);
@@ -70,7 +70,10 @@ void Simulation::find_rows_and_walls(SearchReach const& reach, OldRows& old, Fie
 
 /// Where this rank's discs will be when each has its owner.
 Bounds Simulation::own_bounds(Bounds const& all) const {
-  if (periodic()) return {cell_.left, cell_.left + cell_.width, cell_.bottom, cell_.bottom + cell_.height};
+  if (periodic()) {
+    PeriodicCell const& cell = now_.box.cell;
+    return {cell.left, cell.left + cell.width, cell.bottom, cell.bottom + cell.height};
+  }
   if (ranks_.alone()) return all;
   Rectangle const own = decomposition_.rectangle(ranks_.rank());
   return {std::max(all.left, own.left), std::min(all.right, own.right), std::max(all.bottom, own.bottom),

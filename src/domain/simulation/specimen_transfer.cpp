@@ -207,9 +207,9 @@ void Simulation::upload_discs(Specimen const& s) {
   d50_ = s.d50;
   critical_thickness_ = s.critical_thickness;
   if (s.periodic) {
-    cell_ = search_mark_.cell = {s.left, s.bottom, s.width(), s.height()};
+    now_.box.cell = now_.search.box.cell = {s.left, s.bottom, s.width(), s.height()};
   } else {
-    walls_ = search_mark_.walls = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
+    now_.box.walls = now_.search.box.walls = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
   }
 }
 
@@ -242,10 +242,10 @@ void Simulation::restore_history(Specimen const& s) {
 Specimen Simulation::specimen() const {
   Specimen s;
   s.periodic = periodic();
-  s.left = periodic() ? cell_.left : walls_.position[left];
-  s.right = periodic() ? cell_.left + cell_.width : walls_.position[right];
-  s.bottom = periodic() ? cell_.bottom : walls_.position[bottom];
-  s.top = periodic() ? cell_.bottom + cell_.height : walls_.position[top];
+  s.left = periodic() ? now_.box.cell.left : now_.box.walls.position[left];
+  s.right = periodic() ? now_.box.cell.left + now_.box.cell.width : now_.box.walls.position[right];
+  s.bottom = periodic() ? now_.box.cell.bottom : now_.box.walls.position[bottom];
+  s.top = periodic() ? now_.box.cell.bottom + now_.box.cell.height : now_.box.walls.position[top];
   s.density = density_;
   s.d50 = d50_;
   s.void_ratio = void_ratio();

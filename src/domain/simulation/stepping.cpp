@@ -1,0 +1,166 @@
+/// The time step: what is asked of the device, and what part the host has in it.
+#include <algorithm>
+#include <cmath>
+
+#include "domain/simulation/simulation.hpp"
+
+namespace clathra {
+
+namespace {
+
+constexpr int check_every = 64;  // steps between checks of the fault flags
+constexpr int most_steps_of_a_choice = 1000;
+
+}  // namespace
+
+void Simulation::step(std::int64_t count, Real until_height) {
+  std::int64_t const last = now_.step + count;
+  now_.orders.height = until_height;
+  now_.stop = StepStop::none;
+  while (now_.step < last && now_.stop == StepStop::none) {
+    if (following_.on && (following_.due || rebuild_pending_)) renew_time_step();
+    advance(steps_at_once(last - now_.step));
+    if (now_.step % check_every == 0) throw_if_unstable();
+  }
+}
+
+/// Steps that the host need not look at, by what is known of them: when faults are looked for, when the step is chosen anew, and
+/// when the ways of the discs will have added up, if they go on as in the last step.
+int Simulation::steps_at_once(std::int64_t most) const {
+  if (host_goes_along()) return 1;
+  most = std::min(most, check_every - now_.step % check_every);
+  Real ways = 1 - now_.search.strayed;
+  if (following_.on) {
+    most = std::min(most, most_steps_of_a_choice - following_.age);
+    ways = std::min(ways, following_.leeway - now_.choice.strayed);
+  }
+  Real const until_doubt = 1 + ways / now_.way;
+  if (until_doubt < static_cast<Real>(most)) most = static_cast<std::int64_t>(until_doubt);
+  return static_cast<int>(std::max<std::int64_t>(most, 1));
+}
+
+/// Asks for steps and waits for them. The host has no part in them unless it goes along, which it does one step at a time, or the
+/// discs may have strayed too far: then the steps stop, the host sees to it and ends that step as its last.
+void Simulation::advance(int steps) {
+  bool const along = host_goes_along();
+  std::int64_t const first = now_.step;
+  hand_over(along);
+  Kokkos::Timer const moving;
+  for (int n = 0; n < steps; ++n) {
+    move_discs(n);
+    if (!along) push_discs(n);
+  }
+  take_back();
+  busy_seconds_ += moving.seconds();
+  following_.last = time_step;
+  if (following_.on) {
+    following_.age += now_.step - first;
+    following_.due = following_.age >= most_steps_of_a_choice;
+  }
+  if (now_.stop == StepStop::after_move) {
+    end_move();
+    end_step();
+  }
+  in_range([&] { require_reactions_in_range(now_.out_of_range); });
+}
+
+/// The state of the steps to the device, with what has been set since it came from there.
+void Simulation::hand_over(bool host_goes_along) {
+  now_.loading = loading;
+  now_.orders.dt = time_step;
+  now_.orders.least_skin = skin_range(false).least;
+  now_.orders.reach = reach_in_skins();
+  now_.orders.leeway = following_.leeway;
+  now_.orders.follows_limit = following_.on;
+  now_.orders.host_goes_along = host_goes_along;
+  now_.stop = StepStop::none;
+  now_.out_of_range = 0;
+  now_.begin_step();
+  steps_.set(now_);
+}
+
+void Simulation::take_back() {
+  now_ = steps_.get();
+  loading = now_.loading;
+}
+
+/// Kick and drift. @param ahead  steps that were asked for since the last wait
+void Simulation::move_discs(int ahead) {
+  bool const changed = ahead == 0 && following_.last > 0;
+  StepLengths const lengths{changed ? 0.5 * (following_.last + time_step) : time_step, time_step};
+  integrate(particles_, laws_.motion, lengths, losses_, faults_, steps_);
+}
+
+/// The forces at the places that the discs have come to, and the end of the step.
+void Simulation::push_discs(int ahead) {
+  compute_forces(particles_, rows_, laws_.contact, time_step, now_.step + ahead + 1, broken_bonds_.log_of(steps_.state), losses_,
+                 faults_, steps_.state);
+  if (!periodic()) add_wall_forces(particles_, wall_contacts_, laws_.wall, time_step, losses_, faults_, sums_.unit, steps_);
+}
+
+/// The host's part between the move and the forces: a search, or the ghosts follow their discs.
+void Simulation::end_move() {
+  if (now_.orders.host_goes_along) {
+    if (periodic()) stretch_homogeneously();
+    now_.displacement = ranks_.max(now_.displacement);
+    now_.look_for_doubts();
+  }
+  if (rebuild_pending_ ||
+      (now_.search_in_doubt && have_strayed(now_.search, particles_.reference_x, particles_.reference_y, 1))) {
+    rebuild();
+    return;
+  }
+  refresh_ghosts();
+  if (following_.on)
+    following_.due = ++following_.age >= most_steps_of_a_choice ||
+                     (now_.choice_in_doubt && have_strayed(now_.choice, step_x_, step_y_, following_.leeway));
+}
+
+/// The rest of a step after end_move(). Where the host goes along it waits for the forces of all ranks on the walls.
+void Simulation::end_step() {
+  bool const along = host_goes_along();
+  hand_over(along);
+  Kokkos::Timer const pushing;
+  push_discs(0);
+  Kokkos::fence();
+  busy_seconds_ += pushing.seconds();
+  if (!along) {
+    take_back();
+  } else if (periodic()) {
+    now_.end_step();
+  } else {
+    now_.end_step(in_range([&] { return wall_reactions(steps_, sums_); }));
+  }
+  loading = now_.loading;
+}
+
+/// Whether two discs whose gap was wider than a share of both their skins, where a mark stands, could touch: the largest
+/// non-affine displacement of a disc as a share of its skin, plus what the homogeneous motion itself brings two discs nearer, as
+/// a share of the least skin.
+/// @param x,y  where the discs were then;  @param leeway  the share
+bool Simulation::have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real leeway) const {
+  AffineFrame const f = frame_since(now_.box, mark.box);
+  mark.strayed = std::sqrt(ranks_.max(largest_nonaffine_displacement2(particles_, x, y, f)));
+  return mark.strayed + mark.closing(now_.box) * reach_in_skins() >= leeway;
+}
+
+/// Isotropic stretching of the periodic cell with all its discs.
+void Simulation::stretch_homogeneously() {
+  if (cell_rate_ == 0) return;
+  PeriodicCell& cell = now_.box.cell;
+  Real const stretch = 1 - cell_rate_ * time_step;
+  scale_positions(particles_, stretch, cell.left, cell.bottom);
+  cell.width *= stretch;
+  cell.height *= stretch;
+}
+
+void Simulation::evaluate_forces() {
+  if (rebuild_pending_) rebuild();
+  hand_over(true);
+  compute_forces(particles_, rows_, laws_.contact, 0, now_.step, broken_bonds_.log_of(steps_.state), losses_, faults_);
+  if (periodic()) return;
+  add_wall_forces(particles_, wall_contacts_, laws_.wall, 0, losses_, faults_, sums_.unit, steps_);
+  now_.reactions = in_range([&] { return wall_reactions(steps_, sums_); });
+}
+
+}  // namespace clathra

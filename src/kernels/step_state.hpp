@@ -1,0 +1,132 @@
+#pragma once
+/// What a step changes beside the discs, in the memory of the device: between steps nobody has to ask the host.
+#include "kernels/exact_sum.hpp"
+#include "kernels/loading.hpp"
+
+namespace clathra {
+
+/// The box when the discs were where somebody looked at them, and how far they have strayed since.
+struct Mark {
+  Box box;
+  Real strayed = 1e300;  ///< at most, beside the homogeneous motion, as a share of a skin
+
+  /// What the homogeneous motion since then brings two discs nearer, relatively.
+  KOKKOS_INLINE_FUNCTION Real closing(Box const& now) const {
+    AffineFrame const f = frame_since(now, box);
+    return lane_max(lane_abs(1 - f.stretch_x), lane_abs(1 - f.stretch_y));
+  }
+  /// Adds the way of a step. @return whether ways could amount to a share of both their skins by which two discs were apart: then
+  /// the discs' own ones tell whether they do
+  /// @param way  in least skins;  @param reach  of a pair, in skins;  @param leeway  that share
+  KOKKOS_INLINE_FUNCTION bool may_have_strayed(Box const& now, Real way, Real reach, Real leeway) {
+    Real const nearer = closing(now);
+    strayed += way;
+    return !(strayed * (1 + nearer) + nearer * reach < leeway);
+  }
+};
+
+/// Why steps that are under way stop: all kernels that follow do nothing until the host has looked.
+enum class StepStop : int {
+  none,
+  after_move,   ///< the discs have moved and may have strayed too far, or the host asked for it: their forces are missing
+  low_box,      ///< the box has become as low as the host waits for
+  out_of_range  ///< a force on a wall is not finite or beyond all scale: the step has not ended
+};
+
+/// What the host says of the steps to come.
+struct StepOrders {
+  Real dt = 0;                  ///< [s]
+  Real least_skin = 1;          ///< [m]
+  Real reach = 0;               ///< of a pair, in skins
+  Real leeway = 1;              ///< share of its skin that a disc may stray before dt is chosen anew
+  Real height = 0;              ///< of the box, at which steps stop [m]
+  bool follows_limit = false;   ///< whether dt is ever chosen anew
+  bool host_goes_along = true;  ///< the host has a part in each step: other ranks, images of discs, a search
+};
+
+struct StepState {
+  Box box;
+  WallReactions reactions;
+  Loading loading;
+  Real time = 0, boundary_work = 0;  ///< [s], [J/m]
+  std::int64_t step = 0;
+  Mark search, choice;  ///< of the last neighbour search, of the last choice of dt
+  StepOrders orders;
+  AffineFrame frame;      ///< of the box as the next step moves it
+  Real displacement = 0;  ///< at least the longest way of a disc in the last step [m]
+  Real way = 0;           ///< of that step beside the homogeneous motion, at most, in least skins
+  bool search_in_doubt = false, choice_in_doubt = false;
+  StepStop stop = StepStop::none;
+  std::int64_t out_of_range = 0;  ///< terms of the forces on the walls
+
+  /// To be called before steps, and done by a step for the next one.
+  KOKKOS_INLINE_FUNCTION void begin_step() {
+    Box moved = box;
+    moved.walls.move(orders.dt);
+    frame = frame_since(moved, search.box);
+  }
+
+  /// After kick and drift: the box has moved too.
+  KOKKOS_INLINE_FUNCTION void end_move() {
+    box.walls.move(orders.dt);
+    if (orders.host_goes_along) {
+      stop = StepStop::after_move;
+      return;
+    }
+    look_for_doubts();
+  }
+  /// Whether the discs' ways since the last search, and since the last choice of dt, call for a closer look.
+  KOKKOS_INLINE_FUNCTION void look_for_doubts() {
+    Walls const& walls = box.walls;
+    Real const of_frame = box.periodic() ? 0 : (walls.largest_speed(left, right) + walls.largest_speed(bottom, top)) * orders.dt;
+    way = (displacement + of_frame) / orders.least_skin;
+    search_in_doubt = search.may_have_strayed(box, way, orders.reach, 1);
+    choice_in_doubt = orders.follows_limit && choice.may_have_strayed(box, way, orders.reach, orders.leeway);
+    if (search_in_doubt || choice_in_doubt) stop = StepStop::after_move;
+  }
+
+  /// After the forces of the walls: books their work and steers them.
+  KOKKOS_INLINE_FUNCTION void end_step(WallReactions const& now) {
+    // The mean force over the step times the way: what leapfrog's kinetic energy sees to the digit.
+    for (int wall = 0; wall < wall_count; ++wall) {
+      Real const outward = wall == right || wall == top ? 1 : -1;
+      boundary_work -= 0.5 * (reactions.normal[wall] + now.normal[wall]) * outward * box.walls.velocity[wall] * orders.dt;
+    }
+    reactions = now;
+    loading.steer(box.walls, reactions, orders.dt);
+    end_step();
+  }
+  /// The same in a periodic cell.
+  KOKKOS_INLINE_FUNCTION void end_step() {
+    time += orders.dt;
+    ++step;
+    begin_step();
+    if (box.height() <= orders.height) stop = StepStop::low_box;
+  }
+};
+
+/// Memory of the device for steps that nobody waits for.
+struct DeviceSteps {
+  Field<StepState> state = Field<StepState>("step_state", 1);
+  decltype(Kokkos::create_mirror_view(Kokkos::HostSpace(), state)) on_host =
+      Kokkos::create_mirror_view(Kokkos::HostSpace(), state);
+  Kokkos::View<Real, MemorySpace> displacement = Kokkos::View<Real, MemorySpace>("largest_displacement");
+  Field<SumWord> reactions = Field<SumWord>("wall_reactions", static_cast<std::size_t>(sum_words(3 * wall_count)));
+
+  void set(StepState const& now) const {
+    on_host(0) = now;
+    Kokkos::deep_copy(state, on_host);
+  }
+  /// Waits for all that was asked for.
+  StepState const& get() const {
+    Kokkos::deep_copy(on_host, state);
+    return on_host(0);
+  }
+};
+
+/// In kernels of a step: whether they have nothing to do. @param state  of the steps, or empty for a kernel beside them
+KOKKOS_INLINE_FUNCTION bool is_stopped(Field<StepState> const& state) {
+  return state.extent(0) > 0 && state(0).stop != StepStop::none;
+}
+
+}  // namespace clathra
