@@ -96,14 +96,14 @@ struct EndOfStep : ReactionSums {
       : ReactionSums(forces, ReactionUnits(unit).of), unit_of_force(unit.force()) {}
 
   /// Called once, when all are done.
-  KOKKOS_FUNCTION void final(SumWord* words) const {
+  KOKKOS_FUNCTION void final(SumWord* sums) const {
     StepState& now = terms.steps(0);
     if (now.stop != StepStop::none || now.orders.host_goes_along) return;
-    now.out_of_range = out_of_range(words);
+    now.out_of_range = out_of_range(sums);
     if (now.out_of_range > 0) {
       now.stop = StepStop::out_of_range;
     } else {
-      now.end_step(reactions_of(words, unit_of_force));
+      now.end_step(reactions_of(sums, unit_of_force));
     }
   }
 };
