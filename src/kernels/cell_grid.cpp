@@ -3,9 +3,16 @@
 #include <cmath>
 #include <string>
 
+#include "kernels/light_launch.hpp"
+
 namespace clathra {
 
 namespace {
+
+struct ClearCells {
+  Field<int> count;
+  KOKKOS_FUNCTION void operator()(int cell) const { count(cell) = 0; }
+};
 
 struct CountCells {
   ParticleSoA p;
@@ -77,8 +84,8 @@ CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size, 
   grid.start = scratch.take<int>("grid.start", static_cast<std::size_t>(cells) + 1);
   grid.disc = scratch.take<int>("grid.disc", static_cast<std::size_t>(discs));
   Field<int> const count = scratch.take<int>("grid.count", static_cast<std::size_t>(cells));
-  Kokkos::deep_copy(count, 0);
-  Kokkos::RangePolicy<ExecutionSpace> const each(0, discs), each_cell(0, cells);
+  auto const each = light_launch(discs), each_cell = light_launch(cells);
+  Kokkos::parallel_for("clear_cells", each_cell, ClearCells{count});  // deep_copy() would have the host wait
   Kokkos::parallel_for("count_cells", each, CountCells{particles, grid, count});
   Kokkos::parallel_scan("scan_cells", each_cell, ScanCells{count, grid.start});
   Kokkos::parallel_for("fill_cells", each, FillCells{particles, grid, count});

@@ -6,6 +6,11 @@ namespace clathra {
 
 namespace {
 
+struct ExpectAll {
+  Field<std::uint64_t> active;
+  KOKKOS_FUNCTION void operator()(int group) const { active(group) = ~std::uint64_t(0); }
+};
+
 struct SetBondWidths {
   ParticleSoA p;
   ContactRows rows;
@@ -48,7 +53,7 @@ void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const
   HistoryFormat const& format = rows.features.format;
   auto const groups = static_cast<std::size_t>(group_count(particles.owned, format.lanes()));
   if (rows.active.extent(0) != groups) rows.active = uninitialised<std::uint64_t>("active", groups);
-  Kokkos::deep_copy(rows.active, ~std::uint64_t(0));
+  Kokkos::parallel_for("expect_all", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(groups)), ExpectAll{rows.active});
   if (!rows.features.bonds) {
     rows.width = RealField();
     return;

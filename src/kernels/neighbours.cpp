@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "kernels/light_launch.hpp"
 #include "kernels/near_discs.hpp"
 
 namespace clathra {
@@ -200,8 +201,7 @@ Search prepared(ParticleSoA const& particles, SearchReach const& reach, Candidat
   Real const bonded_reach = reach.bonded_gap * (1 + 1e-9), slack = rounding_slack(particles, reach.largest_radius);
   Real const cell = 2 * reach.largest_radius + lane_max(2 * reach.largest_skin + slack, bonded_reach);
   CellGrid const grid = bin_particles(particles, particles.all(), cell, reach.bounds, scratch);
-  Kokkos::parallel_for("line_up", Kokkos::RangePolicy<ExecutionSpace>(0, particles.all() + lane_count),
-                       LineUp{particles, grid.disc, candidates});
+  Kokkos::parallel_for("line_up", light_launch(particles.all() + lane_count), LineUp{particles, grid.disc, candidates});
   return {particles, grid, candidates, bonded_reach, slack, old, slot};
 }
 
@@ -214,7 +214,7 @@ std::size_t room_for(std::size_t entries, std::size_t held, std::size_t slice_wi
 }  // namespace
 
 void name_neighbours(ParticleSoA const& particles, ContactRows const& rows) {
-  Kokkos::parallel_for("name_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, rows.entries), NameNeighbours{particles, rows});
+  Kokkos::parallel_for("name_neighbours", light_launch(rows.entries), NameNeighbours{particles, rows});
 }
 
 OldRows take_as_old(ParticleSoA const& particles, ContactRows& rows) {
@@ -251,7 +251,7 @@ SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& rea
   {
     Lists const lists(particles, old.here, scratch);
     Search const search = prepared(particles, reach, lists.candidates, old, slot, scratch);
-    Kokkos::parallel_for("count_neighbours", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+    Kokkos::parallel_for("count_neighbours", light_launch(particles.owned),
                          CountNeighbours{search, lists.found, found.length, faults});
     Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, slices + 1),
                           ScanSlices{found.length, found.slice_start, sizes, particles.owned, slices, format.slice_width()});
@@ -263,8 +263,7 @@ SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& rea
     found.entries = static_cast<int>(entries);
     found.neighbour = scratch.take<int>("rows.neighbour", size);
     source = scratch.take<int>("rows.source", size);
-    Kokkos::parallel_for("fill_rows", Kokkos::RangePolicy<ExecutionSpace>(0, slices * format.slice_width()),
-                         FillRows{search, lists.found, found, source});
+    Kokkos::parallel_for("fill_rows", light_launch(slices * format.slice_width()), FillRows{search, lists.found, found, source});
   }
   carry_history(old, found, source, particles.id, faults, scratch);
   rows = found;

@@ -1,5 +1,7 @@
 #include "kernels/spatial_order.hpp"
 
+#include "kernels/light_launch.hpp"
+
 namespace clathra {
 
 namespace {
@@ -65,11 +67,9 @@ struct RankByWork {
 Field<int> work_of_slots(OldRows const& old, Scratch& scratch) {
   auto const arrived = static_cast<int>(old.arrived.length.extent(0));
   Field<int> const work = scratch.take<int>("work_of_slots", static_cast<std::size_t>(old.slots_here + arrived));
-  Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(old.slots_here)),
-                       WorkOfSlots{old.here, 0, work});
+  Kokkos::parallel_for("work_of_slots", light_launch(group_count(old.slots_here)), WorkOfSlots{old.here, 0, work});
   if (arrived > 0)
-    Kokkos::parallel_for("work_of_slots", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(arrived)),
-                         WorkOfSlots{old.arrived, old.slots_here, work});
+    Kokkos::parallel_for("work_of_slots", light_launch(group_count(arrived)), WorkOfSlots{old.arrived, old.slots_here, work});
   return work;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "kernels/light_launch.hpp"
+
 namespace clathra {
 
 namespace {
@@ -119,7 +121,7 @@ Survey survey(ParticleSoA const& particles, ContactRows const& rows, AffineFrame
   SurveyDiscs const kernel{SurveyDiscs::value_number, particles, rows, frame, faults, 1 / unit.speed(), bonds};
   std::int64_t values[SurveyDiscs::value_number];
   int const groups = group_count(particles.owned);
-  Kokkos::parallel_reduce("survey", Kokkos::RangePolicy<ExecutionSpace>(0, groups > 0 ? groups : 1),
+  Kokkos::parallel_reduce("survey", light_launch(groups > 0 ? groups : 1),
                           kernel,  // faults are read in any case
                           Kokkos::View<std::int64_t*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(
                               &values[0], SurveyDiscs::value_number));

@@ -1,5 +1,7 @@
 #include "kernels/verlet_skin.hpp"
 
+#include "kernels/light_launch.hpp"
+
 namespace clathra {
 
 namespace {
@@ -35,14 +37,13 @@ struct Stray {
 }  // namespace
 
 void assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range, Real mean_speed) {
-  Kokkos::parallel_for("assign_verlet_skins", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                       GiveLeeway{particles, frame, range, mean_speed});
+  Kokkos::parallel_for("assign_verlet_skins", light_launch(particles.owned), GiveLeeway{particles, frame, range, mean_speed});
 }
 
 Real largest_nonaffine_displacement2(ParticleSoA const& particles, Field<Coord> const& x, Field<Coord> const& y,
                                      AffineFrame const& frame) {
   Real greatest2 = 0;
-  Kokkos::parallel_reduce("largest_nonaffine_displacement", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned)),
+  Kokkos::parallel_reduce("largest_nonaffine_displacement", light_launch(group_count(particles.owned)),
                           Stray{particles, x, y, frame}, Kokkos::Max<Real>(greatest2));
   return greatest2;
 }

@@ -128,6 +128,13 @@ struct FindNearWalls {
   }
 };
 
+struct ClearShear {
+  WallShear shear;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    for (auto const& field : shear.of) field(i) = 0;
+  }
+};
+
 struct SpreadShear {
   WallContacts contacts;
   WallShear shear;
@@ -149,10 +156,9 @@ struct CollectShear {
 WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts, Scratch& scratch) {
   WallShear shear;
   if (contacts.shear.extent(0) == 0 && !contacts.rough) return shear;
-  for (auto& field : shear.of) {
-    field = scratch.take<Real>("wall_shear_of_discs", particles.x.extent(0));
-    Kokkos::deep_copy(field, 0);
-  }
+  for (auto& field : shear.of) field = scratch.take<Real>("wall_shear_of_discs", particles.x.extent(0));
+  Kokkos::parallel_for("clear_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(particles.x.extent(0))),
+                       ClearShear{shear});
   Kokkos::parallel_for("spread_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, contacts.size), SpreadShear{contacts, shear});
   return shear;
 }

@@ -1,0 +1,14 @@
+#pragma once
+/// Launches of kernels that hold many fields.
+#include "kernels/real.hpp"
+
+namespace clathra {
+
+/// For 0 .. n. On a GPU of NVIDIA the kernel goes along with its launch: one of more than 512 bytes would else be put into a
+/// buffer that the host waits for until the kernel before it has ended.
+inline auto light_launch(int n) {
+  return Kokkos::Experimental::require(Kokkos::RangePolicy<ExecutionSpace>(0, n),
+                                       Kokkos::Experimental::WorkItemProperty::HintLightWeight);
+}
+
+}  // namespace clathra
