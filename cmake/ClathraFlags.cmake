@@ -19,7 +19,8 @@ target_compile_options(
 # The same contract on a GPU. A fused operation would round the two sides of a pair differently, and a bond could break on one
 # side only. Whether host code is called from a kernel is no matter of taste: such a kernel does something else or nothing.
 if(CLATHRA_DEVICE STREQUAL "CUDA")
-  target_compile_options(clathra_flags INTERFACE -fmad=false -Werror=cross-execution-space-call)
+  # The parentheses are those that nvcc puts around names of pointers to members before GCC reads its output.
+  target_compile_options(clathra_flags INTERFACE -fmad=false -Werror=cross-execution-space-call -Wno-parentheses)
 endif()
 
 if(CLATHRA_NATIVE AND NOT CLATHRA_DEVICE) # on a GPU's host nothing is vectorised, and nvcc does not read all that a processor has

@@ -76,25 +76,47 @@ TEST(FixedPointHistory, IsKeptWhereNoLimitCutsItAndTheLimitWhereOneDoes) {
   EXPECT_EQ(largest(lane_abs(Kept::number(load_ints(kept), scale))), 80.0F);
 }
 
+/// Number by number in kernels, which alone reach a field.
+struct WriteNumber {
+  RealField field;
+  int at;
+  double number;
+  KOKKOS_FUNCTION void operator()(int) const { field.set(at, number); }
+};
+void write(RealField const& field, int at, double number) {
+  Kokkos::parallel_for("write_number", Kokkos::RangePolicy<ExecutionSpace>(0, 1), WriteNumber{field, at, number});
+}
+struct ReadNumber {
+  RealField field;
+  int at;
+  Field<double> number;
+  KOKKOS_FUNCTION void operator()(int) const { number(0) = field(at); }
+};
+double read(RealField const& field, int at) {
+  Field<double> const number("number", 1);
+  Kokkos::parallel_for("read_number", Kokkos::RangePolicy<ExecutionSpace>(0, 1), ReadNumber{field, at, number});
+  return value(number, 0);
+}
+
 TEST(RealField, ReadsWhatWasWrittenToTheFormat) {
   RealField const whole("whole", 3), single("single", 3, {Storage::as_float}), fixed("fixed", 3, {Storage::as_fixed, 0x1p-10});
-  for (RealField const& field : {whole, single, fixed}) field.set(1, 0.123456789);
-  EXPECT_EQ(whole(1), 0.123456789);
-  EXPECT_EQ(single(1), static_cast<double>(0.123456789F));
-  EXPECT_EQ(fixed(1), 126 / 1024.0);
-  single.set(2, no_bond);
-  EXPECT_EQ(single(2), no_bond);
-  EXPECT_FALSE(is_bonded(single.data<float>()[2]));
+  for (RealField const& field : {whole, single, fixed}) write(field, 1, 0.123456789);
+  EXPECT_EQ(read(whole, 1), 0.123456789);
+  EXPECT_EQ(read(single, 1), static_cast<double>(0.123456789F));
+  EXPECT_EQ(read(fixed, 1), 126 / 1024.0);
+  write(single, 2, no_bond);
+  EXPECT_EQ(read(single, 2), no_bond);
+  EXPECT_FALSE(is_bonded(static_cast<float>(value(single.as<float>(), 2))));
   EXPECT_TRUE(is_bonded(-5e-6F));
-  fixed.set(2, -1e300);
-  EXPECT_EQ(fixed(2), -most_units / 1024);
+  write(fixed, 2, -1e300);
+  EXPECT_EQ(read(fixed, 2), -most_units / 1024);
   EXPECT_EQ(single.bytes() + fixed.bytes(), whole.bytes());
   Field<std::uint32_t> const table("table", 24);
   RealField const column = RealField::column(table, 8, 5);
-  column.set(2, 2.5);
-  EXPECT_EQ(column(2), 2.5);
+  write(column, 2, 2.5);
+  EXPECT_EQ(read(column, 2), 2.5);
   EXPECT_EQ(column.extent(0), 3u);
-  EXPECT_EQ(table(21), std::bit_cast<std::uint32_t>(2.5F));
+  EXPECT_EQ(value(table, 21), std::bit_cast<std::uint32_t>(2.5F));
   EXPECT_EQ(on_host(column, 3)[2], 2.5);
 }
 

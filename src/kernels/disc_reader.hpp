@@ -93,8 +93,8 @@ struct DiscReader {
     std::size_t const wanted = first + ahead, last = p.x.extent(0) - 1;
     std::size_t const i = wanted < last ? wanted : last;
     if constexpr (mixed) {
-      for (std::size_t line = 0; line < lanes * DiscMirror::row * sizeof(float) / 64; ++line)
-        prefetch(p.mirror.numbers() + i * DiscMirror::row + line * 16);
+      constexpr int lines = static_cast<int>(lanes * DiscMirror::row * sizeof(float) / 64);
+      for (int line = 0; line < lines; ++line) prefetch(p.mirror.numbers() + i * DiscMirror::row + line * 16);
     } else {
       prefetch(&p.x(i));
       prefetch(&p.y(i));
