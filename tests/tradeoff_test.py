@@ -84,8 +84,21 @@ class Tradeoff(unittest.TestCase):
         plant(self.folder / "b", 1, {"peak_q_Pa": 9e6, "end_eps1": 0.04}, [(0, 0), (9, 8)], energy=True)
         rows = collect.collect(self.folder)
         self.assertEqual(len(rows), 1)
-        self.assertEqual((rows[0]["end_eps1"], rows[0]["damping_share"], rows[0]["breakage_share"]), (0.1, 0.5, 0.25))
-        self.assertEqual((rows[0]["contact_peak_q_Pa"], rows[0]["contact_peak_eps1"], rows[0]["contact_q_at_peak_Pa"]), (8.5, 0.02, 8))
+        self.assertEqual((rows[0]["end_eps1"], rows[0]["damping_share"], rows[0]["breakage_share"]), ("0.1", "0.5", "0.25"))
+        self.assertEqual((rows[0]["contact_peak_q_Pa"], rows[0]["contact_peak_eps1"], rows[0]["contact_q_at_peak_Pa"]), ("8.5", "0.02", "8"))
+
+    def test_a_part_that_runs_later_is_added_to_the_table(self):
+        plant(self.folder / "a", 1, {"peak_q_Pa": 9e6, "end_eps1": 0.1}, [(0, 0)])
+        collect.main(self.folder, self.folder / "data.csv")
+        before = (self.folder / "data.csv").read_text()
+        shutil.rmtree(self.folder / "a")
+        plant(self.folder / "b", 1, {"peak_q_Pa": 8e6, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)
+        collect.main(self.folder, self.folder / "data.csv")
+        after = (self.folder / "data.csv").read_text()
+        self.assertEqual(after[:len(before)], before)
+        self.assertEqual(len(after.splitlines()), 3)
+        collect.main(self.folder, self.folder / "data.csv")  # the same once more changes nothing
+        self.assertEqual((self.folder / "data.csv").read_text(), after)
 
     def test_verdicts_say_when_they_hang_on_the_seeds(self):
         self.assertEqual([compare.verdict(found, 2) for found in ((1, 0.9, 5), (-1, 1.1, 5), (3, 0.9, 5), (3, 1.1, 5), (0, math.nan, 1), None)],

@@ -1,4 +1,4 @@
-"""Brings the finished members of the studies in a folder into one table: collect.py FOLDER DATA.csv
+"""Adds the finished members of the studies in a folder to one table, which is made where there is none: collect.py FOLDER DATA.csv
 
 One row a test: the part (study file) it belongs to, what it was run with (settings that differ from base.toml make its factor and level), what came out, and its cost in
 disc-steps, which other load on the machine does not change.
@@ -80,8 +80,8 @@ def row_of(member):
 
 
 def key_of(row):
-    """What two rows share that are the same test, perhaps to another strain or with other outputs."""
-    return tuple(row[c] for c in ["factor", "level", "saturation", "stress_Pa", "inertial_number", "seed"])
+    """What two rows share that are the same test of the same specimen, perhaps to another strain or with other outputs."""
+    return tuple(row[c] for c in ["factor", "level"]) + tuple(float(row[c]) for c in ["saturation", "stress_Pa", "inertial_number", "seed"]) + (row["specimen"],)
 
 
 def collect(folder):
@@ -97,15 +97,19 @@ def collect(folder):
             continue
         longer, shorter = (row, other) if row["end_eps1"] > other["end_eps1"] else (other, row)
         rows[key_of(row)] = {**shorter, **{key: value for key, value in longer.items() if value != ""}}
-    return [rows[key] for key in sorted(rows)]
+    return [{column: short(row.get(column, "")) for column in COLUMNS} for row in rows.values()]
 
 
 def main(folder, path):
+    rows = {}
+    if Path(path).exists():
+        with open(path, newline="") as file:
+            rows = {key_of(row): row for row in csv.DictReader(file)}
+    rows.update({key_of(row): row for row in collect(folder)})
     with open(path, "w", newline="") as file:
-        table = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
+        table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         table.writeheader()
-        for row in collect(folder):
-            table.writerow({column: short(row.get(column, "")) for column in COLUMNS})
+        table.writerows(rows[key] for key in sorted(rows))
 
 
 if __name__ == "__main__":
