@@ -16,8 +16,8 @@
 #include "kernels/neighbours.hpp"
 #include "kernels/spectrum.hpp"
 #include "kernels/stability.hpp"
-#include "kernels/survey.hpp"
 #include "kernels/step_state.hpp"
+#include "kernels/survey.hpp"
 #include "kernels/verlet_skin.hpp"
 #include "kernels/walls.hpp"
 
