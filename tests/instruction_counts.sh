@@ -8,11 +8,11 @@ object=$1 record=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# Of each variant: bonds, friction, rolling, dashpots, ledger, and the instructions of all functions that are made of it.
+# Of each variant: bonds, friction, rolling, dashpots, ledger, and the instructions of its own functions, not of those that launch, copy and drop it.
 objdump -d --no-show-raw-insn "$object" | c++filt | awk '
   /^[0-9a-f]+ <.*>:$/ {
     name = ""
-    if (match($0, /ContactKernel<clathra::FullPrecision, \(clathra::BondKind\)[0-9], [a-z]+, [a-z]+, [a-z]+, [a-z]+>/)) {
+    if (match($0, /^[0-9a-f]+ <clathra::ContactKernel<clathra::FullPrecision, \(clathra::BondKind\)[0-9], [a-z]+, [a-z]+, [a-z]+, [a-z]+>/)) {
       name = substr($0, RSTART, RLENGTH)
       sub(/.*BondKind\)/, "", name); sub(/>/, "", name); gsub(/, /, " ", name); gsub(/true/, "1", name); gsub(/false/, "0", name)
     }

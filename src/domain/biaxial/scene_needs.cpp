@@ -98,8 +98,8 @@ SceneNeeds needs_of(Scene const& scene) {
       needs.fields.push_back({wall, sizeof(Real), FieldOf::disc, "test.wall_friction, of discs at the walls"});
   add_entries(laws, needs.fields);
   if (scene.output.takes_event_details() && has_bonds(scene))
-    needs.fields.push_back(
-        {"break_details", sizeof(BreakDetails), FieldOf::bond, "output.event_details, written where bonds break"});
+    needs.fields.push_back({"break_details", sizeof(BreakDetails) + sizeof(Coord), FieldOf::bond,
+                            "output.event_details, written where bonds break"});
   bool const damped = laws.motion.damping > 0;
   needs.kernels.push_back(
       {"kick_and_drift", damped ? "leapfrog, local damping" : "leapfrog", damped ? "every scene, run.damping" : every_scene});
