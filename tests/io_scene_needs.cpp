@@ -53,7 +53,7 @@ TEST(SceneNeeds, AreWhatInfoPrints) {
   fs::path const scene = fs::temp_directory_path() / ("clathra_needs_" + std::to_string(::getpid()) + ".toml");
   std::ofstream(scene) << std::ifstream(CLATHRA_EXAMPLES "/quick.toml").rdbuf() << "event_details = true\n";
   CommandResult const detailed = run_clathra("info --cost " + scene.string());
-  EXPECT_NE(detailed.output.find("56 bytes a bond"), std::string::npos) << detailed.output;
+  EXPECT_NE(detailed.output.find("64 bytes a bond"), std::string::npos) << detailed.output;
   EXPECT_NE(detailed.output.find("output.event_details"), std::string::npos) << detailed.output;
   fs::remove(scene);
 }
