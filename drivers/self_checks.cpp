@@ -187,8 +187,8 @@ std::uint64_t bonded_state_hash() {
   laws.contact.bond = make_bond_law(scene, specimen.d50, specimen.critical_thickness);
   Simulation simulation(specimen, laws, median_diameter / 20);
   simulation.time_step = 1e-7;
-  simulation.loading.y = AxisDrive::at_rate(400);
-  simulation.loading.x = AxisDrive::at_rate(-150);
+  simulation.loading().y = AxisDrive::at_rate(400);
+  simulation.loading().x = AxisDrive::at_rate(-150);
   for (int step = 0; step < 1500; ++step) simulation.step();
   if (simulation.broken_bonds() < 20) throw CheckFailed("no bonds broke");
   return simulation.hash();

@@ -16,7 +16,7 @@ Simulation pressed_packing() {
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
   sim.time_step = 0.7 * sim.stable_time_step();
-  sim.loading.x = sim.loading.y = AxisDrive::at_rate(100);
+  sim.loading().x = sim.loading().y = AxisDrive::at_rate(100);
   return sim;
 }
 
@@ -225,9 +225,9 @@ TEST(ExtremeSizes, RestTogetherUnderStress) {
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 0.5 * grain_radius);
   sim.time_step = 0.7 * sim.stable_time_step();
-  sim.loading.x = sim.loading.y = AxisDrive::at_stress(1e5, 0.5);
+  sim.loading().x = sim.loading().y = AxisDrive::at_stress(1e5, 0.5);
   for (int n = 0; n < 40000; ++n) sim.step();
-  sim.loading.x = sim.loading.y = AxisDrive::held();
+  sim.loading().x = sim.loading().y = AxisDrive::held();
   for (int n = 0; n < 40000; ++n) sim.step();
   sim.throw_if_unstable();
   Measures const m = sim.measures();

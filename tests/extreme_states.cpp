@@ -66,7 +66,7 @@ TEST(ExtremeStates, BondsWithoutStrengthAndBondsThatNeverBreak) {
                weak.measures().kinetic / weak.measures().grain_energy, 0, 1e-2);
     Simulation strong = bonded(0.55, composite, [](SimulationLaws& laws) { laws = unbreakable(laws); });
     strong.choose_time_step({});
-    strong.loading.y = AxisDrive::at_rate(50);
+    strong.loading().y = AxisDrive::at_rate(50);
     for (int n = 0; n < 5000; ++n) strong.step();
     strong.throw_if_unstable();
     expect_row("bond strength without end" + name, "bonds broken", strong.broken_bonds(), 0, 0);
@@ -106,7 +106,7 @@ TEST(ExtremeStates, OneDiscWideAndAThousandTall) {
 TEST(ExtremeStates, TheStepCounterPassesFourBillion) {
   Simulation sim = bonded(0.55, Composite::parallel);
   sim.choose_time_step({});
-  sim.loading.y = AxisDrive::at_rate(200);
+  sim.loading().y = AxisDrive::at_rate(200);
   SimulationState late = sim.state(), early = late;
   late.numbers["step"] = 4294967286.0;
   early.numbers["step"] = -10;  // what mixed precision rounds by repeats itself after 2^32 steps
@@ -183,7 +183,7 @@ TEST(ExtremeStates, WallsThatMeet) {
   expect_refusal<Diverged>("walls that meet", "disc", [] {
     Simulation sim(packing(), sand_laws(), 0.1 * packing().d50);
     sim.choose_time_step({});
-    sim.loading.y = AxisDrive::at_rate(20000);
+    sim.loading().y = AxisDrive::at_rate(20000);
     for (int n = 0; n < 100000; ++n) sim.step();
   });
 }
@@ -195,7 +195,7 @@ TEST(ExtremeStates, AServoWithoutDiscsAtItsWalls) {
   laws.motion.damping = 0.3;
   Simulation sim(s, laws, 1e-6);
   prepare_servo(sim, 1e5, 1e-3, grain_d50, {});
-  double const cap = sim.loading.x.largest_speed;
+  double const cap = sim.loading().x.largest_speed;
   double fastest = 0;
   for (int n = 0; n < 2000; ++n) {
     sim.step();

@@ -34,8 +34,8 @@ inline Simulation ready(Specimen const& s, Composite composite, Ranks const& ran
   laws.contact.grain.damping_ratio = 0.02;
   Simulation sim(share ? *share : s, laws, 0.05 * grain_d50, ranks);
   sim.time_step = 1e-7;
-  sim.loading.y = AxisDrive::at_rate(200);
-  sim.loading.x = AxisDrive::at_rate(-60);
+  sim.loading().y = AxisDrive::at_rate(200);
+  sim.loading().x = AxisDrive::at_rate(-60);
   return sim;
 }
 inline Simulation sheared(Specimen const& s, Composite composite, Precision precision = Precision::full, int steps = 3000) {

@@ -29,7 +29,7 @@ Simulation squeezed_patch() {
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
   sim.time_step = 2e-8;
-  sim.loading.y = AxisDrive::at_rate(1000);
+  sim.loading().y = AxisDrive::at_rate(1000);
   return sim;
 }
 

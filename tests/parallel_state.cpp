@@ -42,7 +42,7 @@ TEST_P(StateIn, DoesNotKnowTheOrderOfTheInput) {
 /// Sheared through breakage between servo walls, at time steps that follow the limit, with all accounts.
 Simulation between_servo_walls(Precision precision) {
   Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
-  sim.loading.x = AxisDrive::at_stress(2e6, 20);
+  sim.loading().x = AxisDrive::at_stress(2e6, 20);
   sim.set_ledger(true);
   sim.keep_break_details();
   sim.choose_time_step({});
@@ -56,7 +56,7 @@ void expect_equal_steps(Simulation const& one, Simulation const& many) {
   EXPECT_EQ(one.time_step, many.time_step);
   EXPECT_EQ(one.rebuilds(), many.rebuilds());
   EXPECT_EQ(one.time_step_renewals(), many.time_step_renewals());
-  EXPECT_EQ(one.loading.x.integral, many.loading.x.integral);
+  EXPECT_EQ(one.loading().x.integral, many.loading().x.integral);
   EXPECT_EQ(one.losses().breakage, many.losses().breakage);
   for (int wall = 0; wall < wall_count; ++wall) {
     EXPECT_EQ(one.walls().position[wall], many.walls().position[wall]) << wall;
@@ -102,7 +102,7 @@ TEST(State, OfUnboundSandDoesNotKnowTheOrderOfTheInput) {
     laws.motion.damping = 0.5;
     Simulation sim(s, laws, 0.05 * grain_d50);
     sim.time_step = 1e-7;
-    sim.loading.x = sim.loading.y = AxisDrive::at_rate(300);
+    sim.loading().x = sim.loading().y = AxisDrive::at_rate(300);
     for (int n = 0; n < 3000; ++n) sim.step();
     EXPECT_GT(sim.measures().touching, 200);
     return sim.hash();
@@ -119,8 +119,8 @@ TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
     laws.wall.friction = 0;  // a specimen does not hold the shear of rough walls
     original.set_laws(laws);
     for (int n = 0; n < 1500; ++n) original.step();
-    AxisDrive const drive_x = original.loading.x, drive_y = original.loading.y;
-    original.loading.x = original.loading.y = AxisDrive::held();
+    AxisDrive const drive_x = original.loading().x, drive_y = original.loading().y;
+    original.loading().x = original.loading().y = AxisDrive::held();
     original.step();  // the walls stand: a specimen holds no wall velocities
     Simulation copy(shuffled(original.specimen(), 3), laws, 0.05 * grain_d50);
     EXPECT_EQ(copy.hash(), original.hash());
@@ -129,8 +129,8 @@ TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
     original.evaluate_forces();
     copy.time_step = original.time_step;
     for (Simulation* sim : {&original, &copy}) {
-      sim->loading.x = drive_x;
-      sim->loading.y = drive_y;
+      sim->loading().x = drive_x;
+      sim->loading().y = drive_y;
     }
     for (int n = 0; n < 1500; ++n) {
       original.step();

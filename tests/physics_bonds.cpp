@@ -25,9 +25,9 @@ double stiffness_of_chain(int bonds) {
   Simulation sim(s, laws, 1e-5);
   sim.time_step = 1e-7;
   double const width = sim.walls().width();
-  sim.loading.x = AxisDrive::at_rate(1.0, true);
+  sim.loading().x = AxisDrive::at_rate(1.0, true);
   while (width - sim.walls().width() < 0.3e-6 * bonds) sim.step();
-  sim.loading.x = AxisDrive::held();
+  sim.loading().x = AxisDrive::held();
   for (int n = 0; n < 6000; ++n) sim.step();
   EXPECT_NEAR(sim.reactions().normal[left] / sim.reactions().normal[right], 1, within(1e-7, 3e-5));
   return sim.reactions().normal[left] / (width - sim.walls().width());

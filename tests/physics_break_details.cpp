@@ -41,7 +41,7 @@ BreakEvents broken(Composite composite, double angle, Motion const& motion, int 
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 1e-3);
   sim.time_step = dt;
   hold_all(sim);
-  sim.loading.y = AxisDrive::at_rate(wall_rate);
+  sim.loading().y = AxisDrive::at_rate(wall_rate);
   for (int n = 0; n < earlier; ++n) sim.step();
   sim.keep_break_details();
   drive(sim, 0, 0, 0, motion.spin_a);

@@ -76,7 +76,7 @@ Balance shear_packing(Composite composite, double dt_share, double dashpot) {
   Simulation sim(s, laws, 0.05 * grain_d50);
   sim.time_step = dt_share * sim.stable_time_step();
   sim.set_ledger(true);
-  sim.loading.y = AxisDrive::at_rate(300);
+  sim.loading().y = AxisDrive::at_rate(300);
   double const start = stored(sim.measures());
   while (std::log(s.height() / sim.walls().height()) < 0.06) sim.step();
   LossTotals const l = sim.losses();

@@ -52,7 +52,7 @@ Simulation packing(SimulationLaws const& laws, bool hydrate, Composite composite
   if (hydrate) bond_all(s, hydrate_scene(0.55, composite));
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.time_step = 1e-8;
-  sim.loading.y = AxisDrive::at_rate(1);
+  sim.loading().y = AxisDrive::at_rate(1);
   return sim;
 }
 SimulationLaws hydrate_laws(Composite composite) {
@@ -210,7 +210,7 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
       laws.contact.grain.friction = friction;
       Simulation sim = packing(laws, hydrate);
       sim.time_step = 1e-7;
-      sim.loading.y = AxisDrive::at_rate(1000);
+      sim.loading().y = AxisDrive::at_rate(1000);
       for (int n = 0; n < 2000; ++n) sim.step();
       EXPECT_GT(sim.measures().touching, 20);
       Specimen const end = sim.specimen();
@@ -225,8 +225,8 @@ TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
     Simulation sim = packing(hydrate_laws(Composite::parallel), true);
     sim.keep_break_events(events);
     if (details) sim.keep_break_details();
-    sim.loading.y = AxisDrive::at_rate(2000);
-    sim.loading.x = AxisDrive::at_rate(-1500);
+    sim.loading().y = AxisDrive::at_rate(2000);
+    sim.loading().x = AxisDrive::at_rate(-1500);
     for (int n = 0; n < 4000; ++n) sim.step();
     return sim;
   };

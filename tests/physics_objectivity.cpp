@@ -91,7 +91,7 @@ TEST(StressAtRest, IsTheSameInTheContactsAndAtTheWalls) {
   Simulation sim(disordered_patch(16, 20, 0.04, 3), laws, 0.1 * grain_d50);
   prepare_servo(sim, 1e6, 2e-3, grain_d50, {});
   EXPECT_TRUE(hold_stress(sim, 1e6, within(1e-5, 1e-4), 60000, {}, "test"));
-  sim.loading.x = sim.loading.y = AxisDrive::held();
+  sim.loading().x = sim.loading().y = AxisDrive::held();
   for (int n = 0; n < 3000; ++n) sim.step();
   Measures const m = sim.measures();
   EXPECT_NEAR(m.stress_area_xx / sim.area() / sim.stress().x, 1, 2e-5);

@@ -25,8 +25,8 @@ TEST(ServoWall, ThatMustMoveAtAConstantRateKeepsTheStress) {
   Simulation sim = elastic_block(stress, 0.3);
   // Compressed along y, the block spreads along x at a constant rate.
   double const rate = strain_rate_of(1e-4, stress, sand_density, grain_d50), width = sim.walls().width();
-  sim.loading.y = AxisDrive::at_rate(rate);
-  sim.loading.x.largest_speed = rate * width;
+  sim.loading().y = AxisDrive::at_rate(rate);
+  sim.loading().x.largest_speed = rate * width;
   for (int n = 0; n < 2000; ++n) sim.step();  // the servo finds the rate
   double const from = sim.walls().width();
   double mean = 0, worst = 0, speed_early = 0, speed_late = 0;
@@ -50,7 +50,7 @@ TEST(ServoWall, NeverMovesFasterThanItsCap) {
   enclose(s, grain_radius);  // out of touch: all error, no contact
   Simulation sim(s, sand_laws(), 0.1 * grain_d50);
   sim.time_step = 1e-7;
-  sim.loading.x = sim.loading.y = AxisDrive::at_stress(1e6, 0.1);
+  sim.loading().x = sim.loading().y = AxisDrive::at_stress(1e6, 0.1);
   for (int n = 0; n < 200; ++n) {
     sim.step();
     EXPECT_EQ(sim.walls().velocity[left], 0.1);

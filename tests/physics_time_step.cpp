@@ -90,7 +90,7 @@ TEST(TimeStep, IsNeverAboveTheLimitWhileACloudCollapses) {
   laws.motion.damping = 0.3;
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.choose_time_step({});
-  sim.loading.x = sim.loading.y = AxisDrive::at_rate(400);
+  sim.loading().x = sim.loading().y = AxisDrive::at_rate(400);
   expect_stable_steps(sim, 5000, 0.96);
   EXPECT_GT(sim.measures().touching, 100);
   EXPECT_GT(sim.time_step_renewals(), 10);
@@ -100,8 +100,8 @@ TEST(TimeStep, IsNeverAboveTheLimitWhileBondsBreak) {
   for (Composite const composite : {Composite::parallel, Composite::replace}) {
     Simulation sim = bonded_packing(0.55, composite);
     sim.choose_time_step({});
-    sim.loading.y = AxisDrive::at_rate(100);
-    sim.loading.x = AxisDrive::at_rate(-60);
+    sim.loading().y = AxisDrive::at_rate(100);
+    sim.loading().x = AxisDrive::at_rate(-60);
     expect_stable_steps(sim, 3000, 0.96);
     EXPECT_GT(sim.broken_bonds(), 100);
   }

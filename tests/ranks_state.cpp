@@ -88,8 +88,8 @@ TEST(Ranks, MissNoContactOfFlyingDiscs) {
   Simulation one(whole, {}, skin), many(part, {}, skin, world());
   for (Simulation* sim : {&one, &many}) {
     sim->time_step = 0.3 * one.stable_time_step();
-    sim->loading.x = AxisDrive::at_rate(500);
-    sim->loading.y = AxisDrive::at_rate(-300);
+    sim->loading().x = AxisDrive::at_rate(500);
+    sim->loading().y = AxisDrive::at_rate(-300);
     for (int n = 0; n < 4000; ++n) sim->step();
   }
   EXPECT_EQ(one.hash(), many.hash());

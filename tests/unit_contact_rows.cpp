@@ -13,8 +13,8 @@ Simulation crushed_packing(Composite composite) {
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
   sim.time_step = 0.5 * sim.stable_time_step();
-  sim.loading.x = AxisDrive::at_rate(-200);
-  sim.loading.y = AxisDrive::at_rate(500);
+  sim.loading().x = AxisDrive::at_rate(-200);
+  sim.loading().y = AxisDrive::at_rate(500);
   return sim;
 }
 

@@ -173,7 +173,7 @@ TEST(MixedPrecision, SurvivesTheWayThroughASpecimenToTheBit) {
   laws.precision = Precision::mixed;
   Simulation sim(s, laws, 0.05 * grain_d50);
   sim.time_step = 1e-7;
-  sim.loading.x = sim.loading.y = AxisDrive::at_rate(300);
+  sim.loading().x = sim.loading().y = AxisDrive::at_rate(300);
   for (int n = 0; n < 1500; ++n) sim.step();
   ASSERT_GT(sim.measures().touching, 50);
   EXPECT_EQ(Simulation(sim.specimen(), laws, 0.05 * grain_d50).hash(), sim.hash());

@@ -108,8 +108,8 @@ TEST(VerletSkin, RowsReachAsFarAsBothSkinsTogether) {
 TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   Simulation sim(gas(), {}, 2 * h);
   sim.time_step = 0.3 * sim.stable_time_step();
-  sim.loading.x = AxisDrive::at_rate(500);
-  sim.loading.y = AxisDrive::at_rate(-300);
+  sim.loading().x = AxisDrive::at_rate(500);
+  sim.loading().y = AxisDrive::at_rate(-300);
   int touching = 0, missing = 0;
   for (int n = 0; n < 4000; ++n) {
     sim.step();
@@ -214,7 +214,7 @@ TEST(VerletSkin, SearchesComeInTimeForDiscsThatAnArrivingWallLeavesBehind) {
   s.right = s.top = 3;
   Simulation sim(s, {}, 2 * h);
   sim.time_step = 2e-7;
-  sim.loading.y = AxisDrive::at_rate(0.05);
+  sim.loading().y = AxisDrive::at_rate(0.05);
   expect_searches_in_time(sim, 8000);
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "kernels/contact_kernel.hpp"
+#include "kernels/light_launch.hpp"
 
 namespace clathra {
 
@@ -61,11 +62,12 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
                                       {R(format.force_unit), R(1 / format.force_unit), R(dt / format.force_unit), rounding},
                                       {R(format.moment_unit), R(1 / format.moment_unit), R(dt / format.moment_unit), rounding},
                                       R(particles.mirror.tick)};
-  Kokkos::RangePolicy<ExecutionSpace> const groups(0, group_count(particles.owned, lane_count_of<R>));
+  auto const groups = light_launch(group_count(particles.owned, lane_count_of<R>));
   std::visit(
       [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
         using Kernel = ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()>;
+        static_assert(sizeof(UnlessStopped<Kernel>) <= most_bytes_of_a_light_kernel);
         Kokkos::parallel_for(
             Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
             UnlessStopped<Kernel>{

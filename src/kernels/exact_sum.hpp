@@ -36,11 +36,17 @@ struct FixedPoint {
     value = (value - static_cast<Real>(digit)) * base;
     return digit;
   }
-  /// @param value  of which holds() is true
-  KOKKOS_INLINE_FUNCTION static FixedPoint from(Real value) {
-    FixedPoint number;
-    for (std::int64_t& digit : number.word) digit = take_digit(value);
-    return number;
+  /// A sum from its digits. @param apart  numbers from one to the next
+  KOKKOS_INLINE_FUNCTION static FixedPoint of(std::int64_t const* digits, int apart = 1) {
+    FixedPoint sum;
+    for (int k = 0; k < words; ++k) sum.word[k] = digits[apart * k];
+    return sum;
+  }
+  /// Adds a term to the digits of a sum. @return whether it is in range: else nothing is added
+  KOKKOS_INLINE_FUNCTION static bool add(Real value, std::int64_t* digits) {
+    if (!holds(value)) return false;
+    for (int k = 0; k < words; ++k) digits[k] += take_digit(value);
+    return true;
   }
   KOKKOS_INLINE_FUNCTION Real value() const {
     FixedPoint number = *this;
@@ -147,9 +153,7 @@ struct ExactSumKernel {
   KOKKOS_INLINE_FUNCTION static std::int64_t out_of_range(SumWord const* sums) { return sums[words - 1]; }
   /// @param unit  of that quantity
   KOKKOS_INLINE_FUNCTION static Real total(SumWord const* sums, int quantity, Real unit) {
-    FixedPoint sum;
-    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[Count * k + quantity];
-    return sum.value() * unit;
+    return FixedPoint::of(sums + quantity, Count).value() * unit;
   }
 };
 
@@ -172,18 +176,13 @@ class ExactSum {
   /// @param unit  a power of two near the terms
   explicit ExactSum(Real unit) : unit_(unit) {}
   void add(Real value) {
-    bool const holds = FixedPoint::holds(value / unit_);
-    FixedPoint const term = FixedPoint::from(holds ? value / unit_ : 0);
-    for (int k = 0; k < FixedPoint::words; ++k) words_[k] += term.word[k];
-    words_[FixedPoint::words] += holds ? 0 : 1;
+    if (!FixedPoint::add(value / unit_, words_)) ++words_[FixedPoint::words];
   }
   /// @throws SumOutOfRange on all ranks
   Real over(SumOverRanks const& ranks) {
     if (ranks) ranks(words_, FixedPoint::words + 1);
     require_in_range("a sum", words_[FixedPoint::words]);
-    FixedPoint sum;
-    for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = words_[k];
-    return sum.value() * unit_;
+    return FixedPoint::of(words_).value() * unit_;
   }
 
  private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "kernels/light_launch.hpp"
+
 namespace clathra {
 
 namespace {
@@ -191,7 +193,8 @@ void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
   int const share = std::max(1, (groups + ExecutionSpace().concurrency() - 1) / ExecutionSpace().concurrency());
   // Made in place: small specimens feel each copy of all these fields.
   auto const run = [&]<class Kernel>(std::type_identity<Kernel>) {
-    Kokkos::parallel_reduce("kick_and_drift", Kokkos::RangePolicy<ExecutionSpace>(0, (groups + share - 1) / share),
+    static_assert(sizeof(ByShares<Kernel>) <= most_bytes_of_a_light_kernel);
+    Kokkos::parallel_reduce("kick_and_drift", light_launch((groups + share - 1) / share),
                             ByShares<Kernel>{{{particles, law, dt, steps.state, losses.damping, faults}}, groups, share},
                             steps.displacement);
   };

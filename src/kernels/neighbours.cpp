@@ -255,7 +255,7 @@ SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& rea
                          CountNeighbours{search, lists.found, found.length, faults});
     Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, slices + 1),
                           ScanSlices{found.length, found.slice_start, sizes, particles.owned, slices, format.slice_width()});
-    auto const read = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sizes);
+    auto const read = host_copy(sizes);
     needed = {read(blocks_of_rows), static_cast<int>(read(discs_near_walls))};
     require_countable(needed.blocks * format.slice_width(), particles.all());
     std::size_t const entries = static_cast<std::size_t>(needed.blocks) * slice_width,

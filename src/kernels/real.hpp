@@ -6,6 +6,8 @@
 #include <Kokkos_Core.hpp>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kernels/precision.hpp"
 
@@ -49,6 +51,18 @@ inline constexpr Real pi = 3.14159265358979323846;
 template <class T>
 Field<T> uninitialised(char const* label, std::size_t size) {
   return Field<T>(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), size);
+}
+
+/// A view as the host may read it: itself where that is so, else a copy.
+template <class View>
+auto host_copy(View const& view) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+}
+/// The first numbers of a field.
+template <class T>
+std::vector<T> on_host(Field<T> const& field, std::size_t size) {
+  auto const host = host_copy(Kokkos::subview(field, std::pair<std::size_t, std::size_t>(0, size)));
+  return {host.data(), host.data() + size};
 }
 
 }  // namespace clathra

@@ -53,11 +53,7 @@ struct SurveyDiscs {
   }
 
   KOKKOS_INLINE_FUNCTION void add(Real speed, std::int64_t* sums) const {
-    Real value = lane_min(speed, Real(1e6)) * per_unit;
-    bool const holds = FixedPoint::holds(value);
-    if (!holds) value = 0;
-    for (int k = 0; k < FixedPoint::words; ++k) sums[Survey::speed_digits + k] += FixedPoint::take_digit(value);
-    sums[Survey::speeds_out_of_range] += holds ? 0 : 1;
+    if (!FixedPoint::add(lane_min(speed, Real(1e6)) * per_unit, sums + Survey::speed_digits)) ++sums[Survey::speeds_out_of_range];
     sums[Survey::discs] += 1;
   }
 
@@ -104,9 +100,7 @@ struct SurveyDiscs {
 
 Real Survey::mean_of_speeds(SumUnits const& unit) const {
   require_in_range("speeds of discs", sums[speeds_out_of_range]);
-  FixedPoint sum;
-  for (int k = 0; k < FixedPoint::words; ++k) sum.word[k] = sums[speed_digits + k];
-  Real const speeds = sum.value() * unit.speed();
+  Real const speeds = FixedPoint::of(sums + speed_digits).value() * unit.speed();
   return lane_max(speeds / lane_max(static_cast<Real>(sums[discs]), Real(1)), Real(1e-300));
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernels/light_launch.hpp"
+
 namespace clathra {
 
 namespace {
@@ -190,12 +192,12 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
                      EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps) {
   WallForces const forces{particles, contacts, steps.state, law.as_grain(), dt, losses, faults};
-  Kokkos::parallel_reduce("wall_forces", Kokkos::RangePolicy<ExecutionSpace>(0, contacts.size), EndOfStep(forces, unit),
-                          steps.reactions);
+  static_assert(sizeof(EndOfStep) <= most_bytes_of_a_light_kernel);
+  Kokkos::parallel_reduce("wall_forces", light_launch(contacts.size), EndOfStep(forces, unit), steps.reactions);
 }
 
 WallReactions wall_reactions(DeviceSteps const& steps, Summation const& summation) {
-  auto const here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), steps.reactions);
+  auto const here = host_copy(steps.reactions);
   SumWord words[ReactionSums::words];
   std::copy(here.data(), here.data() + ReactionSums::words, words);
   ReactionSums::add_other_ranks(words, summation.over_ranks);

@@ -15,7 +15,7 @@ struct Asked {
 /// For steps at once without a search and without a look for faults.
 Asked for_steps(Precision precision, int steps) {
   Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
-  sim.loading.x = sim.loading.y = AxisDrive::held();
+  sim.loading().x = sim.loading().y = AxisDrive::held();
   sim.set_skin(0.3 * grain_d50);
   sim.step();
   std::int64_t const searches = sim.rebuilds();

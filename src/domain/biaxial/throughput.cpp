@@ -117,7 +117,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
   prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
   RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
-  simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
+  simulation.loading().y = AxisDrive::at_rate(rate.strain_rate);
   simulation.add_uniform_strain_rate(-0.25 * rate.strain_rate, rate.strain_rate);
   if (breaking) {
     // Faster to where bonds break, but platens no faster than those of a small specimen, or large ones burst; then a while for
@@ -125,10 +125,10 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
     constexpr double strain = 0.05, rate_factor_of_small = 10, calming_of_small = 500, small = 20000;
     double const length = std::sqrt(std::max(1.0, simulation.discs() / small)),
                  rate_factor = std::max(1.0, rate_factor_of_small / length);
-    simulation.loading.y = AxisDrive::at_rate(rate_factor * rate.strain_rate);
+    simulation.loading().y = AxisDrive::at_rate(rate_factor * rate.strain_rate);
     auto const steps = static_cast<int>(strain / (rate_factor * rate.strain_rate * simulation.time_step));
     simulation.step(steps);
-    simulation.loading.y = AxisDrive::at_rate(rate.strain_rate);
+    simulation.loading().y = AxisDrive::at_rate(rate.strain_rate);
     simulation.step(static_cast<std::int64_t>(std::ceil(calming_of_small * length)));
   }
   return simulation;

@@ -38,7 +38,7 @@ void close_homogeneously(Simulation& simulation, double rate, double present_rat
     simulation.stretch_cell(rate);
     return;
   }
-  simulation.loading.x = simulation.loading.y = AxisDrive::at_rate(rate);
+  simulation.loading().x = simulation.loading().y = AxisDrive::at_rate(rate);
   simulation.add_uniform_strain_rate(rate - present_rate, rate - present_rate);
 }
 
@@ -112,10 +112,10 @@ void prepare_servo(Simulation& simulation, double stress, double inertial_number
   if (simulation.periodic()) return;
   Walls const& walls = simulation.walls();
   double const rate = strain_rate_of(inertial_number, stress, simulation.moving_density(), d50);
-  simulation.loading.servo.contact_stiffness = simulation.laws().wall.normal_stiffness;
-  simulation.loading.servo.integral_time = 0.25 * std::max(walls.width(), walls.height()) / wave_speed(simulation);
-  simulation.loading.x = AxisDrive::at_stress(stress, 0.5 * rate * walls.width());
-  simulation.loading.y = AxisDrive::at_stress(stress, 0.5 * rate * walls.height());
+  simulation.loading().servo.contact_stiffness = simulation.laws().wall.normal_stiffness;
+  simulation.loading().servo.integral_time = 0.25 * std::max(walls.width(), walls.height()) / wave_speed(simulation);
+  simulation.loading().x = AxisDrive::at_stress(stress, 0.5 * rate * walls.width());
+  simulation.loading().y = AxisDrive::at_stress(stress, 0.5 * rate * walls.height());
 }
 
 bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
@@ -142,13 +142,13 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
 double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,
                               CompressionTarget const& target, ProgressCallback const& progress) {
   prepare_servo(simulation, target.stress, target.inertial_number, target.d50, StepChoice{});
-  AxisDrive const servo_x = simulation.loading.x, servo_y = simulation.loading.y;
+  AxisDrive const servo_x = simulation.loading().x, servo_y = simulation.loading().y;
   double const lowest = compress_until_void_ratio(simulation, scene, friction, target, progress);
   // With the full friction back the assembly creeps no further.
   friction.share = 1;
   simulation.set_laws(generation_laws(scene, friction));
-  simulation.loading.x = servo_x;
-  simulation.loading.y = servo_y;
+  simulation.loading().x = servo_x;
+  simulation.loading().y = servo_y;
   hold_stress(simulation, target.stress, 1e-3, 200000, progress, "generate");
   if (simulation.void_ratio() < target.void_ratio - target.void_tolerance) {
     throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains pack to a void ratio of " +

@@ -88,11 +88,11 @@ SimulationLaws loose_laws(SimulationLaws laws, double stress, Grading const& gra
 void compact(Simulation& simulation, StepChoice const& step, double void_ratio, double stress, double speed,
              Progress const& stage, ProgressCallback const& progress) {
   simulation.choose_time_step(step);
-  simulation.loading.x = AxisDrive::held();
+  simulation.loading().x = AxisDrive::held();
   double mean_stress = 0;  // over the last steps: single blows of flying discs are no stress
   while (simulation.void_ratio() > void_ratio && mean_stress < 20 * stress) {
     double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.03, 1.0);
-    simulation.loading.y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
+    simulation.loading().y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
     constexpr int interval = 200;
     mean_stress = 0;
     for (int n = 0; n < interval && simulation.void_ratio() > void_ratio; ++n) {

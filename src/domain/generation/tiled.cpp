@@ -165,7 +165,7 @@ PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, Pr
   // The cell's equilibrium is kept inside; the walls close the cut discs' gaps at a speed whose wave stays below the stress.
   prepare_servo(simulation, scene.bond.stress, 1e-3, d50, StepChoice{});
   double const quiet = 0.5 * scene.bond.stress / (simulation.density() / (1 + design.void_ratio) * wave_speed(simulation));
-  simulation.loading.x.largest_speed = simulation.loading.y.largest_speed = quiet;
+  simulation.loading().x.largest_speed = simulation.loading().y.largest_speed = quiet;
   constexpr int interval = 100;
   static_assert(relaxation_steps % interval == 0);
   for (int n = interval; n <= relaxation_steps; n += interval) {

@@ -12,15 +12,10 @@ namespace clathra {
 
 namespace {
 
-template <class T>
-auto on_host(Field<T> const& field) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace{}, field);
-}
-
 /// The first `size` values of a field, converted.
 template <class To, class From>
 std::vector<To> listed(Field<From> const& field, std::size_t size) {
-  auto const host = on_host(field);
+  auto const host = host_copy(field);
   std::vector<To> values(size);
   for (std::size_t i = 0; i < size; ++i) values[i] = static_cast<To>(host(i));
   return values;
@@ -28,7 +23,7 @@ std::vector<To> listed(Field<From> const& field, std::size_t size) {
 
 template <class To>
 std::vector<To> listed(RealField const& field, std::size_t size) {
-  std::vector<double> const host = clathra::on_host(field, size);
+  std::vector<double> const host = on_host(field, size);
   std::vector<To> values(size);
   for (std::size_t i = 0; i < size; ++i) values[i] = static_cast<To>(host[i]);
   return values;

@@ -103,8 +103,8 @@ Decomposition::Decomposition(std::vector<Cut> cuts) : cuts_(std::move(cuts)) {}
 Decomposition Decomposition::bisect(Ranks const& ranks, ParticleSoA const& particles, std::int64_t weight) {
   if (ranks.count() == 1) return {};
   auto const n = static_cast<std::size_t>(particles.owned);
-  auto const host_x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles.x);
-  auto const host_y = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles.y);
+  auto const host_x = host_copy(particles.x);
+  auto const host_y = host_copy(particles.y);
   return bisect(ranks, {host_x.data(), host_x.data() + n}, {host_y.data(), host_y.data() + n}, weight);
 }
 

@@ -115,12 +115,6 @@ Field<T> on_device(char const* label, std::vector<T> const& values) {
   return field;
 }
 
-template <class T>
-std::vector<T> on_host(Field<T> const& field) {
-  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
-  return {host.data(), host.data() + host.extent(0)};
-}
-
 std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) { return {begin.begin(), begin.end()}; }
 
 }  // namespace
@@ -147,7 +141,7 @@ DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxi
   Kokkos::parallel_for("row_lengths", each, RowLengths{indices, length, rows.length});
   DiscRecords records;
   records.begin.reserve(which.size() + 1);
-  for (int const entries : on_host(length)) {
+  for (int const entries : on_host(length, length.extent(0))) {
     records.begin.push_back(records.begin.back() + static_cast<std::size_t>(state + others + 1 + entries * entry));
   }
   records.numbers.resize(records.begin.back());

@@ -110,7 +110,7 @@ void Halo::list_sent(Ranks const& ranks, Decomposition const& decomposition, Par
     for (std::size_t n = 0; n < near.size(); ++n)
       Kokkos::parallel_scan("list_near", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned + 1),
                             ListNear{particles, decomposition.rectangle(near[n]), reach, source_, listed_, static_cast<int>(n)});
-    auto const end = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), listed_);
+    auto const end = host_copy(listed_);
     std::int64_t begin = 0;
     for (std::size_t n = 0; n < near.size(); begin = end(n++))
       sizes[static_cast<std::size_t>(near[n])] = static_cast<std::size_t>(end(n) - begin);

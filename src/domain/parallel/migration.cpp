@@ -34,14 +34,6 @@ struct NumberArrivals {
   KOKKOS_FUNCTION void operator()(int k) const { slot(first + k) = first_slot + k; }
 };
 
-/// The first numbers of a field on the host.
-std::vector<int> on_host(Field<int> const& field, std::size_t size) {
-  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(),
-                                                        Kokkos::subview(field, std::pair<std::size_t, std::size_t>(0, size)));
-  return {host.data(), host.data() + size};
-}
-
-/// Drops the discs that left: their rows stay in `old`, where no slot names them any more.
 void keep_only(Field<int> const& staying, ParticleSoA& particles, AuxiliaryFields const& auxiliary, Field<int>& slot,
                Scratch& scratch) {
   permute(particles, staying, scratch);

@@ -9,11 +9,6 @@ namespace clathra {
 
 namespace {
 
-template <class T>
-auto download(Field<T> const& field) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
-}
-
 std::string name_of_count(int mode) { return "broken_" + std::to_string(mode); }
 
 }  // namespace
@@ -46,17 +41,17 @@ void BrokenBonds::collect() {
     events_.details.resize(events_.rows.size());  // of those before there are none
   }
   if (!has_log()) return;
-  auto const by_mode = download(log_.by_mode);
+  auto const by_mode = host_copy(log_.by_mode);
   for (std::size_t mode = 0; mode < break_mode_count; ++mode) counts_.number[mode] += by_mode(mode);
   Kokkos::deep_copy(log_.by_mode, 0);
-  int const count = download(log_.count)(0);
+  int const count = host_copy(log_.count)(0);
   if (count == 0) return;
-  auto const step = download(log_.step);
-  auto const id_a = download(log_.id_a), id_b = download(log_.id_b);
-  auto const mode = download(log_.mode);
-  auto const x = download(log_.x), y = download(log_.y);
-  auto const details = download(log_.details);
-  auto const height = download(log_.height);
+  auto const step = host_copy(log_.step);
+  auto const id_a = host_copy(log_.id_a), id_b = host_copy(log_.id_b);
+  auto const mode = host_copy(log_.mode);
+  auto const x = host_copy(log_.x), y = host_copy(log_.y);
+  auto const details = host_copy(log_.details);
+  auto const height = host_copy(log_.height);
   for (int k = 0; k < count; ++k) events_.rows.push_back({step(k), id_a(k), id_b(k), mode(k), x(k), y(k)});
   for (int k = 0; detailed() && k < count; ++k) {
     events_.details.push_back(details(k));

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
-template <class T>
-std::vector<T> on_host(Field<T> const& field, int count) {
-  auto const mirror = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
-  return {mirror.data(), mirror.data() + count};
-}
-
 template <class... Numbers>
 std::string text_of(char const* format, Numbers... numbers) {
   char text[320];
@@ -63,9 +57,9 @@ Deepest deepest_contact(Simulation const& simulation, Discs const& discs, int i)
     if (overlap / smaller > deepest.share) deepest = {overlap / smaller, other};
   };
   ContactRows const& rows = simulation.rows();
-  auto const start = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.slice_start);
-  auto const length = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.length);
-  auto const neighbour = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.neighbour);
+  auto const start = host_copy(rows.slice_start);
+  auto const length = host_copy(rows.length);
+  auto const neighbour = host_copy(rows.neighbour);
   auto const a = static_cast<std::size_t>(i);
   for (int k = 0; k < length(a); ++k) {
     auto const b = static_cast<std::size_t>(neighbour(entry_in(start, rows.features.format, i, k)));

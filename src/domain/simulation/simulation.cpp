@@ -180,7 +180,7 @@ BreakEvents Simulation::detailed_break_events(int first) const {
 }
 
 void Simulation::throw_if_unstable() const {
-  auto const here = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), faults_.disc);
+  auto const here = host_copy(faults_.disc);
   double disc[fault_count];
   for (int fault = 0; fault < fault_count; ++fault) disc[fault] = here(fault);
   ranks_.max(disc, fault_count);

@@ -93,7 +93,8 @@ class Simulation {
 
   // Settings that may change between steps.
   Real time_step = 0;  ///< dt of the next step [s]; where none has been chosen below it stays as it is set
-  Loading loading;
+  Loading& loading() { return now_.loading; }
+  Loading const& loading() const { return now_.loading; }
   /// Chooses the time step from the springs to come and from then on follows the limit of stability (step_choice.hpp): renewed
   /// after each neighbour search, whenever a disc has strayed as far as the bound allows for, and every 1000 steps.
   void choose_time_step(StepChoice const& choice);
@@ -186,7 +187,6 @@ class Simulation {
   int steps_at_once(std::int64_t most) const;
   void advance(int steps);
   void hand_over(bool host_goes_along);
-  void take_back();
   void move_discs(int ahead);
   void push_discs(int ahead);
   void end_move();

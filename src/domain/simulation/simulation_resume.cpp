@@ -62,11 +62,11 @@ void Simulation::for_each_number(Visit&& visit) {
     visit(name + "_shear", now_.reactions.shear[wall]);
     visit(name + "_contacts", now_.reactions.contacts[wall]);
   }
-  visit_drive("drive_x", loading.x, visit);
-  visit_drive("drive_y", loading.y, visit);
-  visit("servo_gain", loading.servo.gain);
-  visit("servo_integral_time", loading.servo.integral_time);
-  visit("servo_contact_stiffness", loading.servo.contact_stiffness);
+  visit_drive("drive_x", now_.loading.x, visit);
+  visit_drive("drive_y", now_.loading.y, visit);
+  visit("servo_gain", now_.loading.servo.gain);
+  visit("servo_integral_time", now_.loading.servo.integral_time);
+  visit("servo_contact_stiffness", now_.loading.servo.contact_stiffness);
   for_each_later_number(visit);
 }
 
@@ -153,7 +153,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   make_room_for_breaks();
   Field<std::int64_t> const number = scratch_.take<std::int64_t>("near_walls", 1);
   Field<int> const near_walls = list_near_walls(particles_, now_.box.walls, number, scratch_);
-  auto const size = static_cast<int>(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), number)(0));
+  auto const size = static_cast<int>(host_copy(number)(0));
   wall_contacts_ = make_wall_contacts(near_walls, size, laws_.wall.friction > 0, wall_shear, scratch_);
   broken_bonds_.read(state, ranks_);
 }
@@ -185,10 +185,10 @@ std::vector<double> Simulation::records_of_own_discs(DiscRecords discs) {
 
 /// Replaces the neighbours' ids in the rows by the indices of discs and ghosts.
 void Simulation::find_listed_neighbours() {
-  auto const id = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles_.id);
-  auto const length = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.length);
-  auto const slice_start = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.slice_start);
-  auto const listed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows_.neighbour);
+  auto const id = host_copy(particles_.id);
+  auto const length = host_copy(rows_.length);
+  auto const slice_start = host_copy(rows_.slice_start);
+  auto const listed = host_copy(rows_.neighbour);
   std::vector<int> index(listed.extent(0), particles_.padding());
   IdIndex const places(id, particles_.all());
   bool lost = false;

@@ -25,15 +25,10 @@ void upload(Field<T> const& field, std::vector<Number> const& values) {
 
 void upload(RealField const& field, std::vector<double> const& values) { set_from_host(field, values); }
 
-template <class T>
-auto download(Field<T> const& field) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
-}
-
 std::vector<double> numbers_on_host(RealField const& field, std::size_t size) { return on_host(field, size); }
 template <class T>
 std::vector<double> numbers_on_host(Field<T> const& field, std::size_t size) {
-  auto const host = download(field);
+  auto const host = host_copy(field);
   return {host.data(), host.data() + size};
 }
 
@@ -215,8 +210,8 @@ void Simulation::upload_discs(Specimen const& s) {
 
 /// Writes the history of the specimen's contacts into the rows, on both sides.
 void Simulation::restore_history(Specimen const& s) {
-  auto const id = download(particles_.id), slice_start = download(rows_.slice_start), neighbour = download(rows_.neighbour);
-  auto const length = download(rows_.length);
+  auto const id = host_copy(particles_.id), slice_start = host_copy(rows_.slice_start), neighbour = host_copy(rows_.neighbour);
+  auto const length = host_copy(rows_.length);
   IdIndex const at(id, particles_.owned);
   HistoryOnHost history(rows_);
   auto const write = [&](SpecimenContact const& c) {
@@ -252,7 +247,7 @@ Specimen Simulation::specimen() const {
   s.separate_bonds = laws_.contact.bond_kind == BondKind::parallel;
   s.critical_thickness = laws_.contact.bond_kind == BondKind::none ? 0 : critical_thickness_;
   auto const n = static_cast<std::size_t>(particles_.owned);
-  IdIndex const places(download(particles_.id), particles_.owned);
+  IdIndex const places(host_copy(particles_.id), particles_.owned);
   for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
   for_each_column_of_specimen(particles_, [&](auto const& field, ParticleColumn const& column) {
     std::vector<double> const host = numbers_on_host(field, n);
@@ -266,8 +261,8 @@ Specimen Simulation::specimen() const {
 
 /// The pairs with history, sorted by (id_a, id_b).
 std::vector<SpecimenContact> Simulation::contacts_by_id() const {
-  auto const id = download(particles_.id), slice_start = download(rows_.slice_start), neighbour = download(rows_.neighbour);
-  auto const length = download(rows_.length);
+  auto const id = host_copy(particles_.id), slice_start = host_copy(rows_.slice_start), neighbour = host_copy(rows_.neighbour);
+  auto const length = host_copy(rows_.length);
   HistoryOnHost const history(rows_);
   std::vector<SpecimenContact> contacts;
   for (int i = 0; i < particles_.owned; ++i) {

@@ -50,7 +50,7 @@ void Simulation::advance(int steps) {
     move_discs(n);
     if (!along) push_discs(n);
   }
-  take_back();
+  now_ = steps_.get();
   busy_seconds_ += moving.seconds();
   following_.last = time_step;
   if (following_.on) {
@@ -66,7 +66,6 @@ void Simulation::advance(int steps) {
 
 /// The state of the steps to the device, with what has been set since it came from there.
 void Simulation::hand_over(bool host_goes_along) {
-  now_.loading = loading;
   now_.orders.dt = time_step;
   now_.orders.least_skin = skin_range(false).least;
   now_.orders.reach = reach_in_skins();
@@ -77,11 +76,6 @@ void Simulation::hand_over(bool host_goes_along) {
   now_.out_of_range = 0;
   now_.begin_step();
   steps_.set(now_);
-}
-
-void Simulation::take_back() {
-  now_ = steps_.get();
-  loading = now_.loading;
 }
 
 /// Kick and drift. @param ahead  steps that were asked for since the last wait
@@ -125,13 +119,12 @@ void Simulation::end_step() {
   Kokkos::fence();
   busy_seconds_ += pushing.seconds();
   if (!along) {
-    take_back();
+    now_ = steps_.get();
   } else if (periodic()) {
     now_.end_step();
   } else {
     now_.end_step(in_range([&] { return wall_reactions(steps_, sums_); }));
   }
-  loading = now_.loading;
 }
 
 /// Whether two discs whose gap was wider than a share of both their skins, where a mark stands, could touch: the largest
