@@ -20,7 +20,7 @@ class Summary {
   /// Those of record_of(), the bonds broken by mode; sigma3_held (part of the records with sigma3 within 1 %), stress_mismatch
   /// (largest difference of wall and contact q over p); energy_residual (part of the boundary work) where there is a ledger.
   StageRecord numbers() const;
-  /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work, sigma3 within 2 % in under
+  /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work, sigma3 within 1 % in under
   /// 90 % of the records).
   std::vector<std::string> warnings() const;
   /// A few lines for the screen.
@@ -37,7 +37,7 @@ class Summary {
   EnergyRow energy_;
   bool has_energy_ = false;
   double mismatch_ = 0;
-  int count_ = 0, closely_held_ = 0, held_ = 0;  // records
+  int count_ = 0, held_ = 0;  // records; those with sigma3 within 1 %
 };
 
 }  // namespace clathra

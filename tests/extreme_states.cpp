@@ -217,8 +217,11 @@ TEST(ExtremeStates, LongARestingBondedSpecimenKeepsItsForcesOverTenMillionSteps)
   Simulation sim = bonded(0.55, Composite::parallel);
   sim.choose_time_step({});
   int const until_rest = tested_precision() == Precision::full ? 2000000 : 200000;  // in ticks rest is reached soon
-  for (int n = 0; n < until_rest && sim.measures().unbalanced_ratio(sim.discs()) > 1e-10; n += 1000)
-    for (int k = 0; k < 1000; ++k) sim.step();
+  for (int round = 0; round < 2; ++round) {
+    for (int n = 0; n < until_rest && sim.measures().unbalanced_ratio(sim.discs()) > 1e-10; n += 1000)
+      for (int k = 0; k < 1000; ++k) sim.step();
+    sim.stop_discs();  // a disc that flies between others without a force would hit them later
+  }
   expect_row("a resting bonded specimen", "unbalanced ratio before", sim.measures().unbalanced_ratio(sim.discs()), 0,
              within(1e-9, 1e-3));  // at 50 kPa 15 pm are 5e-4 of the mean overlap
   std::vector<double> const before = shear_forces(sim);

@@ -45,6 +45,49 @@ TEST(ServoWall, ThatMustMoveAtAConstantRateKeepsTheStress) {
   EXPECT_EQ(sim.broken_bonds(), 0);
 }
 
+/// Largest error of both stresses over so many steps, relatively.
+double worst_error(Simulation& sim, double stress, int steps) {
+  double worst = 0;
+  for (int n = 0; n < steps; ++n) {
+    sim.step();
+    worst = std::max({worst, std::abs(sim.stress().x / stress - 1), std::abs(sim.stress().y / stress - 1)});
+  }
+  return worst;
+}
+
+TEST(ServoWall, ThatIsToldAnotherStressReachesItWithoutRinging) {
+  double const before = 1e6, stress = 1.02e6;
+  Simulation sim = elastic_block(before, 0.3);
+  sim.loading().x.target_stress = sim.loading().y.target_stress = stress;
+  sim.loading().x.largest_speed = sim.loading().y.largest_speed = 1;
+  EXPECT_LT(worst_error(sim, stress, 100), 0.02);  // no more than it was when it was told
+  EXPECT_LT(worst_error(sim, stress, 400), 2e-3);
+  EXPECT_LT(worst_error(sim, stress, 400), 2e-4);
+}
+
+TEST(ServoWall, IsStableWithoutAnyDamping) {
+  double const stress = 1e6;
+  Simulation sim = elastic_block(stress, 0.3);
+  SimulationLaws laws = sim.laws();
+  laws.motion.damping = 0;
+  sim.set_laws(laws);
+  sim.loading().x.target_stress = sim.loading().y.target_stress = 1.001 * stress;
+  (void)worst_error(sim, 1.001 * stress, 2000);
+  double const early = worst_error(sim, 1.001 * stress, 2000), late = worst_error(sim, 1.001 * stress, 20000);
+  EXPECT_LT(early, within(2e-5, 2e-4));
+  EXPECT_LT(late, within(early, 2e-4));
+}
+
+TEST(ServoWall, IsStableOnTwoDiscs) {
+  Specimen s = hexagonal_patch(2, 1);
+  enclose(s);
+  SimulationLaws laws = sand_laws();
+  Simulation sim(s, laws, 0.1 * grain_d50);
+  prepare_servo(sim, 1e5, 1e-3, grain_d50, {});
+  for (int n = 0; n < 500; ++n) sim.step();
+  EXPECT_LT(worst_error(sim, 1e5, 5000), within(1e-9, 1e-3));
+}
+
 TEST(ServoWall, NeverMovesFasterThanItsCap) {
   Specimen s = hexagonal_patch(6, 6);
   enclose(s, grain_radius);  // out of touch: all error, no contact

@@ -47,6 +47,7 @@ struct ContactFeatures {
 };
 
 /// The place of entry k of a disc's row among all entries.
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class SliceStart>
 KOKKOS_INLINE_FUNCTION std::size_t entry_in(SliceStart const& slice_start, HistoryFormat const& format, int disc, int k) {
   int const shift = format.slice_shift();

@@ -24,11 +24,15 @@ KOKKOS_INLINE_FUNCTION WallStress wall_stress(Walls const& walls, WallReactions 
 /// that takes over the speed at which the wall must go on moving (a proportional servo alone keeps an error proportional to that
 /// speed).
 struct ServoLaw {
-  Real gain =
-      0.4;  ///< alpha_s: share of the stress error that one step would remove against the wall's own contacts; < 1 is stable
-  Real integral_time = 1e-4;  ///< [s]; a quarter of the transit time of a compression wave: with 0.1 and a whole transit 15 % of
-                              ///< the records of a softening 2,000-disc specimen left 1 % of sigma_3, with these none
+  Real gain = 0.8;  ///< alpha_s: share of the stress error that one step would remove against the wall's own contacts; from 2 on
+                    ///< it is unstable
+  Real integral_time = 1e-4;     ///< [s], far below the transit time of a compression wave (prepare_servo()); counts as
+                                 ///< least_integral_steps steps where it is shorter
   Real contact_stiffness = 3e8;  ///< k_n of wall contacts
+
+  static constexpr Real least_integral_steps = 4;  ///< gain (1 + 1/4) stays below 2, however few discs a wave has to pass
+  /// What the integral gains in a step, as a share of the proportional part.
+  KOKKOS_INLINE_FUNCTION Real integral_share(Real dt) const { return dt / lane_max(integral_time, least_integral_steps * dt); }
 };
 
 /// One pair of opposite walls. Closing (compression) is positive.
@@ -56,7 +60,7 @@ struct AxisDrive {
     Real const wanted = integral + proportional * error;
     // The integral rests while the wall already moves at its cap in that direction.
     if ((wanted < largest_speed || error < 0) && (wanted > -largest_speed || error > 0)) {
-      integral = capped(integral + proportional * error * dt / servo.integral_time);
+      integral = capped(integral + proportional * error * servo.integral_share(dt));
     }
     return capped(integral + proportional * error);
   }
