@@ -204,6 +204,21 @@ def many(tests, _):
     return markdown(["setting", "I"] + [f"{QUANTITIES[q][0]} [{u}]" for q, u in zip(BEFORE, units)] + ["peak q within 2 %?", "steps saved", "seeds"], rows)
 
 
+LARGE_REFERENCE = ("discs+dt_safety", "20000+0.475", 5e-5)
+
+
+def large(tests, _):
+    """20,000 discs, against a reference of half the step."""
+    rows = []
+    for setting in [s for s in tests.settings(BONDED) if s[1].split("+")[0] == "20000" and s != LARGE_REFERENCE]:
+        found = tests.change(BONDED, setting, "peak_q_Pa", LARGE_REFERENCE)
+        cells = [with_interval(tests.change(BONDED, setting, q, LARGE_REFERENCE)) for q in BEFORE]
+        rows.append(["inertia x 3, `standard`" if "inertia" in setting[0] else "true masses", f"{setting[2]:g}"] + cells +
+                    [verdict(found, 2), str(found[2])])
+    units = ["points" if QUANTITIES[q][3] == "points" else "%" for q in BEFORE]
+    return markdown(["setting", "I"] + [f"{QUANTITIES[q][0]} [{u}]" for q, u in zip(BEFORE, units)] + ["peak q within 2 %?", "seeds"], rows)
+
+
 def by_seeds(tests, saturation, setting, seeds):
     return {k: r for k, r in tests.pick(saturation, setting).items() if r["seed"] in seeds}
 
@@ -259,7 +274,7 @@ def costs(tests, cost):
 TABLES = {"reference": references, "cost": costs, "sand": trade(SAND), "bonded": trade(BONDED), "many": many, "after": after,
           "precision": option_at_equal_rate("precision"), "step": option_at_equal_rate("dt_safety"), "skin": option_at_equal_rate("skin"),
           "masses": option_at_equal_rate("inertia"), "damping": option_at_equal_rate("damping"), "energy": energy, "waves": waves,
-          "angles": angles, "stiffness": stiffness, "repeated": repeated}
+          "angles": angles, "stiffness": stiffness, "repeated": repeated, "large": large}
 
 
 def put(page, mark, table, maker="table.py"):

@@ -76,6 +76,7 @@ KOKKOS_FORCEINLINE_FUNCTION double select(bool mask, double yes, double no) { re
 KOKKOS_FORCEINLINE_FUNCTION float select(bool mask, float yes, float no) { return mask ? yes : no; }
 KOKKOS_FORCEINLINE_FUNCTION bool any(bool mask) { return mask; }
 /// Calls visit(l) for each lane l of the mask that is set, in order.
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Visit>
 KOKKOS_FORCEINLINE_FUNCTION void for_each_set(bool mask, Visit const& visit) {
   if (mask) visit(0);

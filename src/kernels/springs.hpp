@@ -89,6 +89,7 @@ KOKKOS_FORCEINLINE_FUNCTION Spring<L> wall_spring(SpringNetwork const& net, int 
 
 /// Calls visit(Spring, the other disc) for each of a disc's contacts and bonds, and then visit(Spring, -1) for each wall that it
 /// touches.
+CLATHRA_OF_THE_CALLERS_SIDE
 template <class Visit>
 KOKKOS_INLINE_FUNCTION void for_each_spring(SpringNetwork const& net, int i, SpringSet const& set, Visit const& visit) {
   ParticleSoA const& p = net.particles;

@@ -25,7 +25,7 @@ double number_of(std::int64_t order) {
 /// One group of discs.
 struct SurveyDiscs {
   using value_type = std::int64_t[];
-  static constexpr int value_number = Survey::sum_count + Survey::largest_count;
+  static constexpr int value_number = int{Survey::sum_count} + int{Survey::largest_count};
   unsigned value_count = value_number;
   ParticleSoA p;
   ContactRows rows;
