@@ -88,6 +88,23 @@ TEST(ServoWall, IsStableOnTwoDiscs) {
   EXPECT_LT(worst_error(sim, 1e5, 5000), within(1e-9, 1e-3));
 }
 
+TEST(ServoWall, ClosesAtItsIntegralAndAShareOfTheError) {
+  ServoLaw law;
+  double const target = 1e6, error = 2e4, length = 0.01, dt = 1e-7;
+  int const contacts = 40;
+  double const proportional = law.gain * length / (law.contact_stiffness * contacts * dt) * error;
+  for (double const steps : {1000.0, 4.0, 1.0, 0.0}) {  // of the integral time: it counts as four at least
+    law.integral_time = steps * dt;
+    AxisDrive drive = AxisDrive::at_stress(target, 1e3);
+    double const gained = proportional / std::max(steps, 4.0);
+    double const tolerance = 1e-12 * proportional;
+    EXPECT_NEAR(drive.closing_speed(law, target - error, length, length, contacts, dt), proportional + gained, tolerance);
+    EXPECT_NEAR(drive.integral, gained, tolerance) << steps;
+    EXPECT_NEAR(drive.closing_speed(law, target + error, length, length, contacts, dt), -proportional, tolerance);
+    EXPECT_NEAR(drive.integral, 0, tolerance) << steps;
+  }
+}
+
 TEST(ServoWall, NeverMovesFasterThanItsCap) {
   Specimen s = hexagonal_patch(6, 6);
   enclose(s, grain_radius);  // out of touch: all error, no contact
