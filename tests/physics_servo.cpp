@@ -78,16 +78,6 @@ TEST(ServoWall, IsStableWithoutAnyDamping) {
   EXPECT_LT(late, within(early, 2e-4));
 }
 
-TEST(ServoWall, IsStableOnTwoDiscs) {
-  Specimen s = hexagonal_patch(2, 1);
-  enclose(s);
-  SimulationLaws laws = sand_laws();
-  Simulation sim(s, laws, 0.1 * grain_d50);
-  prepare_servo(sim, 1e5, 1e-3, grain_d50, {});
-  for (int n = 0; n < 500; ++n) sim.step();
-  EXPECT_LT(worst_error(sim, 1e5, 5000), within(1e-9, 1e-3));
-}
-
 TEST(ServoWall, ClosesAtItsIntegralAndAShareOfTheError) {
   ServoLaw law;
   double const target = 1e6, error = 2e4, length = 0.01, dt = 1e-7;

@@ -20,6 +20,7 @@ FACTORS = {"base": "base", "precision": "precision", "dt_safety": "dt_safety", "
            "kn_Pa": "k_n [Pa]"}
 PLAIN, CHAOS = ("base", "", 2e-4), ("skin_m", "1.3552e-05", 2e-4)  # tests that differ by rounding only
 BEFORE = [q for q, about in QUANTITIES.items() if about[4] == "peak"]
+BEFORE_HEADINGS = [f"{QUANTITIES[q][0]} [{'points' if QUANTITIES[q][3] == 'points' else '%'}]" for q in BEFORE]
 AFTER = [q for q, about in QUANTITIES.items() if about[4] == "end"]
 
 
@@ -200,8 +201,7 @@ def many(tests, _):
             continue
         cells = [with_interval(tests.change(BONDED, setting, q, BASE), 2) for q in BEFORE]
         rows.append([name_of(setting), f"{setting[2]:g}"] + cells + [verdict(found, 2), f"{1 / tests.steps_over(BONDED, setting, BASE):.1f}", str(found[2])])
-    units = ["points" if QUANTITIES[q][3] == "points" else "%" for q in BEFORE]
-    return markdown(["setting", "I"] + [f"{QUANTITIES[q][0]} [{u}]" for q, u in zip(BEFORE, units)] + ["peak q within 2 %?", "steps saved", "seeds"], rows)
+    return markdown(["setting", "I"] + BEFORE_HEADINGS + ["peak q within 2 %?", "steps saved", "seeds"], rows)
 
 
 LARGE_REFERENCE = ("discs+dt_safety", "20000+0.475", 5e-5)
@@ -212,11 +212,12 @@ def large(tests, _):
     rows = []
     for setting in [s for s in tests.settings(BONDED) if s[1].split("+")[0] == "20000" and s != LARGE_REFERENCE]:
         found = tests.change(BONDED, setting, "peak_q_Pa", LARGE_REFERENCE)
+        if found is None:
+            continue
         cells = [with_interval(tests.change(BONDED, setting, q, LARGE_REFERENCE)) for q in BEFORE]
         rows.append(["inertia x 3, `standard`" if "inertia" in setting[0] else "true masses", f"{setting[2]:g}"] + cells +
                     [verdict(found, 2), str(found[2])])
-    units = ["points" if QUANTITIES[q][3] == "points" else "%" for q in BEFORE]
-    return markdown(["setting", "I"] + [f"{QUANTITIES[q][0]} [{u}]" for q, u in zip(BEFORE, units)] + ["peak q within 2 %?", "seeds"], rows)
+    return markdown(["setting", "I"] + BEFORE_HEADINGS + ["peak q within 2 %?", "seeds"], rows)
 
 
 def by_seeds(tests, saturation, setting, seeds):

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int chunk = 200;  // steps between checks of the assembly
 
-/// Of the servo's integral time and the transit time of a compression wave. Records of 20,000 discs with 55 % hydrate at the
-/// usual rate to 6 % strain whose sigma_3 is right to 1 %: 99.3 % with this and the gain of ServoLaw, 96.9 % with twice
-/// this, 73.8 % with a quarter of the transit and half the gain. A fifth of it holds 2,000 discs still.
+/// Of the servo's integral time and the transit time of a compression wave. Records of a specimen of 20,000 discs with 55 %
+/// hydrate at the usual rate to 6 % strain whose sigma_3 is right to 1 %: 99.3 % with this and the gain of ServoLaw, 96.9 % with
+/// twice this, 73.8 % with a quarter of the transit and half the gain. A fifth of it holds a specimen of 2,000 discs still.
 constexpr double integral_share_of_transit = 0.05;
 
 std::string percent_text(double value, int digits) {
