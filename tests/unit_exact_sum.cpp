@@ -54,6 +54,54 @@ TEST(ExactSum, KeepsATermThatIsSmallBesideTheOthers) {
   EXPECT_EQ(sum_of({1, 0x1p-53, 0x1p-53}), 1 + 0x1p-52);
 }
 
+/// Two sums over groups of lanes, of which the second is of opposite terms.
+struct ByLanes : ExactSums<2> {
+  Field<Real> value;
+  ByLanes(Field<Real> const& values, double unit) : ExactSums<2>({unit, unit}), value(values) {}
+  KOKKOS_FUNCTION void operator()(int group, SumWord* sums) const {
+    Lanes const terms = load(&value(static_cast<std::size_t>(group) * lane_count));
+    add(0, terms, sums);
+    add(1, -terms, sums);
+  }
+};
+
+std::vector<SumWord> words_by_lanes(std::vector<double> const& values, double unit) {
+  std::vector<SumWord> words(ByLanes::words);
+  Kokkos::parallel_reduce(
+      "by_lanes", Kokkos::RangePolicy<ExecutionSpace>(0, static_cast<int>(values.size()) / lane_count),
+      ByLanes(field_of(values), unit),
+      Kokkos::View<SumWord*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(words.data(), words.size()));
+  return words;
+}
+
+TEST(ExactSum, OfGroupsOfLanesHasTheDigitsOfTheSingleTerms) {
+  constexpr double unit = 0x1p-10;
+  Draw draw(4);
+  std::vector<double> values;
+  for (int n = 0; n < 32 * lane_count; ++n) values.push_back(draw.either_sign(draw.of_size(1e-9, 1e4)));
+  std::vector<SumWord> const words = words_by_lanes(values, unit);
+  std::int64_t digits[FixedPoint::words] = {};
+  for (double const value : values) EXPECT_TRUE(FixedPoint::add(value / unit, digits));
+  for (int k = 0; k < FixedPoint::words; ++k) {
+    EXPECT_NE(digits[k], 0) << k;
+    EXPECT_EQ(words[static_cast<std::size_t>(2 * k)], digits[k]) << k;
+    EXPECT_EQ(words[static_cast<std::size_t>(2 * k + 1)], -digits[k]) << k;
+  }
+  EXPECT_EQ(ByLanes::total(words.data(), 0, unit), sum_of(values, unit));
+  EXPECT_EQ(ByLanes::out_of_range(words.data()), 0);
+}
+
+TEST(ExactSum, OfGroupsOfLanesCountsTheTermsThatItCannotHold) {
+  std::vector<double> values(2 * lane_count, 1.0);
+  values[0] = std::numeric_limits<double>::quiet_NaN();
+  values[2 * lane_count - 1] = 0x1p31;
+  EXPECT_EQ(ByLanes::out_of_range(words_by_lanes(values, 1).data()), 4) << "two terms of either sum";
+  values[0] = values[2 * lane_count - 1] = -0x1.fffffffffffffp30;
+  std::vector<SumWord> const words = words_by_lanes(values, 1);
+  EXPECT_EQ(ByLanes::out_of_range(words.data()), 0);
+  EXPECT_EQ(ByLanes::total(words.data(), 0, 1), sum_of(values));
+}
+
 struct JustBelowOne {
   KOKKOS_FUNCTION void operator()(int, Real* out) const { out[0] = 1 - 0x1p-53; }
 };

@@ -25,6 +25,7 @@ TEST(Lane, GivesTheBitsOfTheScalarAtEveryCorner) {
   for (double a : corners) {
     EXPECT_TRUE(same(lane_abs(Lanes(a)), lane_abs(a))) << a;
     EXPECT_TRUE(same(lane_sqrt(Lanes(std::fabs(a))), lane_sqrt(std::fabs(a)))) << a;
+    EXPECT_TRUE(same(lane_truncate(Lanes(a)), lane_truncate(a))) << a;
     for (double b : corners) {
       EXPECT_TRUE(same(lane_max(Lanes(a), Lanes(b)), lane_max(a, b))) << a << ", " << b;
       EXPECT_TRUE(same(lane_min(Lanes(a), Lanes(b)), lane_min(a, b))) << a << ", " << b;
@@ -62,6 +63,16 @@ TEST(Lane, SelectsAndStoresLaneByLane) {
     EXPECT_EQ(to[l], std::min(from[l], from[lane_count - 1 - l]));
   }
   EXPECT_EQ(largest(up), lane_count - 0.5);
+}
+
+TEST(Lane, TruncatesTowardsZeroAndSumsAndCountsAllLanes) {
+  EXPECT_EQ(lane_truncate(2.75), 2);
+  EXPECT_EQ(lane_truncate(-2.75), -2);
+  double number[lane_count];
+  for (int l = 0; l < lane_count; ++l) number[l] = l + 1;
+  Lanes const up = load(number);
+  EXPECT_EQ(sum_of_lanes(up), lane_count * (lane_count + 1) / 2);
+  for (int count = 0; count <= lane_count; ++count) EXPECT_EQ(count_set(up <= Lanes(count)), count);
 }
 
 // Every mask, beside the same one lane after the other.

@@ -1,7 +1,6 @@
 #pragma once
 /// From what the laws ask for to the contact kernel that does it, in one precision. Included once a precision, by forces_full.cpp
 /// and forces_mixed.cpp: each compiles all its kernels.
-#include <cmath>
 #include <variant>
 
 #include "kernels/contact_kernel.hpp"
@@ -30,12 +29,6 @@ inline AnyBond bond_axis(BondKind kind) {
 inline AnySwitch on(bool yes) {
   if (yes) return std::true_type{};
   return std::false_type{};
-}
-
-/// How far ahead discs are fetched. They stand in rows of cells across the box, and the first to ask for a disc is a neighbour in
-/// the row before: in a box twice as high as wide 1.2 sqrt(N) discs away, and a sorting window more.
-inline std::size_t discs_ahead(int discs) {
-  return static_cast<std::size_t>(512 + 2 * std::sqrt(static_cast<double>(discs))) / widest_slice * widest_slice;
 }
 
 /// A kernel of a step.

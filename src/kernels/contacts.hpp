@@ -5,6 +5,7 @@
 /// rows, and the faster way still: no force is written for another disc, so nothing needs an atomic, a second pass or a
 /// colouring, each thread or GPU lane sums one disc in a fixed order, and ranks owe each other no forces. Bits then cannot depend
 /// on who computes what. Half rows were measured at 0.92 of the speed unbonded and 1.05 to 1.17 bonded (docs/performance.md).
+#include <cmath>
 #include <type_traits>
 
 #include "kernels/bond_law.hpp"
@@ -53,6 +54,18 @@ KOKKOS_INLINE_FUNCTION std::size_t entry_in(SliceStart const& slice_start, Histo
   int const shift = format.slice_shift();
   return (static_cast<std::size_t>(slice_start(disc >> shift) + k) << shift) |
          static_cast<std::size_t>(disc & ((1 << shift) - 1));
+}
+
+/// How far ahead of a kernel that goes through rows discs are fetched. They stand in rows of cells across the box, and the first
+/// to ask for a disc is a neighbour in the row before: in a box twice as high as wide 1.2 sqrt(N) discs away, and a sorting
+/// window more.
+inline std::size_t discs_ahead(int discs) {
+  return static_cast<std::size_t>(512 + 2 * std::sqrt(static_cast<double>(discs))) / widest_slice * widest_slice;
+}
+/// Fetches a group of discs in fields of double precision. Past the last disc it asks for the first.
+template <class... Fields>
+KOKKOS_FORCEINLINE_FUNCTION void fetch_discs(std::size_t at, Fields const&... fields) {
+  (prefetch(&fields(at < fields.extent(0) ? at : 0)), ...);
 }
 
 using RowLength = std::uint8_t;

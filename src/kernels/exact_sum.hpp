@@ -99,42 +99,37 @@ struct SumUnits {
 using SumWord = std::int64_t;
 constexpr int sum_words(int count) { return FixedPoint::words * count + 1; }
 
-/// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i. Same bits for any order and thread
-/// count. The sums' words stand digit by digit, word k of quantity c at Count k + c, so that loops over quantities become vector
-/// code; behind them one more counts the terms that are out of range.
-template <int Count, class Terms>
-struct ExactSumKernel {
+/// A reduction to the sums of `Count` quantities: same bits for any order and thread count. The sums' words stand digit by digit,
+/// word k of quantity c at Count k + c, so that loops over quantities become vector code; behind them one more counts the terms
+/// that are out of range.
+template <int Count>
+struct ExactSums {
   static constexpr int words = sum_words(Count), padded = (Count + lane_count - 1) / lane_count * lane_count;
   using value_type = SumWord[];
   unsigned value_count = words;
-  Terms terms;
   Real per_unit[padded] = {};
 
   /// @param units  of each quantity, a power of two near its terms
-  ExactSumKernel(Terms const& of, Real const (&units)[Count]) : terms(of) {
+  explicit ExactSums(Real const (&units)[Count]) {
     for (int c = 0; c < Count; ++c) per_unit[c] = 1 / units[c];
   }
 
-  KOKKOS_FUNCTION void operator()(int i, SumWord* sums) const {
-    Real out[padded] = {};
-    terms(i, out);
-    bool empty = true, beyond = false;  // nearly all terms of the walls are empty
-    for (int c = 0; c < padded; c += lane_count) {
-      Lanes const value = load(&out[c]) * load(&per_unit[c]);
-      empty = empty && !any(value != Lanes(0));
-      beyond = beyond || any(!(lane_abs(value) < Lanes(FixedPoint::largest_term)));
-      store(&out[c], value);
-    }
-    if (empty) return;
-    if (beyond) {
-      for (int c = 0; c < Count; ++c) sums[words - 1] += FixedPoint::holds(out[c]) ? 0 : 1;
+  /// Adds the terms of one quantity that stand side by side. Their digits are whole numbers below 2^31, of which the sum of all
+  /// lanes is exact.
+  KOKKOS_FORCEINLINE_FUNCTION void add(int quantity, Lanes const& terms, SumWord* sums) const {
+    Lanes value = terms * Lanes(per_unit[quantity]);
+    auto const beyond = !(lane_abs(value) < Lanes(FixedPoint::largest_term));
+    if (any(beyond)) {
+      sums[words - 1] += count_set(beyond);
       return;
     }
     for (int k = 0; k < FixedPoint::words; ++k) {
-      CLATHRA_KEEP_LOOP
-      for (int c = 0; c < Count; ++c) sums[Count * k + c] += FixedPoint::take_digit(out[c]);
+      Lanes const digit = lane_truncate(value);
+      sums[Count * k + quantity] += static_cast<SumWord>(sum_of_lanes(digit));
+      value = (value - digit) * FixedPoint::base;
     }
   }
+
   KOKKOS_FUNCTION void init(SumWord* sums) const {
     for (unsigned c = 0; c < value_count; ++c) sums[c] = 0;
   }
@@ -154,6 +149,36 @@ struct ExactSumKernel {
   /// @param unit  of that quantity
   KOKKOS_INLINE_FUNCTION static Real total(SumWord const* sums, int quantity, Real unit) {
     return FixedPoint::of(sums + quantity, Count).value() * unit;
+  }
+};
+
+/// Sums `Count` quantities over i in [0, n): the functor fills `out[0 .. Count)` for index i.
+template <int Count, class Terms>
+struct ExactSumKernel : ExactSums<Count> {
+  using Sums = ExactSums<Count>;
+  Terms terms;
+
+  ExactSumKernel(Terms const& of, Real const (&units)[Count]) : Sums(units), terms(of) {}
+
+  KOKKOS_FUNCTION void operator()(int i, SumWord* sums) const {
+    Real out[Sums::padded] = {};
+    terms(i, out);
+    bool empty = true, beyond = false;
+    for (int c = 0; c < Sums::padded; c += lane_count) {
+      Lanes const value = load(&out[c]) * load(&this->per_unit[c]);
+      empty = empty && !any(value != Lanes(0));
+      beyond = beyond || any(!(lane_abs(value) < Lanes(FixedPoint::largest_term)));
+      store(&out[c], value);
+    }
+    if (empty) return;
+    if (beyond) {
+      for (int c = 0; c < Count; ++c) sums[Sums::words - 1] += FixedPoint::holds(out[c]) ? 0 : 1;
+      return;
+    }
+    for (int k = 0; k < FixedPoint::words; ++k) {
+      CLATHRA_KEEP_LOOP
+      for (int c = 0; c < Count; ++c) sums[Count * k + c] += FixedPoint::take_digit(out[c]);
+    }
   }
 };
 

@@ -85,6 +85,11 @@ KOKKOS_FORCEINLINE_FUNCTION double lane_sqrt(double a) { return std::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION float lane_sqrt(float a) { return std::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION double lane_abs(double a) { return std::fabs(a); }
 KOKKOS_FORCEINLINE_FUNCTION float lane_abs(float a) { return std::fabs(a); }
+/// Towards zero to the next whole number.
+KOKKOS_FORCEINLINE_FUNCTION double lane_truncate(double a) { return std::trunc(a); }
+/// The sum of all lanes, in no particular order.
+KOKKOS_FORCEINLINE_FUNCTION double sum_of_lanes(double a) { return a; }
+KOKKOS_FORCEINLINE_FUNCTION int count_set(bool mask) { return mask ? 1 : 0; }
 /// The size of `a` with the sign of `b`.
 KOKKOS_FORCEINLINE_FUNCTION double lane_copysign(double a, double b) { return std::copysign(a, b); }
 KOKKOS_FORCEINLINE_FUNCTION float lane_copysign(float a, float b) { return std::copysign(a, b); }
@@ -132,6 +137,18 @@ KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_sqrt(Simd<R, Abi> const& a) {
 template <class R, class Abi>
 KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_abs(Simd<R, Abi> const& a) {
   return stdx::abs(a);
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_truncate(Simd<R, Abi> const& a) {
+  return stdx::trunc(a);
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION R sum_of_lanes(Simd<R, Abi> const& a) {
+  return stdx::reduce(a);
+}
+template <class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION int count_set(stdx::simd_mask<R, Abi> const& mask) {
+  return stdx::popcount(mask);
 }
 template <class R, class Abi>
 KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_copysign(Simd<R, Abi> const& a, Simd<R, Abi> const& b) {

@@ -63,6 +63,10 @@ class RealField {
     }
   }
   KOKKOS_INLINE_FUNCTION double operator()(int i) const { return (*this)(static_cast<std::size_t>(i)); }
+  /// The same of a field in single precision.
+  KOKKOS_FORCEINLINE_FUNCTION double of_single(int i) const {
+    return from_single(data<float>()[place(static_cast<std::size_t>(i))]);
+  }
   /// A number beyond single precision is kept as infinite, one beyond fixed point as the largest; no_bond as its own mark.
   KOKKOS_INLINE_FUNCTION void set(std::size_t i, double value) const {
     switch (format_.storage) {
@@ -79,7 +83,12 @@ class RealField {
     }
   }
   KOKKOS_INLINE_FUNCTION void set(int i, double value) const { set(static_cast<std::size_t>(i), value); }
-  KOKKOS_INLINE_FUNCTION void add(int i, double value) const { set(i, (*this)(i) + value); }
+  KOKKOS_INLINE_FUNCTION void add(int i, double value) const {
+    if (format_.storage == Storage::as_double)
+      data<double>()[i] += value;
+    else
+      set(i, (*this)(i) + value);
+  }
 
   KOKKOS_INLINE_FUNCTION NumberFormat const& format() const { return format_; }
   KOKKOS_INLINE_FUNCTION std::size_t extent(int) const {
@@ -199,6 +208,10 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes load(RealField const& field, std::size_t i) {
 KOKKOS_FORCEINLINE_FUNCTION Lanes gather(RealField const& field, int const* index) {
   if (field.format().storage == Storage::as_double) return gather(field.data<double>(), index);
   Lanes value(0);
+  if (field.format().storage == Storage::as_float) {
+    for (int l = 0; l < lane_count; ++l) set_lane(value, l, field.of_single(index[l]));
+    return value;
+  }
   for (int l = 0; l < lane_count; ++l) set_lane(value, l, field(index[l]));
   return value;
 }

@@ -75,6 +75,7 @@ struct FillAbsoluteStiffness {
   Real twice_rate;  ///< 2 / dt [1/s], 0 without dashpots
   Real leeway;      ///< SpringSet
   Real slip;        ///< mu where sliding contacts may vibrate faster than sticking ones, else 0
+  std::size_t ahead = discs_ahead(net.particles.owned);
 
   struct Own {
     Lanes xx, xy, yy, xt, yt, tt;
@@ -83,6 +84,7 @@ struct FillAbsoluteStiffness {
   KOKKOS_FUNCTION void operator()(int group) const {
     ParticleSoA const& p = net.particles;
     auto const first = static_cast<std::size_t>(group) * lane_count;
+    fetch_discs(first + ahead, p.x, p.y, p.radius, p.verlet_skin);
     Lanes const x = load(&p.x(first)), y = load(&p.y(first)), radius = load(&p.radius(first)),
                 inverse_mass = load(p.inverse_mass, first), may_close = leeway * load(&p.verlet_skin(first));
     bool const bonds = net.laws.bond_kind != BondKind::none, viscous = net.laws.grain.damping_ratio > 0;
@@ -182,9 +184,11 @@ struct AbsoluteProduct {
   Motion u, w;
   Real factor;
   bool further;  ///< w = v sqrt(v / u), else w = v: the first product is not normalised yet
+  std::size_t ahead = discs_ahead(net.particles.owned);
 
   KOKKOS_FUNCTION void operator()(int group, Real& greatest) const {
     auto const first = static_cast<std::size_t>(group) * lane_count;
+    fetch_discs(first + ahead, u.x, u.y, u.rotation);
     Lanes const ux = load(&u.x(first)), uy = load(&u.y(first)), ut = load(&u.rotation(first));
     Lanes own[6];
     for (int n = 0; n < 6; ++n) own[n] = load_float(&k.own[n](first));

@@ -10,69 +10,7 @@ namespace {
 
 constexpr int reaction_count = 3 * wall_count;
 
-/// Adds the forces of up to four walls to one disc; its terms are the reactions.
-struct WallForces {
-  ParticleSoA p;
-  WallContacts contacts;
-  Field<StepState> steps;
-  GrainLaw law;
-  Real dt;
-  EnergyLosses losses;
-  Faults faults;
-
-  /// The discs along a wall lie far apart in memory; each would be waited for.
-  KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(int c) const {
-    constexpr int discs_ahead = 16;
-    int const i = contacts.disc(c + discs_ahead < contacts.size ? c + discs_ahead : contacts.size - 1);
-    for (auto const& field : {&p.x, &p.y, &p.radius}) prefetch(&(*field)(i));
-    if (p.precision == Precision::mixed) {
-      prefetch(p.mirror.numbers() + static_cast<std::size_t>(i) * DiscMirror::row);
-      for (auto const& field : {&p.force_x, &p.force_y}) prefetch(field->data<float>() + i);
-    } else {
-      for (auto const& field : {&p.vx, &p.vy, &p.omega, &p.force_x, &p.force_y}) prefetch(field->data<Real>() + i);
-    }
-  }
-
-  KOKKOS_FUNCTION void operator()(int c, Real* reactions) const {
-    if (is_stopped(steps)) return;
-    Walls const walls = steps(0).box.walls;
-    fetch_ahead(c);
-    int const i = contacts.disc(c);
-    bool const friction = contacts.shear.extent(0) > 0;
-    for (int wall = 0; wall < wall_count; ++wall) {
-      WallFace const face = wall_face(walls, wall, p.x(i), p.y(i));
-      Real const overlap = p.radius(i) - face.distance, old_shear = friction ? contacts.shear(c, wall) : 0;
-      if (overlap <= 0 && old_shear == 0) continue;
-      Real const nx = face.nx, ny = face.ny, arm = p.radius(i) - overlap;
-      Real const dvx = face.vx - p.vx(i), dvy = face.vy - p.vy(i);
-      ContactMotion<Real> const motion{overlap, -(dvx * nx + dvy * ny), ((dvy * nx - dvx * ny) - p.omega(i) * arm) * dt, 0,
-                                       2 * p.radius(i)};
-      Real const dashpot = law.damping_ratio > 0 ? dashpot_coefficient(law, p.inverse_mass(i), Real(0)) : 0;
-      ContactForce<Real> const force = grain_contact<false>(law, motion, old_shear, Real(0), dashpot);
-      if (friction) contacts.shear(c, wall) = force.shear;
-      add_losses(i, motion, old_shear, force);
-      if (overlap > p.radius(i)) faults.report(Fault::deep_overlap, p.id(i));
-      p.force_x.add(i, -(force.normal * nx + force.shear * ny));
-      p.force_y.add(i, force.shear * nx - force.normal * ny);
-      p.torque.add(i, arm * force.shear);
-      reactions[wall] = force.normal;
-      reactions[wall_count + wall] = force.shear * (nx != 0 ? -nx : ny);  // on the wall: opposite to the force on the disc
-      reactions[2 * wall_count + wall] = overlap > 0 ? 1 : 0;
-    }
-  }
-
-  /// As between grains, but all of it on the disc's account.
-  KOKKOS_INLINE_FUNCTION void add_losses(int i, ContactMotion<Real> const& motion, Real old_shear,
-                                         ContactForce<Real> const& now) const {
-    if (law.friction > 0 && losses.sliding.extent(0) > 0) {
-      Real const slid = motion.shear_increment + (old_shear - now.shear) / law.shear_stiffness;
-      losses.sliding(i) += 0.5 * (old_shear + now.shear) * slid;
-    }
-    if (law.damping_ratio > 0 && losses.dashpot.extent(0) > 0) losses.dashpot(i) += dashpot_loss(law, motion, now.normal, dt);
-  }
-};
-
-using ReactionSums = ExactSumKernel<reaction_count, WallForces>;
+using ReactionSums = ExactSums<reaction_count>;
 
 struct ReactionUnits {
   Real of[reaction_count];
@@ -91,15 +29,122 @@ KOKKOS_INLINE_FUNCTION WallReactions reactions_of(SumWord const* sums, Real unit
   return reactions;
 }
 
-/// The forces of the walls, and with them the end of the step.
-struct EndOfStep : ReactionSums {
+/// The discs of a group, side by side.
+struct WallDiscs {
+  int index[lane_count];
+  Mask present;
+  Lanes x, y, radius, vx, vy, omega;
+};
+
+/// The forces of up to four walls on the discs near them, and with them the end of the step.
+struct WallForces : ReactionSums {
+  ParticleSoA p;
+  WallContacts contacts;
+  Field<StepState> steps;
+  GrainLaw law;
+  Real dt;
+  EnergyLosses losses;
+  Faults faults;
   Real unit_of_force;
-  EndOfStep(WallForces const& forces, SumUnits const& unit)
-      : ReactionSums(forces, ReactionUnits(unit).of), unit_of_force(unit.force()) {}
+
+  /// The discs along a wall lie far apart in memory; each would be waited for.
+  KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(int c) const {
+    constexpr int discs_ahead = 16;
+    int const i = contacts.disc(c + discs_ahead < contacts.size ? c + discs_ahead : contacts.size - 1);
+    for (auto const& field : {&p.x, &p.y, &p.radius}) prefetch(&(*field)(i));
+    if (p.precision == Precision::mixed) {
+      prefetch(p.mirror.numbers() + static_cast<std::size_t>(i) * DiscMirror::row);
+      for (auto const& field : {&p.force_x, &p.force_y}) prefetch(field->data<float>() + i);
+    } else {
+      for (auto const& field : {&p.vx, &p.vy, &p.omega, &p.force_x, &p.force_y}) prefetch(field->data<Real>() + i);
+    }
+  }
+
+  /// The group from `first` on; in place of discs beyond the last one stands the last.
+  KOKKOS_FORCEINLINE_FUNCTION WallDiscs discs(int first) const {
+    WallDiscs d;
+    for (int l = 0; l < lane_count; ++l) {
+      fetch_ahead(first + l);
+      d.index[l] = contacts.disc(first + l < contacts.size ? first + l : contacts.size - 1);
+    }
+    d.present = first_lanes<Real>(contacts.size - first);
+    d.x = gather(p.x.data(), d.index);
+    d.y = gather(p.y.data(), d.index);
+    d.radius = gather(p.radius.data(), d.index);
+    d.vx = d.vy = d.omega = Lanes(0);
+    if (law.friction > 0 || law.damping_ratio > 0) {  // else nobody asks for them
+      d.vx = gather(p.vx, d.index);
+      d.vy = gather(p.vy, d.index);
+      d.omega = gather(p.omega, d.index);
+    }
+    return d;
+  }
+
+  /// @param group  of discs near walls
+  KOKKOS_FUNCTION void operator()(int group, SumWord* reactions) const {
+    if (is_stopped(steps)) return;
+    Walls const walls = steps(0).box.walls;
+    int const first = group * lane_count;
+    WallDiscs const d = discs(first);
+    for (int wall = 0; wall < wall_count; ++wall) {
+      WallFace const face = wall_face(walls, wall, d.x, d.y);
+      Lanes const overlap = d.radius - face.distance, old_shear = shear_before(first, wall);
+      // What is no number goes on, and is found in the sums.
+      Mask const active = d.present && !(overlap <= Lanes(0) && old_shear == Lanes(0));
+      if (any(active)) add(first, d, wall, face, overlap, old_shear, active, reactions);
+    }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Lanes shear_before(int first, int wall) const {
+    Lanes shear(0);
+    if (contacts.shear.extent(0) == 0) return shear;
+    for (int l = 0; l < lane_count && first + l < contacts.size; ++l) set_lane(shear, l, contacts.shear(first + l, wall));
+    return shear;
+  }
+
+  /// Adds the forces of one wall.
+  KOKKOS_FORCEINLINE_FUNCTION void add(int first, WallDiscs const& d, int wall, WallFace<Lanes> const& face, Lanes const& overlap,
+                                       Lanes const& old_shear, Mask const& active, SumWord* reactions) const {
+    Real const nx = face.nx, ny = face.ny;
+    Lanes const arm = d.radius - overlap, dvx = face.vx - d.vx, dvy = face.vy - d.vy;
+    ContactMotion<Lanes> const motion{overlap, -(dvx * nx + dvy * ny), ((dvy * nx - dvx * ny) - d.omega * arm) * dt, Lanes(0),
+                                      2 * d.radius};
+    Lanes const dashpot = law.damping_ratio > 0 ? dashpot_coefficient(law, gather(p.inverse_mass, d.index), Lanes(0)) : Lanes(0);
+    ContactForce<Lanes> const force = grain_contact<false>(law, motion, old_shear, Lanes(0), dashpot);
+    Lanes const fx = -(force.normal * nx + force.shear * ny), fy = force.shear * nx - force.normal * ny,
+                torque = arm * force.shear;
+    for_each_set(active, [&](int l) {
+      int const i = d.index[l];
+      p.force_x.add(i, lane(fx, l));
+      p.force_y.add(i, lane(fy, l));
+      p.torque.add(i, lane(torque, l));
+      if (contacts.shear.extent(0) > 0) contacts.shear(first + l, wall) = lane(force.shear, l);
+    });
+    for_each_set(active && overlap > d.radius, [&](int l) { faults.report(Fault::deep_overlap, p.id(d.index[l])); });
+    book_losses(d, motion, old_shear, force, active);
+    Lanes const on_wall = force.shear * Lanes(nx != 0 ? -nx : ny);  // opposite to the force on the disc
+    ReactionSums::add(wall, select(active, force.normal, Lanes(0)), reactions);
+    if (contacts.shear.extent(0) > 0) ReactionSums::add(wall_count + wall, select(active, on_wall, Lanes(0)), reactions);
+    reactions[2 * wall_count + wall] += count_set(active && overlap > Lanes(0));
+  }
+
+  /// As between grains, but all of it on the disc's account.
+  KOKKOS_FORCEINLINE_FUNCTION void book_losses(WallDiscs const& d, ContactMotion<Lanes> const& motion, Lanes const& old_shear,
+                                               ContactForce<Lanes> const& now, Mask const& active) const {
+    if (law.friction > 0 && losses.sliding.extent(0) > 0) {
+      Lanes const slid = motion.shear_increment + (old_shear - now.shear) / law.shear_stiffness;
+      Lanes const lost = 0.5 * (old_shear + now.shear) * slid;
+      for_each_set(active, [&](int l) { losses.sliding(d.index[l]) += lane(lost, l); });
+    }
+    if (law.damping_ratio > 0 && losses.dashpot.extent(0) > 0) {
+      Lanes const lost = dashpot_loss(law, motion, now.normal, dt);
+      for_each_set(active, [&](int l) { losses.dashpot(d.index[l]) += lane(lost, l); });
+    }
+  }
 
   /// Called once, when all are done.
   KOKKOS_FUNCTION void final(SumWord* sums) const {
-    StepState& now = terms.steps(0);
+    StepState& now = steps(0);
     if (now.stop != StepStop::none || now.orders.host_goes_along) return;
     now.out_of_range = out_of_range(sums);
     if (now.out_of_range > 0) {
@@ -191,9 +236,10 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
                      EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps) {
-  WallForces const forces{particles, contacts, steps.state, law.as_grain(), dt, losses, faults};
-  static_assert(sizeof(EndOfStep) <= most_bytes_of_a_light_kernel);
-  Kokkos::parallel_reduce("wall_forces", light_launch(contacts.size), EndOfStep(forces, unit), steps.reactions);
+  static_assert(sizeof(WallForces) <= most_bytes_of_a_light_kernel);
+  WallForces const forces{
+      ReactionSums(ReactionUnits(unit).of), particles, contacts, steps.state, law.as_grain(), dt, losses, faults, unit.force()};
+  Kokkos::parallel_reduce("wall_forces", light_launch(group_count(contacts.size)), forces, steps.reactions);
 }
 
 WallReactions wall_reactions(DeviceSteps const& steps, Summation const& summation) {
