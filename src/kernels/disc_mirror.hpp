@@ -138,11 +138,11 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes in_single(LanesOfHalves const& wide) {
 /// DiscMirror::ticks() of each, as the bits that a row holds.
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real per_tick) {
 #if defined(CLATHRA_SIMD) && defined(__AVX512F__)
-  auto const low = [&](int h) {
-    Lanes const sum = place.of[h] * per_tick + Lanes(DiscMirror::shift);
-    return _mm512_cvtepi64_epi32(_mm512_castpd_si512(static_cast<PlainVector<double>>(sum)));
+  auto const sum = [&](int h) {
+    return _mm512_castpd_ps(static_cast<PlainVector<double>>(place.of[h] * per_tick + Lanes(DiscMirror::shift)));
   };
-  return FloatLanes(_mm512_castsi512_ps(_mm512_inserti32x8(_mm512_castsi256_si512(low(0)), low(1), 1)));
+  __m512i const low_of_each = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  return FloatLanes(_mm512_permutex2var_ps(sum(0), low_of_each, sum(1)));
 #elif defined(CLATHRA_SIMD) && defined(__AVX2__)
   // The low halves of the numbers' bits, which are in order within 128 bits, and then the pairs.
   auto const sum = [&](int h) {

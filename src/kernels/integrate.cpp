@@ -49,7 +49,7 @@ struct Moving {
 template <class R>
 struct MotionConstants {
   R damping, kick, pull_x, pull_y;
-  Real drift;
+  Real drift, per_tick;
   AffineFrame frame;
   explicit KOKKOS_FUNCTION MotionConstants(Moving const& m)
       : damping(static_cast<R>(m.law.damping)),
@@ -57,6 +57,7 @@ struct MotionConstants {
         pull_x(static_cast<R>(m.law.gravity_x * m.dt.kick)),
         pull_y(static_cast<R>(m.law.gravity_y * m.dt.kick)),
         drift(m.dt.drift),
+        per_tick(1 / m.p.mirror.tick),
         frame(m.steps(0).frame) {}
 };
 
@@ -120,9 +121,8 @@ struct KickAndDriftMixed : Moving {
     move(&p.angle(i), load_halves(&p.angle(i)), omega, by.drift);
     x = move(&p.x(i), x, vx, by.drift);
     y = move(&p.y(i), y, vy, by.drift);
-    Real const per_tick = 1 / p.mirror.tick;
-    rows.places.x = ticks_of(x, per_tick);
-    rows.places.y = ticks_of(y, per_tick);
+    rows.places.x = ticks_of(x, by.per_tick);
+    rows.places.y = ticks_of(y, by.per_tick);
     p.mirror.store(i, rows);
     if constexpr (Ledger) book(lost_to_damping, i, lost);
     // At least the way: more by a millionth than its rounding takes away. No number where a spin or a place is none, whose frame

@@ -47,13 +47,16 @@ struct WallForces : ReactionSums {
   Faults faults;
   Real unit_of_force;
 
+  /// Whether anybody asks how the discs move.
+  KOKKOS_FORCEINLINE_FUNCTION bool needs_motion() const { return law.friction > 0 || law.damping_ratio > 0; }
+
   /// The discs along a wall lie far apart in memory; each would be waited for.
   KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(int c) const {
     constexpr int discs_ahead = 16;
     int const i = contacts.disc(c + discs_ahead < contacts.size ? c + discs_ahead : contacts.size - 1);
     for (auto const& field : {&p.x, &p.y, &p.radius}) prefetch(&(*field)(i));
     if (p.precision == Precision::mixed) {
-      prefetch(p.mirror.numbers() + static_cast<std::size_t>(i) * DiscMirror::row);
+      if (needs_motion()) prefetch(p.mirror.numbers() + static_cast<std::size_t>(i) * DiscMirror::row);
       for (auto const& field : {&p.force_x, &p.force_y}) prefetch(field->data<float>() + i);
     } else {
       for (auto const& field : {&p.vx, &p.vy, &p.omega, &p.force_x, &p.force_y}) prefetch(field->data<Real>() + i);
@@ -72,7 +75,7 @@ struct WallForces : ReactionSums {
     d.y = gather(p.y.data(), d.index);
     d.radius = gather(p.radius.data(), d.index);
     d.vx = d.vy = d.omega = Lanes(0);
-    if (law.friction > 0 || law.damping_ratio > 0) {  // else nobody asks for them
+    if (needs_motion()) {
       d.vx = gather(p.vx, d.index);
       d.vy = gather(p.vy, d.index);
       d.omega = gather(p.omega, d.index);
