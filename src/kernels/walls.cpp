@@ -92,7 +92,7 @@ struct WallForces : ReactionSums {
     for (int wall = 0; wall < wall_count; ++wall) {
       WallFace const face = wall_face(walls, wall, d.x, d.y);
       Lanes const overlap = d.radius - face.distance, old_shear = shear_before(first, wall);
-      // What is no number goes on, and is found in the sums.
+      // A place that is no number is active too; integrate() finds it.
       Mask const active = d.present && !(overlap <= Lanes(0) && old_shear == Lanes(0));
       if (any(active)) add(first, d, wall, face, overlap, old_shear, active, reactions);
     }
