@@ -1,5 +1,5 @@
 # Reads the sources and fails on what the architecture forbids. Run by ctest as
-#   cmake -DCHECK=layers|rooms|thin|file_size|function_length|kills -DSOURCE=<project folder> -P layers_test.cmake
+#   cmake -DCHECK=layers|rooms|thin|file_size|function_length|kills|once -DSOURCE=<project folder> -P layers_test.cmake
 cmake_minimum_required(VERSION 3.22)
 
 set(faults "")
@@ -236,6 +236,19 @@ function(check_kills)
         endif()
       endforeach()
     endforeach()
+  endforeach()
+  set(faults "${faults}" PARENT_SCOPE)
+endfunction()
+
+# once: each header may be included twice.
+function(check_once)
+  list_sources(sources)
+  list(FILTER sources INCLUDE REGEX "\\.hpp$")
+  foreach(source ${sources})
+    file(STRINGS ${SOURCE}/${source} first LIMIT_COUNT 1)
+    if(NOT first STREQUAL "#pragma once")
+      fault(${source} 1 "does not begin with #pragma once")
+    endif()
   endforeach()
   set(faults "${faults}" PARENT_SCOPE)
 endfunction()

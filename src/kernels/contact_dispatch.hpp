@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "kernels/contact_kernel.hpp"
-#include "kernels/light_launch.hpp"
 
 namespace clathra {
 
@@ -31,40 +30,28 @@ inline AnySwitch on(bool yes) {
   return std::false_type{};
 }
 
-/// A kernel of a step.
-template <class Kernel>
-struct UnlessStopped {
-  Kernel kernel;
-  Field<StepState> steps;
-  KOKKOS_FUNCTION void operator()(int i) const {
-    if (!is_stopped(steps)) kernel(i);
-  }
-};
-
 /// @tparam P  FullPrecision or MixedPrecision
 template <class P>
 void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
-                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps) {
+                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps,
+                       StepLaunches const& launches) {
   using R = typename P::Real;
   HistoryFormat const& format = rows.features.format;
-  float const rounding = rounding_of_step(step);
   ContactConstants<R> const constants{in_numbers<R>(laws.grain),
                                       in_numbers<R>(laws.bond),
                                       least_strength<R>(laws.bond),
                                       R(dt),
-                                      {R(format.force_unit), R(1 / format.force_unit), R(dt / format.force_unit), rounding},
-                                      {R(format.moment_unit), R(1 / format.moment_unit), R(dt / format.moment_unit), rounding},
+                                      {R(format.force_unit), R(1 / format.force_unit), R(dt / format.force_unit), 0},
+                                      {R(format.moment_unit), R(1 / format.moment_unit), R(dt / format.moment_unit), 0},
                                       R(particles.mirror.tick)};
-  auto const groups = light_launch(group_count(particles.owned, lane_count_of<R>));
+  int const groups = group_count(particles.owned, lane_count_of<R>);
   std::visit(
       [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
         using Kernel = ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()>;
-        static_assert(sizeof(UnlessStopped<Kernel>) <= most_bytes_of_a_light_kernel);
-        Kokkos::parallel_for(
+        launches.parallel_for(
             Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
-            UnlessStopped<Kernel>{
-                {particles, rows, constants, laws.bond, step, breaks, losses, faults, discs_ahead(particles.owned)}, steps});
+            Kernel{particles, rows, constants, laws.bond, step, steps, breaks, losses, faults, discs_ahead(particles.owned)});
       },
       bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
       on(laws.ledger));

@@ -43,7 +43,8 @@ struct ContactKernel {
   ContactRows rows;
   Constants constants;
   BondLaw exact;  ///< for the strength test that decides, in double precision
-  std::int64_t step;
+  std::int64_t step;  ///< its number, where there are no
+  Field<StepState> steps;
   BreakLog breaks;
   EnergyLosses losses;
   Faults faults;
@@ -64,9 +65,11 @@ struct ContactKernel {
   };
 
   KOKKOS_FUNCTION void operator()(int group) const {
+    if (is_stopped(steps)) return;
     auto const first = static_cast<std::size_t>(group) * lanes;
     int const slice = group / (slice_width / lanes);
-    Constants const law = constants;
+    Constants law = constants;
+    if constexpr (mixed) law.forces.rounding = law.moments.rounding = rounding_of_step(number_of_step());
     Own own = load_own(first);
     Discs::fetch_ahead(p, first, discs_ahead);
     // Entries out of touch stay so nearly always, and those that carry a history still do: a branch on what the last step found
@@ -151,6 +154,8 @@ struct ContactKernel {
   }
 
  private:
+  KOKKOS_FORCEINLINE_FUNCTION std::int64_t number_of_step() const { return steps.extent(0) > 0 ? steps(0).step + 1 : step; }
+
   /// A motion as the history takes it: in mixed precision the rate itself (HistoryScale::per_rate).
   KOKKOS_FORCEINLINE_FUNCTION static V during_step(Constants const& law, V const& rate) {
     if constexpr (mixed)
@@ -308,7 +313,7 @@ struct ContactKernel {
       set_lane(broken, l, true);
       int const id = p.id(disc), other = p.id(rows.neighbour(e));
       if (id < other)  // the other side sees it too
-        breaks.record(step, id, other, mode, p.x(disc) + 0.5 * lane(block.dx, l), p.y(disc) + 0.5 * lane(block.dy, l),
+        breaks.record(number_of_step(), id, other, mode, p.x(disc) + 0.5 * lane(block.dx, l), p.y(disc) + 0.5 * lane(block.dy, l),
                       [&] { return details_of(block, l, strength, mode); });
     });
     return broken;

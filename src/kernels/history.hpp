@@ -22,7 +22,7 @@ struct HistoryScale {
 };
 
 /// The fraction u of step number n: n times the golden section, to 24 bits, less its whole part.
-inline float rounding_of_step(std::int64_t n) {
+KOKKOS_INLINE_FUNCTION float rounding_of_step(std::int64_t n) {
   auto const fraction = static_cast<std::uint32_t>(static_cast<std::uint64_t>(n) * 2654435769u);
   return static_cast<float>(fraction >> 8) * 0x1p-24F;
 }

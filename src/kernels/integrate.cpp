@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "kernels/light_launch.hpp"
-
 namespace clathra {
 
 namespace {
@@ -89,6 +87,7 @@ struct KickAndDrift : Moving {
     store(&p.x(i), x);
     store(&p.y(i), y);
     store(&p.angle(i), load(&p.angle(i)) + omega * by.drift);
+    p.rows.set(i, x, y, p.radius(i), vx, vy, omega);
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
     return lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
   }
@@ -187,16 +186,15 @@ struct ByShares {
 }  // namespace
 
 void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
-               Faults const& faults, DeviceSteps const& steps) {
+               Faults const& faults, DeviceSteps const& steps, StepLaunches const& launches) {
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
   int const share = std::max(1, (groups + ExecutionSpace().concurrency() - 1) / ExecutionSpace().concurrency());
   // Made in place: small specimens feel each copy of all these fields.
   auto const run = [&]<class Kernel>(std::type_identity<Kernel>) {
-    static_assert(sizeof(ByShares<Kernel>) <= most_bytes_of_a_light_kernel);
-    Kokkos::parallel_reduce("kick_and_drift", light_launch((groups + share - 1) / share),
-                            ByShares<Kernel>{{{particles, law, dt, steps.state, losses.damping, faults}}, groups, share},
-                            steps.displacement);
+    launches.parallel_reduce("kick_and_drift", (groups + share - 1) / share,
+                             ByShares<Kernel>{{{particles, law, dt, steps.state, losses.damping, faults}}, groups, share},
+                             steps.displacement);
   };
   auto const run_with = [&](auto ledger) {
     if (mixed) {

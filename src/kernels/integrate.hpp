@@ -2,6 +2,7 @@
 /// Leapfrog integration of the discs' motion.
 #include "kernels/particles.hpp"
 #include "kernels/reports.hpp"
+#include "kernels/step_graph.hpp"
 #include "kernels/step_state.hpp"
 
 namespace clathra {
@@ -24,7 +25,8 @@ struct StepLengths {
 /// unless the host goes along (StepState).
 /// @param losses  the damping account is written when its field exists
 /// @param steps  whose frame is that of the step; nothing happens while they are stopped
+/// @param launches  where the kernel goes
 void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
-               Faults const& faults, DeviceSteps const& steps);
+               Faults const& faults, DeviceSteps const& steps, StepLaunches const& launches = {});
 
 }  // namespace clathra

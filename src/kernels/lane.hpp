@@ -276,14 +276,18 @@ KOKKOS_FORCEINLINE_FUNCTION R gather(R const* field, int const* index) {
 }
 #endif
 
+/// Whether memory is laid out for a GPU.
+#if defined(CLATHRA_DEVICE_LIKE) || defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+inline constexpr bool for_gpu = true;
+#else
+inline constexpr bool for_gpu = false;
+#endif
+inline constexpr int threads_that_load_together = 32;
+
 /// Discs whose rows lie side by side in memory (contacts.hpp): a multiple of the lanes of the contact kernel, whose numbers are
 /// R. Nobody's bits know it.
 template <class R>
-#if defined(CLATHRA_DEVICE_LIKE) || defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
-inline constexpr int slice_width_of = 32;  // the threads that load together
-#else
-inline constexpr int slice_width_of = lane_count_of<R>;
-#endif
+inline constexpr int slice_width_of = for_gpu ? threads_that_load_together : lane_count_of<R>;
 static_assert(slice_width_of<float> % lane_count_of<float> == 0 && slice_width_of<double> % lane_count_of<double> == 0,
               "a slice holds whole groups of lanes");
 static_assert(slice_width_of<float> % lane_count == 0, "and whole groups of the kernels that work in double precision on it");

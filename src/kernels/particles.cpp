@@ -10,6 +10,10 @@ namespace clathra {
 
 namespace {
 
+KOKKOS_INLINE_FUNCTION void set_row(ParticleSoA const& p, std::size_t i) {
+  p.rows.set(i, p.x(i), p.y(i), p.radius(i), p.vx(i), p.vy(i), p.omega(i));
+}
+
 struct FillPadding {
   ParticleSoA p;
   int first;
@@ -19,6 +23,7 @@ struct FillPadding {
     };
     for_each_field(p, set_padding);
     for_each_derived_field(p, set_padding);
+    if (p.precision == Precision::full) set_row(p, static_cast<std::size_t>(first + k));
   }
 };
 
@@ -34,6 +39,12 @@ struct UpdateMirror {
     row[1] = from_bits_of_one(padding ? 0 : DiscMirror::ticks(p.y(i), per_tick));
     row[2] = padding ? p.mirror.padding_radius : static_cast<float>(p.radius(i));
   }
+};
+
+struct UpdateDiscRows {
+  ParticleSoA p;
+  int first;
+  KOKKOS_FUNCTION void operator()(int k) const { set_row(p, static_cast<std::size_t>(first + k)); }
 };
 
 struct AddAffineVelocity {
@@ -127,7 +138,11 @@ void reserve(ParticleSoA& particles, int discs) {
   };
   for_each_field(particles, grow);
   for_each_derived_field(particles, grow);
-  if (!mixed) return;
+  if (!mixed) {
+    particles.rows.resize(size);
+    update_mirror(particles, 0, particles.owned);
+    return;
+  }
   Field<std::uint32_t> const larger("mirror", DiscMirror::row * size);
   if (kept_discs > 0) copy_first(particles.mirror.rows, larger, DiscMirror::row * kept_discs);
   set_mirror(particles, larger);
@@ -136,13 +151,16 @@ void reserve(ParticleSoA& particles, int discs) {
 void fill_padding(ParticleSoA const& particles) {
   int const first = particles.all(), count = static_cast<int>(particles.x.extent(0)) - first;
   Kokkos::parallel_for("fill_padding", Kokkos::RangePolicy<ExecutionSpace>(0, count), FillPadding{particles, first});
-  update_mirror(particles, first, count);
+  if (particles.precision == Precision::mixed) update_mirror(particles, first, count);
 }
 
 void update_mirror(ParticleSoA const& particles, int first, int count) {
-  if (particles.precision == Precision::full) return;
-  Kokkos::parallel_for("update_mirror", Kokkos::RangePolicy<ExecutionSpace>(0, count),
-                       UpdateMirror{particles, first, 1 / particles.mirror.tick});
+  Kokkos::RangePolicy<ExecutionSpace> const discs(0, count);
+  if (particles.precision == Precision::mixed) {
+    Kokkos::parallel_for("update_mirror", discs, UpdateMirror{particles, first, 1 / particles.mirror.tick});
+  } else if constexpr (for_gpu) {
+    Kokkos::parallel_for("update_disc_rows", discs, UpdateDiscRows{particles, first});
+  }
 }
 
 void permute(ParticleSoA& particles, Field<int> const& order, Scratch& scratch) {
@@ -160,6 +178,7 @@ void permute(ParticleSoA& particles, Field<int> const& order, Scratch& scratch) 
 void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y, Coord centre_x, Coord centre_y) {
   Kokkos::parallel_for("add_affine_velocity", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        AddAffineVelocity{particles, rate_x, rate_y, centre_x, centre_y});
+  update_mirror(particles, 0, particles.owned);
 }
 
 void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, Coord fixed_y) {
@@ -170,6 +189,7 @@ void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, C
 
 void stop_motion(ParticleSoA const& particles) {
   for (RealField const& field : {particles.vx, particles.vy, particles.omega}) fill(field, 0);
+  update_mirror(particles, 0, particles.all());
 }
 
 std::size_t bytes(ParticleSoA const& particles) {
@@ -177,7 +197,7 @@ std::size_t bytes(ParticleSoA const& particles) {
   auto const count = [&](DiscField const&, auto const& field) { total += field_bytes(field); };
   for_each_field(particles, count);
   for_each_derived_field(particles, count);
-  return total + field_bytes(particles.mirror.rows);
+  return total + field_bytes(particles.mirror.rows) + particles.rows.bytes();
 }
 
 }  // namespace clathra

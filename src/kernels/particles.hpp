@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "kernels/disc_mirror.hpp"
+#include "kernels/disc_rows.hpp"
 #include "kernels/scratch.hpp"
 
 namespace clathra {
@@ -31,6 +32,7 @@ struct ParticleSoA {
   Field<Coord> reference_x, reference_y;  ///< centre at the last neighbour search [m]
   Field<Real> verlet_skin;                ///< how far from there, beside the homogeneous motion, until the next one [m]
   DiscMirror mirror;                      ///< mixed precision: what the contact kernel reads
+  [[no_unique_address]] DiscRows rows;    ///< double precision on a GPU: likewise
 
   int all() const { return owned + ghosts; }
   /// The index of a padding disc.
@@ -106,8 +108,9 @@ ParticleSoA allocate_particles(int discs, Precision precision = Precision::full,
 /// none, as ever.
 Real rounding_slack(ParticleSoA const& particles, Real largest_radius);
 
-/// Mixed precision: derives ticks and radii in the mirror of the discs first .. first + count. To be called whenever places have
-/// been changed from outside; what stands in this file and integrate() do it themselves.
+/// Derives what the contact kernel reads of the discs first .. first + count: ticks and radii in the mirror (mixed precision),
+/// rows (double precision on a GPU). To be called whenever places or velocities have been changed from outside or by permute();
+/// what else stands in this file and integrate() do it themselves.
 void update_mirror(ParticleSoA const& particles, int first, int count);
 
 /// Makes room for at least `discs` discs, keeping the state of the first `owned`.

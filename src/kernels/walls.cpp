@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "kernels/light_launch.hpp"
-
 namespace clathra {
 
 namespace {
@@ -238,11 +236,11 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 }
 
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
-                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps) {
-  static_assert(sizeof(WallForces) <= most_bytes_of_a_light_kernel);
+                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
+                     StepLaunches const& launches) {
   WallForces const forces{
       ReactionSums(ReactionUnits(unit).of), particles, contacts, steps.state, law.as_grain(), dt, losses, faults, unit.force()};
-  Kokkos::parallel_reduce("wall_forces", light_launch(group_count(contacts.size)), forces, steps.reactions);
+  launches.parallel_reduce("wall_forces", group_count(contacts.size), forces, steps.reactions);
 }
 
 WallReactions wall_reactions(DeviceSteps const& steps, Summation const& summation) {

@@ -3,6 +3,7 @@
 #include "kernels/contacts.hpp"
 #include "kernels/grain_contact.hpp"
 #include "kernels/reports.hpp"
+#include "kernels/step_graph.hpp"
 #include "kernels/step_state.hpp"
 
 namespace clathra {
@@ -61,8 +62,10 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 /// the host goes along (StepState). A wall is a disc of infinite radius without rolling. A disc whose centre lies behind a wall
 /// (overlap above its radius) is a fault, as between discs.
 /// @param losses  sliding and dashpot are written when their fields exist;  @param steps  nothing happens while they are stopped
+/// @param launches  where the kernel goes
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
-                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps);
+                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
+                     StepLaunches const& launches = {});
 
 /// What the walls have felt of the discs of all ranks.
 /// @throws SumOutOfRange where a reaction is not finite

@@ -44,7 +44,7 @@ double moved_bytes(Simulation const& simulation) {
   for_each_history(rows, [&](HistoryField const&, auto const& field) { written += &field == &rows.formation_overlap ? 0 : 1; });
   bool const mixed = rows.features.format.precision == Precision::mixed;
   double const row = sizeof(int) + (mixed ? sizeof(float) : sizeof(double)) * (2 * written + (rows.features.bonds ? 2 : 0));
-  constexpr double contact_pass = 6 + 3, drift = 11 + 6;  // fields of a disc
+  constexpr double contact_pass = 6 + 3, copies = for_gpu ? 1 + 6 : 0, drift = 11 + 6 + copies;  // numbers of a disc
   constexpr double mirror = sizeof(float) * DiscMirror::row, places = 2 * 3 * sizeof(double), forces = 3 * sizeof(float);
   return entries * row + (mixed ? 3 * mirror + places + 2 * forces : sizeof(double) * (contact_pass + drift));
 }

@@ -52,6 +52,7 @@ SkinRange Simulation::skin_range(bool by_speed) const {
 void Simulation::set_laws(SimulationLaws const& laws) {
   bool const ledger = laws_.contact.ledger;
   if (laws.precision != laws_.precision) throw std::invalid_argument("a simulation keeps its precision");
+  graph_.drop();
   laws_ = laws;
   laws_.contact.ledger = ledger;
   ContactFeatures const features = features_of_rows();
@@ -62,6 +63,7 @@ void Simulation::set_laws(SimulationLaws const& laws) {
 }
 
 void Simulation::set_ledger(bool on) {
+  graph_.drop();
   laws_.contact.ledger = on;
   losses_ = EnergyLosses();
   if (on) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
@@ -152,6 +154,7 @@ Real Simulation::largest_frequency(int iterations) const {
 Real Simulation::stable_limit() const { return clathra::stable_limit(springs(), laws_.motion.damping, calm_leeway, across()); }
 
 void Simulation::keep_break_events(bool on) {
+  graph_.drop();
   broken_bonds_.collect();
   broken_bonds_.keeps_events = on;
   broken_bonds_.drop_log();
@@ -159,6 +162,7 @@ void Simulation::keep_break_events(bool on) {
 }
 
 void Simulation::keep_break_details() {
+  graph_.drop();
   broken_bonds_.collect();
   broken_bonds_.details_from_height = height();
   broken_bonds_.drop_log();

@@ -118,6 +118,7 @@ class Simulation {
   // Reading.
   std::int64_t steps() const { return now_.step; }
   std::int64_t rebuilds() const { return rebuilds_; }
+  std::int64_t graph_runs() const { return graph_.runs(); }    ///< of StepGraph::steps steps each
   double rebuild_seconds() const { return rebuild_seconds_; }  ///< wall time of all neighbour searches
   Real time() const { return now_.time; }
   int discs() const { return discs_; }
@@ -187,8 +188,9 @@ class Simulation {
   int steps_at_once(std::int64_t most) const;
   void advance(int steps);
   void hand_over(bool host_goes_along);
-  void move_discs(int ahead);
-  void push_discs(int ahead);
+  void ask_for(int steps);
+  void move_discs(int ahead, StepLaunches const& launches);
+  void push_discs(StepLaunches const& launches);
   void end_move();
   void end_step();
   void renew_time_step();
@@ -231,6 +233,7 @@ class Simulation {
   SimulationLaws laws_;
   StepState now_;      // as it was after the last step that is done
   DeviceSteps steps_;  // the same on the device, where steps are under way
+  StepGraph graph_;    // of many steps; dropped by whatever gives them other fields or laws
   WallContacts wall_contacts_;
   PeriodicImages images_;
   Halo halo_;

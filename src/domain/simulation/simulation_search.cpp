@@ -19,6 +19,7 @@ constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
 /// @param also  what goes with the discs beside auxiliary_fields()
 void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
   Kokkos::Timer const clock;
+  graph_.drop();
   if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
   Survey const all = survey_discs();           // throws: discs that are nowhere have no cell
   if (!log_lasts()) broken_bonds_.collect();

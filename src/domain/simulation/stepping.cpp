@@ -46,10 +46,10 @@ void Simulation::advance(int steps) {
   std::int64_t const first = now_.step;
   hand_over(along);
   Kokkos::Timer const moving;
-  for (int n = 0; n < steps; ++n) {
-    move_discs(n);
-    if (!along) push_discs(n);
-  }
+  if (along)
+    move_discs(0, {});
+  else
+    ask_for(steps);
   now_ = steps_.get();
   busy_seconds_ += moving.seconds();
   following_.last = time_step;
@@ -62,6 +62,16 @@ void Simulation::advance(int steps) {
     end_step();
   }
   in_range([&] { require_reactions_in_range(now_.out_of_range); });
+}
+
+/// Asks for whole steps, many at once where there are graphs.
+void Simulation::ask_for(int steps) {
+  graph_.follow(time_step);
+  bool const first_differs = following_.last > 0 && following_.last != time_step;
+  graph_.ask_for(steps, first_differs, [this](StepLaunches const& launches, int ahead) {
+    move_discs(ahead, launches);
+    push_discs(launches);
+  });
 }
 
 /// The state of the steps to the device, with what has been set since it came from there.
@@ -79,17 +89,18 @@ void Simulation::hand_over(bool host_goes_along) {
 }
 
 /// Kick and drift. @param ahead  steps that were asked for since the last wait
-void Simulation::move_discs(int ahead) {
+void Simulation::move_discs(int ahead, StepLaunches const& launches) {
   bool const changed = ahead == 0 && following_.last > 0;
   StepLengths const lengths{changed ? 0.5 * (following_.last + time_step) : time_step, time_step};
-  integrate(particles_, laws_.motion, lengths, losses_, faults_, steps_);
+  integrate(particles_, laws_.motion, lengths, losses_, faults_, steps_, launches);
 }
 
 /// The forces at the places that the discs have come to, and the end of the step.
-void Simulation::push_discs(int ahead) {
-  compute_forces(particles_, rows_, laws_.contact, time_step, now_.step + ahead + 1, broken_bonds_.log_of(steps_.state), losses_,
-                 faults_, steps_.state);
-  if (!periodic()) add_wall_forces(particles_, wall_contacts_, laws_.wall, time_step, losses_, faults_, sums_.unit, steps_);
+void Simulation::push_discs(StepLaunches const& launches) {
+  compute_forces(particles_, rows_, laws_.contact, time_step, now_.step + 1, broken_bonds_.log_of(steps_.state), losses_, faults_,
+                 steps_.state, launches);
+  if (!periodic())
+    add_wall_forces(particles_, wall_contacts_, laws_.wall, time_step, losses_, faults_, sums_.unit, steps_, launches);
 }
 
 /// The host's part between the move and the forces: a search, or the ghosts follow their discs.
@@ -115,7 +126,7 @@ void Simulation::end_step() {
   bool const along = host_goes_along();
   hand_over(along);
   Kokkos::Timer const pushing;
-  push_discs(0);
+  push_discs({});
   Kokkos::fence();
   busy_seconds_ += pushing.seconds();
   if (!along) {
