@@ -42,8 +42,8 @@ struct ContactKernel {
   ParticleSoA p;
   ContactRows rows;
   Constants constants;
-  BondLaw exact;  ///< for the strength test that decides, in double precision
-  std::int64_t step;  ///< its number, where there are no
+  BondLaw exact;      ///< for the strength test that decides, in double precision
+  std::int64_t step;  ///< its number, where there are no `steps`
   Field<StepState> steps;
   BreakLog breaks;
   EnergyLosses losses;

@@ -1,6 +1,6 @@
 #pragma once
-/// Many steps that a GPU is asked for at once: a graph of their kernels, recorded once and then run again and again until what the
-/// kernels were given changes. On a processor there are none, and kernels are launched one by one.
+/// Many steps that a GPU is asked for at once: a graph of their kernels, recorded once and then run again and again until what
+/// the kernels were given changes. On a processor there are none, and kernels are launched one by one.
 #include <Kokkos_Graph.hpp>
 #include <cstdint>
 #include <optional>
@@ -54,7 +54,7 @@ class StepLaunches {
 /// is why a graph is recorded after they have run one by one.
 class StepGraph {
  public:
-  static constexpr int steps = 16;        ///< of a graph
+  static constexpr int steps = 16;         ///< of a graph
   static constexpr int steps_before = 64;  ///< one by one, before a graph is recorded
 
   /// To be called whenever a kernel of a step would be given something else than in the step before: what is recorded is no

@@ -12,8 +12,8 @@ void expect_rows_as_fields(ParticleSoA const& p, char const* after) {
   auto const vx = on_host(p.vx, size), vy = on_host(p.vy, size), omega = on_host(p.omega, size);
   for (std::size_t i = 0; i < size; ++i) {
     DiscRow const& row = rows[i];
-    bool const same = row.x == x[i] && row.y == y[i] && row.radius == radius[i] && row.vx == vx[i] && row.vy == vy[i] &&
-                      row.omega == omega[i];
+    bool const same =
+        row.x == x[i] && row.y == y[i] && row.radius == radius[i] && row.vx == vx[i] && row.vy == vy[i] && row.omega == omega[i];
     ASSERT_TRUE(same) << "disc " << i << " of " << p.all() << " after " << after;
   }
 }
