@@ -29,7 +29,7 @@ struct DiscReader {
       return {bits_of(rows.places.x), bits_of(rows.places.y), rows.motion.vx,          rows.motion.vy,
               rows.places.omega,      rows.places.radius,     rows.motion.inverse_mass};
     } else if constexpr (for_gpu) {
-      DiscRow const& row = p.rows.of(static_cast<int>(first));
+      DiscRow const& row = p.disc_rows.of(static_cast<int>(first));
       return {row.x, row.y, row.vx, row.vy, row.omega, row.radius, Masses ? load(p.inverse_mass.data<R>() + first) : V(0)};
     } else {
       return {load(&p.x(first)),
@@ -65,7 +65,7 @@ struct DiscReader {
       }
       return {to_float(difference(bits_of(at.x), own.x)) * tick, to_float(difference(bits_of(at.y), own.y)) * tick, at.radius};
     } else if constexpr (for_gpu) {
-      DiscRow const& row = p.rows.of(*j);
+      DiscRow const& row = p.disc_rows.of(*j);
       return {row.x - own.x, row.y - own.y, row.radius};
     } else {
       return {gather(p.x.data(), j) - own.x, gather(p.y.data(), j) - own.y, gather(p.radius.data(), j)};
@@ -79,7 +79,7 @@ struct DiscReader {
       MotionOfDiscs const read = p.mirror.gather_motion(j);
       motion = {read.vx, read.vy, motion.omega, read.inverse_mass};
     } else if constexpr (for_gpu) {
-      DiscRow const& row = p.rows.of(*j);
+      DiscRow const& row = p.disc_rows.of(*j);
       motion = {row.vx, row.vy, row.omega, Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
     } else {
       motion = {gather(p.vx.data<R>(), j), gather(p.vy.data<R>(), j), gather(p.omega.data<R>(), j),

@@ -87,7 +87,7 @@ struct KickAndDrift : Moving {
     store(&p.x(i), x);
     store(&p.y(i), y);
     store(&p.angle(i), load(&p.angle(i)) + omega * by.drift);
-    p.rows.set(i, x, y, p.radius(i), vx, vy, omega);
+    p.disc_rows.set(i, x, y, p.radius(i), vx, vy, omega);
     if constexpr (Ledger) store(&lost_to_damping(i), load(&lost_to_damping(i)) + lost);
     return lane_abs(x - x0) + lane_abs(y - y0) + lane_abs(omega) * Lanes(0);
   }

@@ -11,7 +11,7 @@ namespace clathra {
 namespace {
 
 KOKKOS_INLINE_FUNCTION void set_row(ParticleSoA const& p, std::size_t i) {
-  p.rows.set(i, p.x(i), p.y(i), p.radius(i), p.vx(i), p.vy(i), p.omega(i));
+  p.disc_rows.set(i, p.x(i), p.y(i), p.radius(i), p.vx(i), p.vy(i), p.omega(i));
 }
 
 struct FillPadding {
@@ -46,6 +46,12 @@ struct UpdateDiscRows {
   int first;
   KOKKOS_FUNCTION void operator()(int k) const { set_row(p, static_cast<std::size_t>(first + k)); }
 };
+
+/// The same of the rows, which hold copies of velocities too. In mixed precision these stand in the mirror alone.
+void update_disc_rows(ParticleSoA const& particles, int first, int count) {
+  if (!for_gpu || particles.precision == Precision::mixed) return;
+  Kokkos::parallel_for("update_disc_rows", Kokkos::RangePolicy<ExecutionSpace>(0, count), UpdateDiscRows{particles, first});
+}
 
 struct AddAffineVelocity {
   ParticleSoA p;
@@ -139,8 +145,8 @@ void reserve(ParticleSoA& particles, int discs) {
   for_each_field(particles, grow);
   for_each_derived_field(particles, grow);
   if (!mixed) {
-    particles.rows.resize(size);
-    update_mirror(particles, 0, particles.owned);
+    particles.disc_rows.resize(size);
+    update_disc_rows(particles, 0, particles.owned);
     return;
   }
   Field<std::uint32_t> const larger("mirror", DiscMirror::row * size);
@@ -155,12 +161,10 @@ void fill_padding(ParticleSoA const& particles) {
 }
 
 void update_mirror(ParticleSoA const& particles, int first, int count) {
-  Kokkos::RangePolicy<ExecutionSpace> const discs(0, count);
-  if (particles.precision == Precision::mixed) {
-    Kokkos::parallel_for("update_mirror", discs, UpdateMirror{particles, first, 1 / particles.mirror.tick});
-  } else if constexpr (for_gpu) {
-    Kokkos::parallel_for("update_disc_rows", discs, UpdateDiscRows{particles, first});
-  }
+  update_disc_rows(particles, first, count);
+  if (particles.precision == Precision::full) return;
+  Kokkos::parallel_for("update_mirror", Kokkos::RangePolicy<ExecutionSpace>(0, count),
+                       UpdateMirror{particles, first, 1 / particles.mirror.tick});
 }
 
 void permute(ParticleSoA& particles, Field<int> const& order, Scratch& scratch) {
@@ -178,7 +182,7 @@ void permute(ParticleSoA& particles, Field<int> const& order, Scratch& scratch) 
 void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y, Coord centre_x, Coord centre_y) {
   Kokkos::parallel_for("add_affine_velocity", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        AddAffineVelocity{particles, rate_x, rate_y, centre_x, centre_y});
-  update_mirror(particles, 0, particles.owned);
+  update_disc_rows(particles, 0, particles.owned);
 }
 
 void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, Coord fixed_y) {
@@ -189,7 +193,7 @@ void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, C
 
 void stop_motion(ParticleSoA const& particles) {
   for (RealField const& field : {particles.vx, particles.vy, particles.omega}) fill(field, 0);
-  update_mirror(particles, 0, particles.all());
+  update_disc_rows(particles, 0, particles.all());
 }
 
 std::size_t bytes(ParticleSoA const& particles) {
@@ -197,7 +201,7 @@ std::size_t bytes(ParticleSoA const& particles) {
   auto const count = [&](DiscField const&, auto const& field) { total += field_bytes(field); };
   for_each_field(particles, count);
   for_each_derived_field(particles, count);
-  return total + field_bytes(particles.mirror.rows) + particles.rows.bytes();
+  return total + field_bytes(particles.mirror.rows) + particles.disc_rows.bytes();
 }
 
 }  // namespace clathra

@@ -27,12 +27,12 @@ struct ParticleSoA {
   RealField inverse_mass;     ///< 1 / (pi r^2 rho) [m/kg]
   RealField inverse_inertia;  ///< 2 / (m r^2) [1/(kg m)]
   // Derived, not part of the state:
-  RealField force_x, force_y;             ///< [N/m]
-  RealField torque;                       ///< [N m/m]
-  Field<Coord> reference_x, reference_y;  ///< centre at the last neighbour search [m]
-  Field<Real> verlet_skin;                ///< how far from there, beside the homogeneous motion, until the next one [m]
-  DiscMirror mirror;                      ///< mixed precision: what the contact kernel reads
-  [[no_unique_address]] DiscRows rows;    ///< double precision on a GPU: likewise
+  RealField force_x, force_y;                ///< [N/m]
+  RealField torque;                          ///< [N m/m]
+  Field<Coord> reference_x, reference_y;     ///< centre at the last neighbour search [m]
+  Field<Real> verlet_skin;                   ///< how far from there, beside the homogeneous motion, until the next one [m]
+  DiscMirror mirror;                         ///< mixed precision: what the contact kernel reads
+  [[no_unique_address]] DiscRows disc_rows;  ///< double precision on a GPU: likewise
 
   int all() const { return owned + ghosts; }
   /// The index of a padding disc.

@@ -69,9 +69,6 @@ class StepGraph {
     time_step_ = time_step;
   }
 
-  /// For steps one by one.
-  StepLaunches one_by_one() const { return StepLaunches(space_); }
-
   /// Asks for as many steps as there are, by graphs as far as these pay.
   /// @param step  step(StepLaunches, n) asks for the n-th of them; all but perhaps the first give their kernels the same
   template <class Step>
@@ -83,7 +80,7 @@ class StepGraph {
         run(step);
         n += steps;
       } else {
-        step(one_by_one(), n++);
+        step(StepLaunches(space_), n++);
         ++done_;
       }
     }

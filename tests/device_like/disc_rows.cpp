@@ -7,7 +7,7 @@ namespace {
 /// Compares all discs, ghosts and a padding disc with their rows.
 void expect_rows_as_fields(ParticleSoA const& p, char const* after) {
   auto const size = static_cast<std::size_t>(p.all()) + 1;
-  auto const rows = on_host(p.rows.rows, size);
+  auto const rows = on_host(p.disc_rows.rows, size);
   auto const x = on_host(p.x, size), y = on_host(p.y, size), radius = on_host(p.radius, size);
   auto const vx = on_host(p.vx, size), vy = on_host(p.vy, size), omega = on_host(p.omega, size);
   for (std::size_t i = 0; i < size; ++i) {
