@@ -70,13 +70,13 @@ class StepGraph {
   }
 
   /// Asks for as many steps as there are, by graphs as far as these pay.
-  /// @param step  step(StepLaunches, n) asks for the n-th of them; all but perhaps the first give their kernels the same
+  /// @param step  step(StepLaunches, n) asks for the n-th of them. All give their kernels the same, but for the first one behind a
+  /// drop, which no graph does.
   template <class Step>
-  void ask_for(int count, bool first_differs, Step const& step) {
+  void ask_for(int count, Step const& step) {
     int n = 0;
     while (n < count) {
-      bool const differs = n == 0 && first_differs;
-      if (for_gpu && !differs && done_ >= steps_before && count - n >= steps) {
+      if (for_gpu && done_ >= steps_before && count - n >= steps) {
         run(step);
         n += steps;
       } else {

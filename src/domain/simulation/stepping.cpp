@@ -67,8 +67,7 @@ void Simulation::advance(int steps) {
 /// Asks for whole steps, many at once where there are graphs.
 void Simulation::ask_for(int steps) {
   graph_.follow(time_step);
-  bool const first_differs = following_.last > 0 && following_.last != time_step;
-  graph_.ask_for(steps, first_differs, [this](StepLaunches const& launches, int ahead) {
+  graph_.ask_for(steps, [this](StepLaunches const& launches, int ahead) {
     move_discs(ahead, launches);
     push_discs(launches);
   });
