@@ -70,8 +70,8 @@ class StepGraph {
   }
 
   /// Asks for as many steps as there are, by graphs as far as these pay.
-  /// @param step  step(StepLaunches, n) asks for the n-th of them. All give their kernels the same, but for the first one behind a
-  /// drop, which no graph does.
+  /// @param step  step(StepLaunches, n) asks for the n-th of them. All give their kernels the same, but for the first one behind
+  /// a drop, which no graph does.
   template <class Step>
   void ask_for(int count, Step const& step) {
     int n = 0;
