@@ -26,7 +26,8 @@ char const scene_text[] =
     "[sample]\nparticles = 144\n[hydrate]\nsaturation = \"41 %\"\n[bond]\nreading = \"first_crack\"\ncoefficients = "
     "\"printed\"\n[test]\naxial_strain = \"2 "
     "%\"\n"
-    "inertial_number = 5e-3\nwall_friction = 0.2\n[output]\nrecords = 20\nenergy = true\n[run]\nforce = true\n";
+    "inertial_number = 5e-3\nwall_friction = 0.2\n[output]\nrecords = 20\nenergy = true\n[run]\nprecision = \"double\"\nforce = "
+    "true\n";
 
 Scene test_scene() { return parse_scene(scene_text, "golden.toml", ".").scene; }
 

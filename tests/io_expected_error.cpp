@@ -12,6 +12,7 @@ Scene scene_of(double saturation) {
   Scene scene;
   scene.hydrate.saturation = saturation;
   scene.run.inertia_scaling = 1;
+  scene.run.precision = Precision::full;
   return scene;
 }
 RateNumbers at(double inertial_number, double wave_number = 0) {

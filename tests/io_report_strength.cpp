@@ -121,16 +121,16 @@ TEST_F(ReportLikeness, WhatOnlyChoosesHowItIsComputedOrWrittenDoesNotPartTests) 
 }
 
 TEST_F(ReportLikeness, AnyOtherDifferencePartsThemAndIsNamed) {
-  for (auto const& [override, words] :
-       std::vector<std::pair<std::string, std::string>>{{"grains.friction=0.3", "friction 0.3"},
-                                                        {"grains.shape_factor=1.5", "shape factor 1.5"},
-                                                        {"hydrate.temperature=6 degC", "temperature 6 degC"},
-                                                        {"hydrate.density=910 kg/m^3", "hydrate density 910 kg/m^3"},
-                                                        {"test.inertial_number=5e-5", "inertial number 5e-05"},
-                                                        {"sample.void_ratio=0.22", "void ratio 0.22"},
-                                                        {"bond.composite=memory", "bond composite memory"},
-                                                        {"bond.stress=60 kPa", "bond stress 60 kPa"},
-                                                        {"run.damping=0.2", "damping 0.2"}}) {
+  for (auto const& [override, words] : std::vector<std::pair<std::string, std::string>>{
+           {"grains.friction=0.3", "friction 0.3"},
+           {"grains.shape_factor=1.5", "shape factor 1.5"},
+           {"hydrate.temperature=6 degC", "temperature 6 degC"},
+           {"hydrate.density=910 kg/m^3", "hydrate density 910 kg/m^3"},
+           {"test.inertial_number=5e-5", "inertial number 5e-05, wave number not given"},
+           {"sample.void_ratio=0.22", "void ratio 0.22"},
+           {"bond.composite=memory", "bond composite memory"},
+           {"bond.stress=60 kPa", "bond stress 60 kPa"},
+           {"run.damping=0.2", "damping 0.2"}}) {
     std::string const page = page_on_pairs({{"a", {override}}});
     EXPECT_EQ(page.find("Mohr circles"), std::string::npos) << override;
     EXPECT_NE(page.find("differ in more than confining stress and seed and have no common envelope: a-1 ("), std::string::npos)

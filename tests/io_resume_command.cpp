@@ -203,7 +203,7 @@ TEST_F(RunFolder, OfAnotherSceneIsLeftAloneAndToldBeforeAnythingElse) {
 
 TEST_F(RunFolder, GoesOnInItsOwnPrecisionOnly) {
   copy_of("stopped");
-  CommandResult const other = run("copy", "--resume --set run.precision=mixed");
+  CommandResult const other = run("copy", "--resume --set run.precision=double");
   EXPECT_EQ(other.code, 77) << other.output;
   EXPECT_TRUE(says(other, "of another scene"));
   EXPECT_TRUE(says(other, "run.precision was ")) << other.output;

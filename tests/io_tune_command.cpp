@@ -42,7 +42,7 @@ TEST_F(TuneCommand, WritesASceneWithTheCheapestSettingThatIsWithinTheTolerance) 
   EXPECT_NE(result.output.find("mine.toml: error of peak_q_Pa, rungs of 300 discs\n"), std::string::npos) << result.output;
   EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.003 +\\S+ +double  0\\.475  x1 +[5-9] +[+-]\\S+ ± ")))
       << result.output;
-  EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.0002 +\\S+ +double  usual  x3 .* 1  \\S+, as it stands\n")))
+  EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.0002 +\\S+ +mixed   usual  x3 .* 1  \\S+, as it stands\n")))
       << result.output;
   EXPECT_TRUE(std::regex_search(result.output, std::regex(", chosen\n"))) << result.output;
   EXPECT_TRUE(std::regex_search(result.output,

@@ -69,6 +69,7 @@ TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
   scene.test.axial_strain = 0.02;
   scene.bond.moment_ratio = 1.0 / 14;  // many break
   scene.test.inertial_number = 9e-4;   // no warning of the rate
+  scene.test.wave_number = 0;
   for (int const records : {1, 7, 300}) {
     scene.output.records = records;
     Verdict const fast = verdict_on(scene);

@@ -141,6 +141,7 @@ void expect_needs(std::string const& what, Scene const& scene) {
 
 TEST(Features, AreListedWithTheirBytesAndKernels) {
   Scene scene;
+  scene.run.precision = Precision::full;
   expect_needs("sand", scene);
   scene.output.energy = true;
   expect_needs("sand with energy", scene);

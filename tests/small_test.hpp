@@ -17,6 +17,7 @@ inline Scene small_test() {
   scene.hydrate.saturation = 0.55;
   scene.test.axial_strain = 0.04;
   scene.output.records = 40;
+  scene.run.precision = Precision::full;
   return scene;
 }
 

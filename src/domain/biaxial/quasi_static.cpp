@@ -58,8 +58,9 @@ std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n)
   if (double const stiffness = stiffness_number(scene); stiffness < stiffness_limit)
     refusals.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_limit) +
                        ": grains overlap by more than a tenth of their diameter, which no contact law here describes");
-  if (double const stiffness = stiffness_number(scene); scene.run.precision == Precision::mixed && stiffness > stiffness_resolved)
-    refusals.push_back("kn / sigma_3 = " + short_number(stiffness) + " is above " + short_number(stiffness_resolved) +
+  if (scene.run.precision == Precision::mixed && !mixed_precision_resolves(scene))
+    refusals.push_back("kn / sigma_3 = " + short_number(stiffness_number(scene)) + " is above " +
+                       short_number(stiffness_resolved) +
                        ": mixed precision does not resolve such small overlaps; take run.precision = \"double\"");
   return refusals;
 }

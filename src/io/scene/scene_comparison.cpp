@@ -38,7 +38,11 @@ Scene defaults_of(SceneTexts const& kept) {
 
 /// What a scene meant that was kept before it could state the key.
 std::string unstated(Key const& key, Scene const& defaults) {
-  return key.name == "run.time_step" ? "\"bound\"" : value_text(key, defaults);
+  constexpr std::pair<std::string_view, std::string_view> then[] = {
+      {"run.time_step", "\"bound\""}, {"run.precision", "\"double\""}, {"test.wave_number", "0"}};
+  for (auto const& [name, value] : then)
+    if (key.name == name) return std::string(value);
+  return value_text(key, defaults);
 }
 
 /// Whether a text that was kept states the value of a scene.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "domain/biaxial/quasi_static.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/scene/guarded_toml.hpp"
 #include "io/scene/presets.hpp"
@@ -118,15 +119,19 @@ class SceneReader {
     return {file_};
   }
 
-  /// What the presets say of keys that are not stated; to state test.strain_rate is to state the rate. A bond that replaces the
-  /// contact, stated on its own, forms at the bonding stress, whatever the reading has: it would drop the force of the contact.
+  /// What the presets say of keys that are not stated. A stated rate is kept: no preset bounds its W. Grains that are too
+  /// stiff for mixed precision get double from any. A bond that replaces the contact, stated on its own, forms at the bonding
+  /// stress, whatever the reading has: it would drop the force of the contact.
   void complete_presets() {
-    auto const stated = [this](std::string_view key) {
+    bool const states_rate = given("test.strain_rate") || places_.count("test.inertial_number") != 0;
+    if (states_rate && places_.count("test.wave_number") == 0) scene_.test.wave_number = 0;
+    auto const stated = [&](std::string_view key) {
       bool const of_rate = key == "test.inertial_number" || key == "test.wave_number";
-      return places_.count(key) != 0 || (of_rate && given("test.strain_rate"));
+      return places_.count(key) != 0 || (of_rate && states_rate);
     };
     apply_preset(readings().of(scene_.bond.reading), scene_, stated);
     apply_preset(accuracies().of(scene_.run.accuracy), scene_, stated);
+    if (places_.count("run.precision") == 0 && !mixed_precision_resolves(scene_)) scene_.run.precision = Precision::full;
     if (scene_.bond.composite == Composite::replace && places_.count("bond.after_consolidation") == 0)
       scene_.bond.after_consolidation = false;
   }

@@ -145,8 +145,9 @@ std::string schema_markdown() {
          "which. `bond.reading` names one; keys that a scene states itself keep their values.\n\n" +
          presets_markdown(readings()) +
          "\n## Accuracy\n\n`run.accuracy` names a point of the trade of speed for accuracy; keys that a scene states itself keep "
-         "their values, and `test.strain_rate` is one that states the rate. Local damping is no part of it: it belongs to the "
-         "model.\n\n" +
+         "their values. `test.strain_rate` and `test.inertial_number` state the rate, which a stated `test.wave_number` alone "
+         "bounds then. "
+         "Local damping is no part of it: it belongs to the model.\n\n" +
          presets_markdown(accuracies());
 }
 
