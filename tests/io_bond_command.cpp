@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "golden_bonds.hpp"
+#include "kernels/lane.hpp"
 #include "printed_number.hpp"
 
 namespace clathra {
@@ -254,7 +255,7 @@ TEST(BenchCommand, PrintsATableOfSizesInBothPrecisions) {
     EXPECT_NEAR(rows[n]["discs"], discs, 0.1 * discs);
     double const speed = rows[n]["disc_steps_per_second"], step = rows[n]["seconds_per_step"];
     EXPECT_NEAR(speed * step, rows[n]["discs"], 1);
-    EXPECT_GE(rows[n]["launches_per_step"], 3);  // drift, contacts, walls
+    EXPECT_GE(rows[n]["launches_per_step"], for_gpu ? 0.1 : 3);  // drift, contacts, walls; there a graph of sixteen steps is one
     EXPECT_LT(rows[n]["launches_per_step"], 20);
     EXPECT_GT(rows[n]["bandwidth_share"], 0);
   }

@@ -26,6 +26,8 @@ void add_discs(Scene const& scene, Precision precision, std::vector<NeededField>
   };
   if (precision == Precision::mixed)
     fields.push_back({"mirror", static_cast<int>(DiscMirror::row * sizeof(float)), FieldOf::disc, "run.precision"});
+  if (for_gpu && precision == Precision::full)
+    fields.push_back({"disc_rows", static_cast<int>(sizeof(DiscRow)), FieldOf::disc, "run.precision on a GPU"});
   for_each_field(particles, state);
   for_each_derived_field(particles, state);
   for (char const* const name : {"step_x", "step_y"}) fields.push_back({name, sizeof(Coord), FieldOf::disc, every_scene});

@@ -13,7 +13,7 @@ struct ThroughputRow {
   std::int64_t discs = 0;
   Throughput measured;
   double bandwidth = 0;          ///< update_bandwidth() of as much memory, of the same minute [bytes/s]
-  double launches_per_step = 0;  ///< of kernels, those of searches among them
+  double launches_per_step = 0;  ///< of kernels, those of searches among them; a graph of steps is one
 
   double microseconds_per_step() const { return 1e6 * measured.seconds / static_cast<double>(measured.steps); }
   double bandwidth_share() const {
