@@ -89,6 +89,15 @@ struct Arithmetic {
   }
 };
 
+/// Steps in which the walls find a cut packing, fast enough that it keeps its stress, before searches are those of a test; but no
+/// faster than those of a million discs, a tenth of a grain in a step: those of twenty millions would pass through grains.
+void let_walls_find_packing(Simulation& simulation, Scene const& scene, double d50, int steps) {
+  constexpr double rate_of_large = 1e-2, large = 1e6;
+  double const rate = rate_of_large / std::sqrt(std::max(1.0, simulation.discs() / large));
+  prepare_servo(simulation, scene.bond.stress, rate, d50, scene.run.step_choice());
+  simulation.step(steps);
+}
+
 }  // namespace
 
 Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& ranks) {
@@ -111,12 +120,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
     laws.contact.bond = make_bond_law(scene, specimen.d50, specimen.critical_thickness);
   }
   Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
-  // The walls have to find the cut packing, fast enough that it keeps its stress, before searches are those of a test; but no
-  // faster than those of a million discs, a tenth of a grain in a step: those of twenty millions would pass through grains.
-  constexpr double rate_of_large = 1e-2, large = 1e6;
-  double const finding_rate = rate_of_large / std::sqrt(std::max(1.0, simulation.discs() / large));
-  prepare_servo(simulation, scene.bond.stress, finding_rate, specimen.d50, scene.run.step_choice());
-  simulation.step(setup.relaxation_steps);
+  let_walls_find_packing(simulation, scene, specimen.d50, setup.relaxation_steps);
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
   prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
   RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
