@@ -8,7 +8,8 @@ function(clathra_precompile target)
   endif()
 endfunction()
 
-# clathra_compile_quickly(TARGET): with little optimisation in a build that has much, which halves the time of compiling what no run spends time in.
+# clathra_compile_quickly(TARGET): with little optimisation in a build that has much, for what no run spends time in: four files of
+# the drivers compile in 54 to 74 % of the time, the tests device_like in half of it.
 function(clathra_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()

@@ -216,7 +216,8 @@ def large(tests, _):
             continue
         cells = [with_interval(tests.change(BONDED, setting, q, LARGE_REFERENCE)) for q in BEFORE]
         waves = [float(row["wave_number"]) for row in tests.pick(BONDED, setting).values()]
-        rows.append([", ".join(["mixed"] * ("mixed" in setting[1]) + ["inertia x 3" if "inertia" in setting[0] else "true masses"]), f"{setting[2]:g}", f"{sum(waves) / len(waves):.2g}"] + cells +
+        name = ("mixed, " if "mixed" in setting[1] else "") + ("inertia x 3" if "inertia" in setting[0] else "true masses")
+        rows.append([name, f"{setting[2]:g}", f"{sum(waves) / len(waves):.2g}"] + cells +
                     [verdict(found, 2), str(found[2])])
     return markdown(["setting", "I", "W"] + BEFORE_HEADINGS + ["peak q within 2 %?", "seeds"], rows)
 
