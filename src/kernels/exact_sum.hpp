@@ -99,6 +99,19 @@ struct SumUnits {
 using SumWord = std::int64_t;
 constexpr int sum_words(int count) { return FixedPoint::words * count + 1; }
 
+/// Words of sums that threads add to at any time, each with an atomic operation: whole numbers do not know their order.
+struct SharedSums {
+  SumWord* words;
+
+  struct Word {
+    SumWord* at;
+    KOKKOS_FORCEINLINE_FUNCTION void operator+=(SumWord term) const {
+      if (term != 0) Kokkos::atomic_fetch_add(at, term);
+    }
+  };
+  KOKKOS_FORCEINLINE_FUNCTION Word operator[](int k) const { return {words + k}; }
+};
+
 /// A reduction to the sums of `Count` quantities: same bits for any order and thread count. The sums' words stand digit by digit,
 /// word k of quantity c at Count k + c, so that loops over quantities become vector code; behind them one more counts the terms
 /// that are out of range.
@@ -115,8 +128,9 @@ struct ExactSums {
   }
 
   /// Adds the terms of one quantity that stand side by side. Their digits are whole numbers below 2^31, of which the sum of all
-  /// lanes is exact.
-  KOKKOS_FORCEINLINE_FUNCTION void add(int quantity, Lanes const& terms, SumWord* sums) const {
+  /// lanes is exact. @param sums  SumWord* or SharedSums
+  template <class Sums>
+  KOKKOS_FORCEINLINE_FUNCTION void add(int quantity, Lanes const& terms, Sums sums) const {
     Lanes value = terms * Lanes(per_unit[quantity]);
     auto const beyond = !(lane_abs(value) < Lanes(FixedPoint::largest_term));
     if (any(beyond)) {

@@ -148,7 +148,8 @@ struct KickAndDriftMixed : Moving {
   }
 };
 
-/// The groups of one thread, backwards, since what the forces touched last is still in its cache.
+/// The groups of one thread, backwards, since what the forces touched last is still in its cache. On a GPU one disc, so that
+/// neighbouring threads touch neighbouring discs.
 template <class Kernel>
 struct ByShares {
   Kernel kernel;
@@ -189,7 +190,8 @@ void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
                Faults const& faults, DeviceSteps const& steps, StepLaunches const& launches) {
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
-  int const share = std::max(1, (groups + ExecutionSpace().concurrency() - 1) / ExecutionSpace().concurrency());
+  int const threads = for_gpu ? std::max(groups, 1) : ExecutionSpace().concurrency();
+  int const share = std::max(1, (groups + threads - 1) / threads);
   // Made in place: small specimens feel each copy of all these fields.
   auto const run = [&]<class Kernel>(std::type_identity<Kernel>) {
     launches.parallel_reduce("kick_and_drift", (groups + share - 1) / share,

@@ -85,6 +85,13 @@ class StepGraph {
       }
     }
   }
+  /// For kernels behind the steps that were asked for, the same ones each time: the first of them may make Kokkos move the memory
+  /// of this instance.
+  StepLaunches behind() {
+    if (!has_been_followed_) drop();
+    has_been_followed_ = true;
+    return StepLaunches(space_);
+  }
   std::int64_t runs() const { return runs_; }  ///< of graphs
 
  private:
@@ -118,6 +125,7 @@ class StepGraph {
   Real time_step_ = 0;
   std::int64_t done_ = 0;  ///< steps one by one since it was dropped
   std::int64_t runs_ = 0;
+  bool has_been_followed_ = false;
 };
 
 }  // namespace clathra

@@ -15,6 +15,12 @@ struct Mark {
     AffineFrame const f = frame_since(now, box);
     return lane_max(lane_abs(1 - f.stretch_x), lane_abs(1 - f.stretch_y));
   }
+  /// Whether two discs whose gap was wider than a share of both their skins could touch: by how far the discs have strayed, as a
+  /// share of their skins, and what the homogeneous motion itself brings them nearer, as a share of the least skin.
+  /// @param reach  of a pair, in skins;  @param leeway  that share
+  KOKKOS_INLINE_FUNCTION bool has_strayed(Box const& now, Real reach, Real leeway) const {
+    return strayed + closing(now) * reach >= leeway;
+  }
   /// Adds the way of a step. @return whether ways could amount to a share of both their skins by which two discs were apart: then
   /// the discs' own ones tell whether they do
   /// @param way  in least skins;  @param reach  of a pair, in skins;  @param leeway  that share
@@ -44,6 +50,8 @@ struct StepOrders {
   bool host_goes_along = true;  ///< the host has a part in each step: other ranks, images of discs, a search
 };
 
+inline constexpr int numbers_of_survey = 16;
+
 struct StepState {
   Box box;
   WallReactions reactions;
@@ -56,8 +64,10 @@ struct StepState {
   Real displacement = 0;  ///< at least the longest way of a disc in the last step [m]
   Real way = 0;           ///< of that step beside the homogeneous motion, at most, in least skins
   bool search_in_doubt = false, choice_in_doubt = false;
+  bool search_is_due = false;  ///< by the discs' own ways, where there was a doubt and the host does not go along
   StepStop stop = StepStop::none;
-  std::int64_t out_of_range = 0;  ///< terms of the forces on the walls
+  std::int64_t out_of_range = 0;                  ///< terms of the forces on the walls
+  std::int64_t surveyed[numbers_of_survey] = {};  ///< where a search is due: what it has to know (survey.hpp)
 
   /// To be called before steps, and done by a step for the next one.
   KOKKOS_INLINE_FUNCTION void begin_step() {
@@ -81,6 +91,7 @@ struct StepState {
     Real const of_frame = box.periodic() ? 0 : (walls.largest_speed(left, right) + walls.largest_speed(bottom, top)) * orders.dt;
     way = (displacement + of_frame) / orders.least_skin;
     search_in_doubt = search.may_have_strayed(box, way, orders.reach, 1);
+    search_is_due = false;
     choice_in_doubt = orders.follows_limit && choice.may_have_strayed(box, way, orders.reach, orders.leeway);
     if (search_in_doubt || choice_in_doubt) stop = StepStop::after_move;
   }
@@ -111,12 +122,18 @@ struct DeviceSteps {
   decltype(Kokkos::create_mirror_view(Kokkos::HostSpace(), state)) on_host =
       Kokkos::create_mirror_view(Kokkos::HostSpace(), state);
   Kokkos::View<Real, MemorySpace> displacement = Kokkos::View<Real, MemorySpace>("largest_displacement");
-  Field<SumWord> reactions = Field<SumWord>("wall_reactions", static_cast<std::size_t>(sum_words(3 * wall_count)));
+  static constexpr std::size_t words_of_reactions = sum_words(3 * wall_count);
+  Field<SumWord> reactions = Field<SumWord>("wall_reactions", words_of_reactions);
+  /// Where a GPU sums them up, and the number of threads that have done so; zero between launches.
+  Field<SumWord> sums_of_reactions = Field<SumWord>("sums_of_wall_reactions", words_of_reactions + 1);
 
   void set(StepState const& now) const {
     on_host(0) = now;
     Kokkos::deep_copy(state, on_host);
   }
+  /// StepState::surveyed on the device.
+  using Numbers = Kokkos::View<std::int64_t*, MemorySpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  Numbers surveyed() const { return Numbers(state.data()->surveyed, numbers_of_survey); }
   /// Waits for all that was asked for.
   StepState const& get() const {
     Kokkos::deep_copy(on_host, state);

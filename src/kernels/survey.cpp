@@ -1,5 +1,6 @@
 #include "kernels/survey.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "kernels/light_launch.hpp"
@@ -29,12 +30,16 @@ struct SurveyDiscs {
   unsigned value_count = value_number;
   ParticleSoA p;
   ContactRows rows;
-  AffineFrame frame;
+  AffineFrame frame_of_host;
   Faults faults;
   Real per_unit;
   bool bonds;
+  Field<StepState> steps;  ///< whose frame it then is, or empty
 
   KOKKOS_FUNCTION void operator()(int group, std::int64_t* out) const {
+    bool const of_steps = steps.extent(0) > 0;
+    if (of_steps && !is_asked(steps(0))) return;
+    AffineFrame const frame = of_steps ? steps(0).frame : frame_of_host;
     int const first = group * lane_count, end = first + lane_count < p.owned ? first + lane_count : p.owned;
     Real most[Survey::faults] = {-1e300, -1e300, -1e300, -1e300, 0, 0};
     for (int i = first; i < end; ++i) {
@@ -50,6 +55,10 @@ struct SurveyDiscs {
     for (int n = 0; n < Survey::faults; ++n) raise(out, n, most[n]);
     if (group > 0) return;
     for (int fault = 0; fault < fault_count; ++fault) raise(out, Survey::faults + fault, faults.disc(fault));
+  }
+
+  KOKKOS_INLINE_FUNCTION static bool is_asked(StepState const& now) {
+    return now.stop == StepStop::after_move && (now.search_is_due || now.orders.host_goes_along);
   }
 
   KOKKOS_INLINE_FUNCTION void add(Real speed, std::int64_t* sums) const {
@@ -96,6 +105,24 @@ struct SurveyDiscs {
   }
 };
 
+static_assert(SurveyDiscs::value_number == numbers_of_survey);
+
+SurveyDiscs survey_kernel(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame, Faults const& faults,
+                          SumUnits const& unit, Field<StepState> const& steps) {
+  bool const bonds = rows.formation_overlap.extent(0) > 0 && rows.length.extent(0) > 0;
+  return {SurveyDiscs::value_number, particles, rows, frame, faults, 1 / unit.speed(), bonds, steps};
+}
+
+/// Of group_count() at least one, which reads the faults.
+int groups_of_survey(ParticleSoA const& particles) { return std::max(group_count(particles.owned), 1); }
+
+Survey survey_in(std::int64_t const* values) {
+  Survey all;
+  for (int n = 0; n < Survey::sum_count; ++n) all.sums[n] = values[n];
+  for (int n = 0; n < Survey::largest_count; ++n) all.largest[n] = number_of(values[Survey::sum_count + n]);
+  return all;
+}
+
 }  // namespace
 
 Real Survey::mean_of_speeds(SumUnits const& unit) const {
@@ -111,18 +138,20 @@ Bounds Survey::bounds() const {
 
 Survey survey(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame, Faults const& faults,
               SumUnits const& unit) {
-  bool const bonds = rows.formation_overlap.extent(0) > 0 && rows.length.extent(0) > 0;
-  SurveyDiscs const kernel{SurveyDiscs::value_number, particles, rows, frame, faults, 1 / unit.speed(), bonds};
   std::int64_t values[SurveyDiscs::value_number];
-  int const groups = group_count(particles.owned);
-  Kokkos::parallel_reduce("survey", light_launch(groups > 0 ? groups : 1),
-                          kernel,  // faults are read in any case
+  Kokkos::parallel_reduce("survey", light_launch(groups_of_survey(particles)),
+                          survey_kernel(particles, rows, frame, faults, unit, {}),
                           Kokkos::View<std::int64_t*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(
                               &values[0], SurveyDiscs::value_number));
-  Survey all;
-  for (int n = 0; n < Survey::sum_count; ++n) all.sums[n] = values[n];
-  for (int n = 0; n < Survey::largest_count; ++n) all.largest[n] = number_of(values[Survey::sum_count + n]);
-  return all;
+  return survey_in(values);
 }
+
+void ask_for_survey(ParticleSoA const& particles, ContactRows const& rows, Faults const& faults, SumUnits const& unit,
+                    DeviceSteps const& steps, StepLaunches const& launches) {
+  launches.parallel_reduce("survey", groups_of_survey(particles), survey_kernel(particles, rows, {}, faults, unit, steps.state),
+                           steps.surveyed());
+}
+
+Survey survey_of(StepState const& steps) { return survey_in(steps.surveyed); }
 
 }  // namespace clathra

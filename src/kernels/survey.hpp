@@ -35,8 +35,14 @@ struct Survey {
   Bounds bounds() const;
 };
 
-/// @param rows  with ghosts in their present places
+/// The host waits for it. @param rows  with ghosts in their present places
 Survey survey(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame, Faults const& faults,
               SumUnits const& unit);
+
+/// Asks the device for the same, behind a move after which a search is due or the host goes along: it will be in the state of
+/// the steps, in which survey_of() finds it.
+void ask_for_survey(ParticleSoA const& particles, ContactRows const& rows, Faults const& faults, SumUnits const& unit,
+                    DeviceSteps const& steps, StepLaunches const& launches);
+Survey survey_of(StepState const& steps);
 
 }  // namespace clathra

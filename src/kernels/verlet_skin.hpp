@@ -35,4 +35,8 @@ void assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame,
 Real largest_nonaffine_displacement2(ParticleSoA const& particles, Field<Coord> const& x, Field<Coord> const& y,
                                      AffineFrame const& frame);
 
+/// Asks the device, behind steps whose ways may have added up, whether a search is due: where they stopped in doubt of one, its
+/// mark and `search_is_due` of the state are then what the host would find from the displacements above.
+void ask_whether_search_is_due(ParticleSoA const& particles, DeviceSteps const& steps, StepLaunches const& launches);
+
 }  // namespace clathra

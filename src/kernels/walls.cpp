@@ -83,7 +83,10 @@ struct WallForces : ReactionSums {
 
   /// @param group  of discs near walls
   KOKKOS_FUNCTION void operator()(int group, SumWord* reactions) const {
-    if (is_stopped(steps)) return;
+    if (!is_stopped(steps)) add_group(group, reactions);
+  }
+  template <class Sums>
+  KOKKOS_FORCEINLINE_FUNCTION void add_group(int group, Sums reactions) const {
     Walls const walls = steps(0).box.walls;
     int const first = group * lane_count;
     WallDiscs const d = discs(first);
@@ -104,8 +107,9 @@ struct WallForces : ReactionSums {
   }
 
   /// Adds the forces of one wall.
+  template <class Sums>
   KOKKOS_FORCEINLINE_FUNCTION void add(int first, WallDiscs const& d, int wall, WallFace<Lanes> const& face, Lanes const& overlap,
-                                       Lanes const& old_shear, Mask const& active, SumWord* reactions) const {
+                                       Lanes const& old_shear, Mask const& active, Sums reactions) const {
     Real const nx = face.nx, ny = face.ny;
     Lanes const arm = d.radius - overlap, dvx = face.vx - d.vx, dvy = face.vy - d.vy;
     ContactMotion<Lanes> const motion{overlap, -(dvx * nx + dvy * ny), ((dvy * nx - dvx * ny) - d.omega * arm) * dt, Lanes(0),
@@ -153,6 +157,27 @@ struct WallForces : ReactionSums {
     } else {
       now.end_step(reactions_of(sums, unit_of_force));
     }
+  }
+};
+
+/// The same for a GPU, whose tree of sums would take longer than all the rest of a small specimen's step: the few discs near
+/// walls add to shared words, and the thread that is the last to have done so ends the step.
+struct WallForcesToShared {
+  WallForces forces;
+  Field<SumWord> sums, reactions;
+  int threads;
+
+  KOKKOS_FUNCTION void operator()(int group) const {
+    if (is_stopped(forces.steps)) return;
+    if (group * lane_count < forces.contacts.size) forces.add_group(group, SharedSums{sums.data()});
+    Kokkos::memory_fence();
+    SumWord& done = sums(DeviceSteps::words_of_reactions);
+    if (Kokkos::atomic_fetch_add(&done, SumWord(1)) + 1 < threads) return;
+    Kokkos::memory_fence();
+    done = 0;
+    for (std::size_t k = 0; k < DeviceSteps::words_of_reactions; ++k)
+      reactions(k) = Kokkos::atomic_exchange(&sums(k), SumWord(0));
+    forces.final(reactions.data());
   }
 };
 
@@ -240,7 +265,13 @@ void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts,
                      StepLaunches const& launches) {
   WallForces const forces{
       ReactionSums(ReactionUnits(unit).of), particles, contacts, steps.state, law.as_grain(), dt, losses, faults, unit.force()};
-  launches.parallel_reduce("wall_forces", group_count(contacts.size), forces, steps.reactions);
+  int const groups = group_count(contacts.size);
+  if constexpr (for_gpu) {
+    int const threads = std::max(groups, 1);  // the step ends without discs near walls, too
+    launches.parallel_for("wall_forces", threads, WallForcesToShared{forces, steps.sums_of_reactions, steps.reactions, threads});
+  } else {
+    launches.parallel_reduce("wall_forces", groups, forces, steps.reactions);
+  }
 }
 
 WallReactions wall_reactions(DeviceSteps const& steps, Summation const& summation) {

@@ -29,9 +29,13 @@ ContactFeatures Simulation::features_of_rows() const {
   return features;
 }
 
-/// Of the discs of all ranks; throws where there are faults.
+/// What a search has to know of the discs of all ranks; throws where there are faults.
 Survey Simulation::survey_discs() const {
-  Survey all = survey(particles_, rows_, frame(), faults_, sums_.unit);
+  if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
+  return checked(survey(particles_, rows_, frame(), faults_, sums_.unit));
+}
+
+Survey Simulation::checked(Survey all) const {
   ranks_.sum(all.sums, Survey::sum_count);
   ranks_.max(all.largest, Survey::largest_count);
   throw_of(all.largest + Survey::faults);
@@ -133,7 +137,7 @@ void Simulation::choose_time_step(StepChoice const& choice) {
 /// Where discs stray so fast that the last choice did not last, the next one counts every listed gap as closed: it lasts until
 /// the next search.
 void Simulation::renew_time_step() {
-  if (rebuild_pending_) rebuild(true, forces());
+  if (rebuild_pending_) rebuild(survey_discs(), true, forces());
   following_.leeway = following_.age < least_steps_of_a_calm_choice ? 1 : calm_leeway;
   Real const limit = clathra::stable_limit(springs(), laws_.motion.damping, following_.leeway, across());
   time_step = std::min(following_.share * limit, following_.ceiling);

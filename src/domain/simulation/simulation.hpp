@@ -69,6 +69,10 @@ class Simulation {
     std::int64_t age = 0;         ///< steps since the last choice
     bool due = false;
   };
+  struct StepsAtOnce {
+    int count;
+    bool may_search;  ///< in the last one
+  };
 
  public:
   /// Takes over a specimen with the history of its contacts, at rest or in motion. Forces are evaluated, the clock starts at 0.
@@ -174,9 +178,11 @@ class Simulation {
 
  private:
   void refresh_ghosts() const;  // all of their state
-  void rebuild(bool skin_by_speed = true, AuxiliaryFields const& also = {});
+  void rebuild(Survey const& all, bool skin_by_speed = true, AuxiliaryFields const& also = {});
   void find_rows_and_walls(SearchReach const& reach, OldRows& old, Field<int> const& slot, WallShear const& wall_shear);
   Survey survey_discs() const;
+  Survey checked(Survey of_this_rank) const;
+  void survey_ahead(StepLaunches const& launches);
   Bounds own_bounds(Bounds const& all) const;
   void upload_discs(Specimen const& specimen);
   void restore_history(Specimen const& specimen);
@@ -185,13 +191,13 @@ class Simulation {
   Real reach_in_skins() const { return 2 * largest_radius_ / skin_ + 1; }
   bool have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real leeway) const;
   bool host_goes_along() const { return !ranks_.alone() || periodic() || rebuild_pending_; }
-  int steps_at_once(std::int64_t most) const;
-  void advance(int steps);
+  StepsAtOnce steps_at_once(std::int64_t most) const;
+  void advance(StepsAtOnce const& steps);
   void hand_over(bool host_goes_along);
   void ask_for(int steps);
   void move_discs(int ahead, StepLaunches const& launches);
   void push_discs(StepLaunches const& launches);
-  void end_move();
+  void end_move(bool surveyed);
   void end_step();
   void renew_time_step();
   void stretch_homogeneously();

@@ -103,7 +103,7 @@ AuxiliaryFields Simulation::derived() {
 
 SimulationState Simulation::state() {
   if (periodic()) throw std::logic_error("a periodic cell has no checkpoint");
-  if (rebuild_pending_) rebuild(true, forces());  // rows as the next step would find them
+  if (rebuild_pending_) rebuild(survey_discs(), true, forces());  // rows as the next step would find them
   SimulationState s;
   for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
   s.numbers["marked_start"] = start_x_.extent(0) > 0 ? 1 : 0;

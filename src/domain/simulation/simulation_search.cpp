@@ -16,12 +16,11 @@ constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
 
 }  // namespace
 
+/// @param all  of the present discs, by survey_discs() or survey_ahead(), which find those that are nowhere and have no cell
 /// @param also  what goes with the discs beside auxiliary_fields()
-void Simulation::rebuild(bool skin_by_speed, AuxiliaryFields const& also) {
+void Simulation::rebuild(Survey const& all, bool skin_by_speed, AuxiliaryFields const& also) {
   Kokkos::Timer const clock;
   graph_.drop();
-  if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
-  Survey const all = survey_discs();           // throws: discs that are nowhere have no cell
   if (!log_lasts()) broken_bonds_.collect();
   SkinRange const skins = skin_range(skin_by_speed);
   Real const largest_skin = std::max(skins.skin(all.largest[Survey::speed], all.mean_speed), skins.least);

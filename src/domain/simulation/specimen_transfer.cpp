@@ -170,7 +170,7 @@ Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin,
   // The first search must reach the widest bond; the skin is its own again afterwards.
   Real const own_skin = skin_;
   skin_ = std::max(skin_, widest_gap(ranks_, s, total) * (1 + 1e-9));
-  rebuild(/*skin_by_speed=*/false);
+  rebuild(survey_discs(), /*skin_by_speed=*/false);
   skin_ = own_skin;
   rebuild_pending_ = true;
   restore_history(s);

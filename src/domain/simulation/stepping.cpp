@@ -25,9 +25,9 @@ void Simulation::step(std::int64_t count, Real until_height) {
 }
 
 /// Steps that the host need not look at, by what is known of them: when faults are looked for, when the step is chosen anew, and
-/// when the ways of the discs will have added up, if they go on as in the last step.
-int Simulation::steps_at_once(std::int64_t most) const {
-  if (host_goes_along()) return 1;
+/// when the ways of the discs will have added up, if they go on as in the last step: then the last one may have to search.
+Simulation::StepsAtOnce Simulation::steps_at_once(std::int64_t most) const {
+  if (host_goes_along()) return {1, rebuild_pending_};
   most = std::min(most, check_every - now_.step % check_every);
   Real ways = 1 - now_.search.strayed;
   if (following_.on) {
@@ -35,13 +35,14 @@ int Simulation::steps_at_once(std::int64_t most) const {
     ways = std::min(ways, following_.leeway - now_.choice.strayed);
   }
   Real const until_doubt = 1 + ways / now_.way;
-  if (until_doubt < static_cast<Real>(most)) most = static_cast<std::int64_t>(until_doubt);
-  return static_cast<int>(std::max<std::int64_t>(most, 1));
+  bool const doubt = until_doubt < static_cast<Real>(most + 1);
+  if (doubt) most = static_cast<std::int64_t>(until_doubt);
+  return {static_cast<int>(std::max<std::int64_t>(most, 1)), doubt};
 }
 
 /// Asks for steps and waits for them. The host has no part in them unless it goes along, which it does one step at a time, or the
 /// discs may have strayed too far: then the steps stop, the host sees to it and ends that step as its last.
-void Simulation::advance(int steps) {
+void Simulation::advance(StepsAtOnce const& steps) {
   bool const along = host_goes_along();
   std::int64_t const first = now_.step;
   hand_over(along);
@@ -49,7 +50,9 @@ void Simulation::advance(int steps) {
   if (along)
     move_discs(0, {});
   else
-    ask_for(steps);
+    ask_for(steps.count);
+  bool const surveys = steps.may_search && ranks_.alone() && !periodic();
+  if (surveys) survey_ahead(along ? StepLaunches() : graph_.behind());
   now_ = steps_.get();
   busy_seconds_ += moving.seconds();
   following_.last = time_step;
@@ -58,7 +61,7 @@ void Simulation::advance(int steps) {
     following_.due = following_.age >= most_steps_of_a_choice;
   }
   if (now_.stop == StepStop::after_move) {
-    end_move();
+    end_move(surveys);
     end_step();
   }
   in_range([&] { require_reactions_in_range(now_.out_of_range); });
@@ -102,16 +105,24 @@ void Simulation::push_discs(StepLaunches const& launches) {
     add_wall_forces(particles_, wall_contacts_, laws_.wall, time_step, losses_, faults_, sums_.unit, steps_, launches);
 }
 
+/// Asks the device for what the host has to know if these steps end with a search, so that it waits for both at once.
+void Simulation::survey_ahead(StepLaunches const& launches) {
+  if (!rebuild_pending_) ask_whether_search_is_due(particles_, steps_, launches);
+  ask_for_survey(particles_, rows_, faults_, sums_.unit, steps_, launches);
+}
+
 /// The host's part between the move and the forces: a search, or the ghosts follow their discs.
-void Simulation::end_move() {
+/// @param surveyed  whether the device was asked by survey_ahead()
+void Simulation::end_move(bool surveyed) {
   if (now_.orders.host_goes_along) {
     if (periodic()) stretch_homogeneously();
     now_.displacement = ranks_.max(now_.displacement);
     now_.look_for_doubts();
   }
-  if (rebuild_pending_ ||
-      (now_.search_in_doubt && have_strayed(now_.search, particles_.reference_x, particles_.reference_y, 1))) {
-    rebuild();
+  if (!surveyed && !rebuild_pending_ && now_.search_in_doubt)
+    now_.search_is_due = have_strayed(now_.search, particles_.reference_x, particles_.reference_y, 1);
+  if (rebuild_pending_ || now_.search_is_due) {
+    rebuild(surveyed ? checked(survey_of(now_)) : survey_discs());
     return;
   }
   refresh_ghosts();
@@ -137,14 +148,12 @@ void Simulation::end_step() {
   }
 }
 
-/// Whether two discs whose gap was wider than a share of both their skins, where a mark stands, could touch: the largest
-/// non-affine displacement of a disc as a share of its skin, plus what the homogeneous motion itself brings two discs nearer, as
-/// a share of the least skin.
-/// @param x,y  where the discs were then;  @param leeway  the share
+/// Mark::has_strayed() by the largest non-affine displacement of a disc since then.
+/// @param x,y  where the discs were then
 bool Simulation::have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real leeway) const {
   AffineFrame const f = frame_since(now_.box, mark.box);
   mark.strayed = std::sqrt(ranks_.max(largest_nonaffine_displacement2(particles_, x, y, f)));
-  return mark.strayed + mark.closing(now_.box) * reach_in_skins() >= leeway;
+  return mark.has_strayed(now_.box, reach_in_skins(), leeway);
 }
 
 /// Isotropic stretching of the periodic cell with all its discs.
@@ -158,7 +167,7 @@ void Simulation::stretch_homogeneously() {
 }
 
 void Simulation::evaluate_forces() {
-  if (rebuild_pending_) rebuild();
+  if (rebuild_pending_) rebuild(survey_discs());
   hand_over(true);
   compute_forces(particles_, rows_, laws_.contact, 0, now_.step, broken_bonds_.log_of(steps_.state), losses_, faults_);
   if (periodic()) return;
