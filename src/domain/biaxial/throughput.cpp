@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/generation/bonding.hpp"
@@ -58,7 +59,8 @@ double flops_per_step(Simulation const& simulation, Measures const& m) {
   return 2 * pairs + flops_of_drift * simulation.discs();
 }
 
-constexpr int block = 64 * lane_count;  // numbers that one call updates
+// Numbers that one call updates: on a GPU those of its neighbours stand beside them.
+constexpr int block = for_gpu ? lane_count : 64 * lane_count;
 
 struct UpdateBlock {
   Field<Real> values;
@@ -165,7 +167,8 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
 }
 
 double update_bandwidth(std::size_t bytes) {
-  auto const blocks = static_cast<int>(std::max<std::size_t>(bytes / (block * sizeof(Real)), 1));
+  auto const blocks =
+      static_cast<int>(std::clamp<std::size_t>(bytes / (block * sizeof(Real)), 1, std::numeric_limits<int>::max()));
   Field<Real> const values("bandwidth", static_cast<std::size_t>(blocks) * block);
   double const moved = 2.0 * blocks * block * sizeof(Real);
   int const passes = static_cast<int>(std::max(1.0, 2e8 / moved));  // long enough for the clock
