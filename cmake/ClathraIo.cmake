@@ -19,10 +19,7 @@ foreach(library HDF5 PNG Eigen3 Boost fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHAS
     list(APPEND missing ${library})
   endif()
 endforeach()
-if(CLATHRA_DEVICE) # toml++ does not parse under nvcc
-  message(STATUS "Clathra: no io library and no driver with ${CLATHRA_DEVICE}")
-  set(CLATHRA_IO OFF)
-elseif(missing)
+if(missing)
   list(JOIN missing ", " missing)
   message(STATUS "Clathra: no io library and no driver, not found: ${missing}")
   set(CLATHRA_IO OFF)
@@ -53,6 +50,9 @@ if(CLATHRA_IO)
   target_link_libraries(
     clathra_io_libraries INTERFACE ${HDF5_C_LIBRARIES} PNG::PNG PkgConfig::TOMLPLUSPLUS PkgConfig::XXHASH fmt::fmt
                                    nlohmann_json::nlohmann_json)
+  if(CLATHRA_DEVICE STREQUAL "CUDA")
+    target_compile_definitions(clathra_io_libraries INTERFACE FMT_USE_CONSTEXPR=1) # fmt 9 does not expect it of nvcc
+  endif()
   if(HDF5_IS_PARALLEL) # its headers include those of MPI
     find_package(MPI REQUIRED COMPONENTS CXX)
     target_link_libraries(clathra_io_libraries INTERFACE MPI::MPI_CXX)

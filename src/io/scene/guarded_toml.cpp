@@ -1,6 +1,7 @@
 #include "io/scene/guarded_toml.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -31,14 +32,50 @@ std::string syntax_text(std::string_view description, std::string_view line) {
   return "cannot be understood: " + std::string(description);
 }
 
+TomlNode tree_of(toml::node const& node);
+
+TomlTable table_of(toml::table const& table) {
+  TomlTable tree;
+  for (auto const& [name, node] : table) {
+    auto const at = name.source().begin;
+    tree.entries.push_back({std::string(name.str()), static_cast<int>(at.line), static_cast<int>(at.column), tree_of(node)});
+  }
+  return tree;
+}
+
+TomlList list_of(toml::array const& list) {
+  TomlList tree;
+  for (toml::node const& item : list) tree.push_back(tree_of(item));
+  return tree;
+}
+
+/// As deep as the guard lets a text be.
+TomlNode tree_of(toml::node const& node) {
+  auto const at = node.source().begin;
+  TomlNode tree{static_cast<int>(at.line), static_cast<int>(at.column), {}};
+  if (auto const* const text = node.as_string())
+    tree.value = text->get();
+  else if (auto const* const whole = node.as_integer())
+    tree.value = whole->get();
+  else if (auto const* const number = node.as_floating_point())
+    tree.value = number->get();
+  else if (auto const* const truth = node.as_boolean())
+    tree.value = truth->get();
+  else if (auto const* const list = node.as_array())
+    tree.value = list_of(*list);
+  else if (auto const* const table = node.as_table())
+    tree.value = table_of(*table);
+  return tree;
+}
+
 }  // namespace
 
-std::optional<toml::table> parse_guarded(std::string const& text, std::string const& file, std::vector<Problem>& problems) {
+std::optional<TomlTable> parse_guarded(std::string const& text, std::string const& file, std::vector<Problem>& problems) {
   GuardedText const guarded = guard_scene_text(text, file);
   problems.insert(problems.end(), guarded.problems.begin(), guarded.problems.end());
   if (!guarded.problems.empty()) return {};
   try {
-    return toml::parse(guarded.text);
+    return table_of(toml::parse(guarded.text));
   } catch (toml::parse_error const& error) {
     auto const at = error.source().begin;
     int const line = static_cast<int>(at.line);

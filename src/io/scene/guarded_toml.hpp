@@ -1,12 +1,11 @@
 #pragma once
 /// TOML from files that may hold anything.
-#include <toml++/toml.h>
-
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/errors/problems.hpp"
+#include "io/scene/toml_tree.hpp"
 
 namespace clathra {
 
@@ -14,6 +13,6 @@ namespace clathra {
 /// @param problems  what is wrong is added to them: of a text that the guard refuses everything, else the first error of the
 /// parser, said in the words of somebody who writes scenes
 /// @return nothing where there is a problem
-std::optional<toml::table> parse_guarded(std::string const& text, std::string const& file, std::vector<Problem>& problems);
+std::optional<TomlTable> parse_guarded(std::string const& text, std::string const& file, std::vector<Problem>& problems);
 
 }  // namespace clathra

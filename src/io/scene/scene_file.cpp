@@ -27,13 +27,15 @@ struct Place {
 };
 
 /// A list as text, its items as they were stated. @throws std::invalid_argument
-std::string list_text(toml::array const& list) {
+std::string list_text(TomlList const& list) {
   std::string text;
-  for (toml::node const& item : list) {
+  for (TomlNode const& item : list) {
     if (!text.empty()) text += ',';
-    if (auto const* const quoted = item.as_string())
-      text += quoted->get();
-    else if (auto const number = item.value<double>(); number && item.is_number())
+    if (auto const* const quoted = item.as<std::string>())
+      text += *quoted;
+    else if (auto const* const whole = item.as<std::int64_t>())
+      text += fmt::format("{}", *whole);
+    else if (auto const* const number = item.as<double>())
       text += fmt::format("{}", *number);
     else
       throw std::invalid_argument("needs quantities in its list");
@@ -55,7 +57,7 @@ class SceneReader {
 
   void read_file(std::string const& source) {
     std::size_t const before = problems_.size();
-    std::optional<toml::table> const root = parse_guarded(source, file_, problems_);
+    std::optional<TomlTable> const root = parse_guarded(source, file_, problems_);
     readable_ = problems_.size() == before;
     if (root) read_table(*root, "");
   }
@@ -173,21 +175,21 @@ class SceneReader {
     if (!path.empty()) path = (folder_ / path).lexically_normal().string();
   }
 
-  void read_table(toml::table const& table, std::string const& prefix) {
-    for (auto const& [name, node] : table) {
-      std::string const dotted = prefix.empty() ? std::string(name.str()) : prefix + "." + std::string(name.str());
-      auto const at = name.source().begin;
-      Place const key_place{file_, static_cast<int>(at.line), static_cast<int>(at.column)};
+  void read_table(TomlTable const& table, std::string const& prefix) {
+    for (auto const& [name, line, column, node] : table.entries) {
+      std::string const dotted = prefix.empty() ? name : prefix + "." + name;
+      Place const key_place{file_, line, column};
+      auto const* const inner = node.as<TomlTable>();
       bool const is_section = prefix.empty() && std::any_of(schema().begin(), schema().end(),
                                                             [&](Key const& key) { return key.section() == dotted; });
-      if (is_section && node.is_table())
-        read_table(*node.as_table(), dotted);
+      if (is_section && inner)
+        read_table(*inner, dotted);
       else if (Key const* const key = find_key(dotted))
         read_value(*key, node);
       else if (is_section)
         report(key_place, fmt::format("'{}' is a section: write [{}] and its keys below", dotted, dotted));
       else
-        report_unknown(key_place, prefix, dotted, node.is_table());
+        report_unknown(key_place, prefix, dotted, inner != nullptr);
     }
   }
 
@@ -209,22 +211,21 @@ class SceneReader {
     return name_suggestion(name, sections);
   }
 
-  void read_value(Key const& key, toml::node const& node) {
-    auto const at = node.source().begin;
-    Place const place{file_, static_cast<int>(at.line), static_cast<int>(at.column)};
-    set(key, place, false, [&] {
-      if (auto const* const text = node.as_string())
-        set_from_text(key, scene_, text->get());
-      else if (auto const* const whole = node.as_integer())
-        set_from_integer(key, scene_, whole->get());
-      else if (auto const* const number = node.as_floating_point())
-        set_from_number(key, scene_, number->get());
-      else if (auto const* const truth = node.as_boolean())
-        set_from_boolean(key, scene_, truth->get());
-      else if (auto const* const list = node.as_array(); list && key.kind == Kind::quantities)
+  void read_value(Key const& key, TomlNode const& node) {
+    set(key, {file_, node.line, node.column}, false, [&] {
+      if (auto const* const text = node.as<std::string>())
+        set_from_text(key, scene_, *text);
+      else if (auto const* const whole = node.as<std::int64_t>())
+        set_from_integer(key, scene_, *whole);
+      else if (auto const* const number = node.as<double>())
+        set_from_number(key, scene_, *number);
+      else if (auto const* const truth = node.as<bool>())
+        set_from_boolean(key, scene_, *truth);
+      else if (auto const* const list = node.as<TomlList>(); list && key.kind == Kind::quantities)
         set_from_text(key, scene_, list_text(*list));
       else
-        throw std::invalid_argument(node.is_table() ? "is one value, not a section" : "needs one value, not a list or a date");
+        throw std::invalid_argument(node.as<TomlTable>() ? "is one value, not a section"
+                                                         : "needs one value, not a list or a date");
     });
   }
 

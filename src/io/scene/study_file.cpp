@@ -70,7 +70,7 @@ class StudyReader {
   }
 
   Study read(std::string const& text) {
-    std::optional<toml::table> const root = parse_guarded(text, file_, problems_);
+    std::optional<TomlTable> const root = parse_guarded(text, file_, problems_);
     if (root) read_root(*root);
     if (problems_.empty()) make_groups();
     if (!problems_.empty()) throw SceneProblems(std::move(problems_));
@@ -78,43 +78,36 @@ class StudyReader {
   }
 
  private:
-  using Entry = std::pair<std::string, toml::node const*>;
+  void report(TomlNode const& node, std::string text) { problems_.push_back({file_, node.line, node.column, std::move(text)}); }
 
-  void report(toml::node const& node, std::string text) {
-    auto const at = node.source().begin;
-    problems_.push_back({file_, static_cast<int>(at.line), static_cast<int>(at.column), std::move(text)});
-  }
-
-  /// The entries of a table in the order of the file; toml++ sorts them by name.
-  static std::vector<Entry> in_order(toml::table const& table) {
-    std::vector<Entry> entries;
-    for (auto const& [name, node] : table) entries.emplace_back(std::string(name.str()), &node);
-    std::stable_sort(entries.begin(), entries.end(), [](Entry const& a, Entry const& b) {
-      auto const at = a.second->source().begin, other = b.second->source().begin;
-      return std::pair(at.line, at.column) < std::pair(other.line, other.column);
+  /// The entries of a table in the order of the file.
+  static std::vector<TomlEntry> in_order(TomlTable const& table) {
+    std::vector<TomlEntry> entries = table.entries;
+    std::stable_sort(entries.begin(), entries.end(), [](TomlEntry const& a, TomlEntry const& b) {
+      return std::pair(a.node.line, a.node.column) < std::pair(b.node.line, b.node.column);
     });
     return entries;
   }
 
-  void read_root(toml::table const& root) {
+  void read_root(TomlTable const& root) {
     static constexpr std::string_view names[] = {"scene", "seeds", "folder", "until", "most_seeds", "matrix", "groups"};
-    for (auto const& [name, node] : in_order(root)) {
+    for (auto const& [name, line, column, node] : in_order(root)) {
       if (name == "scene")
-        read_path(*node, study_.scene);
+        read_path(node, study_.scene);
       else if (name == "folder")
-        read_path(*node, study_.folder);
+        read_path(node, study_.folder);
       else if (name == "seeds")
-        read_seeds(*node);
+        read_seeds(node);
       else if (name == "until")
-        read_goal(*node);
+        read_goal(node);
       else if (name == "most_seeds")
-        read_most_seeds(*node);
+        read_most_seeds(node);
       else if (name == "matrix")
-        read_matrix(*node);
+        read_matrix(node);
       else if (name == "groups")
-        read_groups(*node);
+        read_groups(node);
       else
-        report(*node,
+        report(node,
                fmt::format("unknown key '{}'{}; a study has scene, seeds, folder, until, most_seeds, [matrix] and [groups.NAME]",
                            name.substr(0, 60), name_suggestion(name, names)));
     }
@@ -124,69 +117,66 @@ class StudyReader {
       for (int seed = 1; seed <= usual_seeds; ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
   }
 
-  void read_path(toml::node const& node, std::filesystem::path& path) {
-    auto const* const text = node.as_string();
-    if (!text || text->get().empty()) return report(node, "needs the name of a file or folder in quotes");
-    path = (study_.file.parent_path() / text->get()).lexically_normal();
+  void read_path(TomlNode const& node, std::filesystem::path& path) {
+    auto const* const text = node.as<std::string>();
+    if (!text || text->empty()) return report(node, "needs the name of a file or folder in quotes");
+    path = (study_.file.parent_path() / *text).lexically_normal();
   }
 
-  void read_seeds(toml::node const& node) {
+  void read_seeds(TomlNode const& node) {
     constexpr std::int64_t most = 10000;
-    if (auto const* const count = node.as_integer()) {
-      if (count->get() < 1 || count->get() > most) return report(node, fmt::format("'seeds' must be between 1 and {}", most));
-      for (std::int64_t seed = 1; seed <= count->get(); ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
+    if (auto const* const count = node.as<std::int64_t>()) {
+      if (*count < 1 || *count > most) return report(node, fmt::format("'seeds' must be between 1 and {}", most));
+      for (std::int64_t seed = 1; seed <= *count; ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
       return;
     }
-    auto const* const list = node.as_array();
+    auto const* const list = node.as<TomlList>();
     if (!list || list->empty()) return report(node, "'seeds' needs their number, or a list of them: seeds = [1, 2, 3]");
-    for (toml::node const& item : *list) {
-      auto const* const seed = item.as_integer();
-      if (!seed || seed->get() < 0) return report(item, "a seed is a whole number, 0 or more");
-      auto const value = static_cast<std::uint64_t>(seed->get());
+    for (TomlNode const& item : *list) {
+      auto const* const seed = item.as<std::int64_t>();
+      if (!seed || *seed < 0) return report(item, "a seed is a whole number, 0 or more");
+      auto const value = static_cast<std::uint64_t>(*seed);
       if (std::count(study_.seeds.begin(), study_.seeds.end(), value) > 0)
         return report(item, fmt::format("seed {} is there twice", value));
       study_.seeds.push_back(value);
     }
   }
 
-  void read_goal(toml::node const& node) {
-    auto const* const text = node.as_string();
+  void read_goal(TomlNode const& node) {
+    auto const* const text = node.as<std::string>();
     if (!text) return report(node, "'until' needs a text like \"peak_q_Pa=2%\"");
     try {
-      study_.until = study_goal(text->get());
+      study_.until = study_goal(*text);
     } catch (std::invalid_argument const& problem) {
       report(node, std::string("'until' ") + problem.what());
     }
   }
 
-  void read_most_seeds(toml::node const& node) {
-    auto const* const most = node.as_integer();
-    if (!most || most->get() < 2 || most->get() > 10000)
-      return report(node, "'most_seeds' is a whole number between 2 and 10000");
-    study_.most_seeds = static_cast<int>(most->get());
+  void read_most_seeds(TomlNode const& node) {
+    auto const* const most = node.as<std::int64_t>();
+    if (!most || *most < 2 || *most > 10000) return report(node, "'most_seeds' is a whole number between 2 and 10000");
+    study_.most_seeds = static_cast<int>(*most);
   }
 
-  static bool is_range(toml::table const& table) {
-    return table.contains("from") || table.contains("to") || table.contains("count");
-  }
+  static bool is_range(TomlTable const& table) { return table.find("from") || table.find("to") || table.find("count"); }
 
   /// Calls found(key, node) for the values of a section, whose keys may be written "a.b" = or a.b =.
   template <class Found>
-  void for_each_key(toml::node const& section, char const* what, Found const& found) {
-    if (!section.is_table())
-      return report(section, fmt::format("'{}' is a section: write [{}] and keys of the scene below", what, what));
-    for (auto const& [name, node] : in_order(*section.as_table())) {
-      bool const nested = node->is_table() && !is_range(*node->as_table());
-      if (!nested) {
-        found(name, *node);
+  void for_each_key(TomlNode const& section, char const* what, Found const& found) {
+    auto const* const table = section.as<TomlTable>();
+    if (!table) return report(section, fmt::format("'{}' is a section: write [{}] and keys of the scene below", what, what));
+    for (TomlEntry const& entry : in_order(*table)) {
+      auto const* const nested = entry.node.as<TomlTable>();
+      if (!nested || is_range(*nested)) {
+        found(entry.name, entry.node);
         continue;
       }
-      for (auto const& [leaf, inner] : in_order(*node->as_table())) found(name + "." + leaf, *inner);
+      for (TomlEntry const& leaf : in_order(*nested)) found(entry.name + "." + leaf.name, leaf.node);
     }
   }
 
   /// The key of a scene, where it may stand in a study.
-  Key const* known(std::string const& name, toml::node const& node) {
+  Key const* known(std::string const& name, TomlNode const& node) {
     for (auto const& [other, instead] : other_keys)
       if (name == other) return report(node, fmt::format("'{}' cannot be varied here: {}", name, instead)), nullptr;
     Key const* const key = find_key(name);
@@ -195,16 +185,16 @@ class StudyReader {
   }
 
   /// A single value as text, checked against its key.
-  std::optional<std::string> value_of(Key const& key, toml::node const& node) {
+  std::optional<std::string> value_of(Key const& key, TomlNode const& node) {
     std::string text;
-    if (auto const* const quoted = node.as_string())
-      text = quoted->get();
-    else if (auto const* const whole = node.as_integer())
-      text = fmt::format("{}", whole->get());
-    else if (auto const* const number = node.as_floating_point())
-      text = fmt::format("{}", number->get());
-    else if (auto const* const truth = node.as_boolean())
-      text = truth->get() ? "true" : "false";
+    if (auto const* const quoted = node.as<std::string>())
+      text = *quoted;
+    else if (auto const* const whole = node.as<std::int64_t>())
+      text = fmt::format("{}", *whole);
+    else if (auto const* const number = node.as<double>())
+      text = fmt::format("{}", *number);
+    else if (auto const* const truth = node.as<bool>())
+      text = *truth ? "true" : "false";
     else
       return report(node, fmt::format("'{}' needs one value here", key.name)), std::nullopt;
     try {
@@ -217,17 +207,17 @@ class StudyReader {
     return text;
   }
 
-  void read_matrix(toml::node const& section) {
-    for_each_key(section, "matrix", [&](std::string const& name, toml::node const& node) {
+  void read_matrix(TomlNode const& section) {
+    for_each_key(section, "matrix", [&](std::string const& name, TomlNode const& node) {
       Key const* const key = known(name, node);
       if (!key) return;
       Choices choices{name, {}};
-      if (auto const* const list = node.as_array()) {
-        for (toml::node const& item : *list)
+      if (auto const* const list = node.as<TomlList>()) {
+        for (TomlNode const& item : *list)
           if (auto value = value_of(*key, item)) choices.values.push_back(std::move(*value));
         if (list->empty()) report(node, fmt::format("'{}' has no value in its list", name));
-      } else if (auto const* const range = node.as_table()) {
-        choices.values = range_of(*key, *range);
+      } else if (auto const* const range = node.as<TomlTable>()) {
+        choices.values = range_of(*key, *range, node);
       } else if (auto value = value_of(*key, node)) {
         choices.values.push_back(std::move(*value));
         choices.named = false;
@@ -239,12 +229,12 @@ class StudyReader {
   }
 
   /// { from, to, count }: evenly spaced, both ends included.
-  std::vector<std::string> range_of(Key const& key, toml::table const& table) {
-    auto const* const count = table["count"].as_integer();
-    auto const *const from = table.get("from"), *const to = table.get("to");
-    if (!count || !from || !to || table.size() != 3 || count->get() < 2 || count->get() > 10000)
+  std::vector<std::string> range_of(Key const& key, TomlTable const& table, TomlNode const& node) {
+    auto const *const from = table.find("from"), *const to = table.find("to"), *const number = table.find("count");
+    auto const* const count = number ? number->as<std::int64_t>() : nullptr;
+    if (!count || !from || !to || table.entries.size() != 3 || *count < 2 || *count > 10000)
       return report(
-                 table,
+                 node,
                  fmt::format(
                      "a range of '{}' needs from, to and count (2 to 10000): {{ from = \"1 MPa\", to = \"3 MPa\", count = 3 }}",
                      key.name)),
@@ -253,27 +243,28 @@ class StudyReader {
     if (!first || !last) return {};
     auto const a = parts_of(*first), b = parts_of(*last);
     if (!a || !b || a->second != b->second)
-      return report(table, fmt::format("a range of '{}' needs two numbers in the same unit, got '{}' and '{}'", key.name, *first,
-                                       *last)),
+      return report(node, fmt::format("a range of '{}' needs two numbers in the same unit, got '{}' and '{}'", key.name, *first,
+                                      *last)),
              std::vector<std::string>();
     std::vector<std::string> values;
-    for (std::int64_t i = 0; i < count->get(); ++i) {
-      double const part = static_cast<double>(i) / static_cast<double>(count->get() - 1);
+    for (std::int64_t i = 0; i < *count; ++i) {
+      double const part = static_cast<double>(i) / static_cast<double>(*count - 1);
       // Twelve digits: 0.30000000000000004 is what 0.1 three times gives, not what somebody means.
       values.push_back(fmt::format("{:.12g}{}", a->first + part * (b->first - a->first), a->second));
     }
     return values;
   }
 
-  void read_groups(toml::node const& section) {
-    if (!section.is_table()) return report(section, "'groups' holds sections: write [groups.NAME] and keys of the scene below");
-    for (auto const& [name, node] : in_order(*section.as_table())) {
+  void read_groups(TomlNode const& section) {
+    auto const* const groups = section.as<TomlTable>();
+    if (!groups) return report(section, "'groups' holds sections: write [groups.NAME] and keys of the scene below");
+    for (auto const& [name, line, column, node] : in_order(*groups)) {
       if (name.empty() || slug(name) != name || name.size() > 60) {
-        report(*node, fmt::format("'{}' is no name of a group: letters, digits and .+- only, 60 at most", name.substr(0, 60)));
+        report(node, fmt::format("'{}' is no name of a group: letters, digits and .+- only, 60 at most", name.substr(0, 60)));
         continue;
       }
       StudyGroup group{name, {}, name};
-      for_each_key(*node, "groups.NAME", [&](std::string const& key_name, toml::node const& value_node) {
+      for_each_key(node, "groups.NAME", [&](std::string const& key_name, TomlNode const& value_node) {
         if (Key const* const key = known(key_name, value_node))
           if (auto value = value_of(*key, value_node)) group.settings.emplace_back(key_name, std::move(*value));
       });
