@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "kernels/verlet_skin.hpp"
+
 namespace clathra {
 
 namespace {
@@ -148,15 +150,37 @@ struct KickAndDriftMixed : Moving {
   }
 };
 
-/// The groups of one thread, backwards, since what the forces touched last is still in its cache. On a GPU one disc, so that
-/// neighbouring threads touch neighbouring discs.
+/// The reduction to the longest ways, with the end of the move.
 template <class Kernel>
-struct ByShares {
+struct LongestWays {
+  using value_type = Ways;
   Kernel kernel;
-  int groups, share;  ///< in all, and of a thread
-  using value_type = Real;
 
-  KOKKOS_FUNCTION void operator()(int n, Real& largest_displacement) const {
+  KOKKOS_FUNCTION void init(Ways& longest) const { longest = {}; }
+  KOKKOS_FUNCTION void join(Ways& into, Ways const& from) const { join_each(into, from); }
+  // Kokkos before 4 calls join with volatile numbers.
+  KOKKOS_FUNCTION void join(Ways volatile& into, Ways const volatile& from) const { join_each(into, from); }
+  /// Called once, when all are done.
+  KOKKOS_FUNCTION void final(Ways& longest) const {
+    if (!is_stopped(kernel.steps)) kernel.steps(0).end_move(longest);
+  }
+
+ private:
+  template <class To, class From>
+  KOKKOS_FORCEINLINE_FUNCTION static void join_each(To& into, From& from) {
+    into.of_step = lane_max(Real(into.of_step), Real(from.of_step));
+    into.search2 = lane_max(Real(into.search2), Real(from.search2));
+    into.choice2 = lane_max(Real(into.choice2), Real(from.choice2));
+  }
+};
+
+/// The groups of one thread, backwards, since what the forces touched last is still in its cache.
+template <class Kernel>
+struct ByShares : LongestWays<Kernel> {
+  int groups, share;  ///< in all, and of a thread
+  using LongestWays<Kernel>::kernel;
+
+  KOKKOS_FUNCTION void operator()(int n, Ways& longest) const {
     if (is_stopped(kernel.steps)) return;
     using R = typename Kernel::R;
     using V = LanesOf<R>;
@@ -169,34 +193,51 @@ struct ByShares {
       if (any(!(displacement < constant<V>(1e5)))) kernel.report(i, displacement);
       most = lane_max(displacement, most);  // not one that is no number
     }
-    largest_displacement = lane_max(largest_displacement, Real(largest(most)));
+    longest.of_step = lane_max(longest.of_step, Real(largest(most)));
   }
-  KOKKOS_FUNCTION void init(Real& largest_displacement) const { largest_displacement = 0; }
-  KOKKOS_FUNCTION void join(Real& into, Real const& from) const { into = lane_max(into, from); }
-  // Kokkos before 4 calls join with volatile numbers.
-  KOKKOS_FUNCTION void join(Real volatile& into, Real const volatile& from) const { into = lane_max(into, from); }
-  /// Called once, when all are done.
-  KOKKOS_FUNCTION void final(Real& largest_displacement) const {
+};
+
+/// On a GPU a disc a thread, so that neighbouring threads touch neighbouring discs.
+template <class Kernel>
+struct ByDiscs : LongestWays<Kernel> {
+  PlacesOfChoice choice;
+  using LongestWays<Kernel>::kernel;
+
+  KOKKOS_FUNCTION void operator()(int i, Ways& longest) const {
     if (is_stopped(kernel.steps)) return;
-    StepState& now = kernel.steps(0);
-    now.displacement = largest_displacement;
-    now.end_move();
+    using R = typename Kernel::R;
+    auto const disc = static_cast<std::size_t>(i);
+    auto const displacement = kernel.of_owned(disc, kernel.step(MotionConstants<R>(kernel), disc));
+    if (any(!(displacement < constant<LanesOf<R>>(1e5)))) kernel.report(disc, displacement);
+    longest.of_step = lane_max(Real(largest(displacement)), longest.of_step);
+    StepState const& now = kernel.steps(0);
+    ParticleSoA const& p = kernel.p;
+    if (now.looks_at_search)
+      longest.search2 = lane_max(longest.search2, nonaffine_displacement2(p, p.reference_x, p.reference_y, now.frame, i));
+    if (now.looks_at_choice)
+      longest.choice2 = lane_max(longest.choice2, nonaffine_displacement2(p, choice.x, choice.y, now.frame_of_choice, i));
   }
 };
 
 }  // namespace
 
 void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
-               Faults const& faults, DeviceSteps const& steps, StepLaunches const& launches) {
+               Faults const& faults, DeviceSteps const& steps, PlacesOfChoice const& choice, StepLaunches const& launches) {
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
-  int const threads = for_gpu ? std::max(groups, 1) : ExecutionSpace().concurrency();
-  int const share = std::max(1, (groups + threads - 1) / threads);
+  int const threads = ExecutionSpace().concurrency(), share = std::max(1, (groups + threads - 1) / threads);
   // Made in place: small specimens feel each copy of all these fields.
   auto const run = [&]<class Kernel>(std::type_identity<Kernel>) {
-    launches.parallel_reduce("kick_and_drift", (groups + share - 1) / share,
-                             ByShares<Kernel>{{{particles, law, dt, steps.state, losses.damping, faults}}, groups, share},
-                             steps.displacement);
+    if constexpr (for_gpu) {
+      static_assert(lane_count_of<float> == 1 && lane_count == 1);
+      launches.parallel_reduce("kick_and_drift", groups,
+                               ByDiscs<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, choice},
+                               steps.ways);
+    } else {
+      launches.parallel_reduce("kick_and_drift", (groups + share - 1) / share,
+                               ByShares<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, groups, share},
+                               steps.ways);
+    }
   };
   auto const run_with = [&](auto ledger) {
     if (mixed) {

@@ -19,14 +19,20 @@ struct StepLengths {
   Real kick, drift;
 };
 
+struct PlacesOfChoice {
+  Field<Coord> x, y;  ///< [owned] [m]
+};
+
 /// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
 /// position.
 /// The longest way of a disc, max (|Delta x| + |Delta y|) at least, goes into the state of the steps, and the move ends there
-/// unless the host goes along (StepState).
+/// unless the host goes along (StepState). On a GPU steps that may leave a doubt measure the discs' own ways as well.
 /// @param losses  the damping account is written when its field exists
 /// @param steps  whose frame is that of the step; nothing happens while they are stopped
+/// @param choice  where the last choice of dt found the discs, empty without one
 /// @param launches  where the kernel goes
 void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
-               Faults const& faults, DeviceSteps const& steps, StepLaunches const& launches = {});
+               Faults const& faults, DeviceSteps const& steps, PlacesOfChoice const& choice = {},
+               StepLaunches const& launches = {});
 
 }  // namespace clathra

@@ -52,6 +52,13 @@ struct StepOrders {
 
 inline constexpr int numbers_of_survey = 16;
 
+/// The longest of all discs.
+struct Ways {
+  Real of_step = 0;  ///< [m], at least
+  Real search2 = 0;  ///< (d / skin)^2 since the last search (largest_nonaffine_displacement2()), where somebody looks at it
+  Real choice2 = 0;  ///< since the last choice of dt
+};
+
 struct StepState {
   Box box;
   WallReactions reactions;
@@ -60,11 +67,14 @@ struct StepState {
   std::int64_t step = 0;
   Mark search, choice;  ///< of the last neighbour search, of the last choice of dt
   StepOrders orders;
-  AffineFrame frame;      ///< of the box as the next step moves it
-  Real displacement = 0;  ///< at least the longest way of a disc in the last step [m]
-  Real way = 0;           ///< of that step beside the homogeneous motion, at most, in least skins
-  bool search_in_doubt = false, choice_in_doubt = false;
-  bool search_is_due = false;  ///< by the discs' own ways, where there was a doubt and the host does not go along
+  AffineFrame frame;                                      ///< of the box as the next step moves it
+  Real displacement = 0;                                  ///< at least the longest way of a disc in the last step [m]
+  Real way = 0;                                           ///< of that step beside the homogeneous motion, at most, in least skins
+  bool search_in_doubt = false, choice_in_doubt = false;  ///< which the discs' own ways have not settled
+  bool search_is_due = false, choice_is_due = false;      ///< by the discs' own ways
+  // On a GPU:
+  AffineFrame frame_of_choice;                            ///< of the box as the next step moves it, since the last choice
+  bool looks_at_search = false, looks_at_choice = false;  ///< the next step may leave a doubt: it measures the discs' own ways
   StepStop stop = StepStop::none;
   std::int64_t out_of_range = 0;                  ///< terms of the forces on the walls
   std::int64_t surveyed[numbers_of_survey] = {};  ///< where a search is due: what it has to know (survey.hpp)
@@ -74,16 +84,34 @@ struct StepState {
     Box moved = box;
     moved.walls.move(orders.dt);
     frame = frame_since(moved, search.box);
+    if constexpr (for_gpu) {
+      frame_of_choice = frame_since(moved, choice.box);
+      looks_at_search = may_be_in_doubt(search, moved, 1);
+      looks_at_choice = orders.follows_limit && may_be_in_doubt(choice, moved, orders.leeway);
+    }
+  }
+  /// Whether a step whose way is no more than twice that of the last one may leave a doubt.
+  KOKKOS_INLINE_FUNCTION bool may_be_in_doubt(Mark mark, Box const& moved, Real leeway) const {
+    return !orders.host_goes_along && mark.may_have_strayed(moved, 2 * way, orders.reach, leeway);
   }
 
   /// After kick and drift: the box has moved too.
-  KOKKOS_INLINE_FUNCTION void end_move() {
+  KOKKOS_INLINE_FUNCTION void end_move(Ways const& ways) {
+    displacement = ways.of_step;
     box.walls.move(orders.dt);
     if (orders.host_goes_along) {
       stop = StepStop::after_move;
       return;
     }
     look_for_doubts();
+    if (search_in_doubt && looks_at_search) search_in_doubt = search_is_due = settle(search, ways.search2, 1);
+    if (!search_is_due && choice_in_doubt && looks_at_choice)
+      choice_in_doubt = choice_is_due = settle(choice, ways.choice2, orders.leeway);
+    if (search_in_doubt || choice_in_doubt) stop = StepStop::after_move;
+  }
+  KOKKOS_INLINE_FUNCTION bool settle(Mark& mark, Real share2, Real leeway) const {
+    mark.strayed = lane_sqrt(share2);
+    return mark.has_strayed(box, orders.reach, leeway);
   }
   /// Whether the discs' ways since the last search, and since the last choice of dt, call for a closer look.
   KOKKOS_INLINE_FUNCTION void look_for_doubts() {
@@ -91,9 +119,8 @@ struct StepState {
     Real const of_frame = box.periodic() ? 0 : (walls.largest_speed(left, right) + walls.largest_speed(bottom, top)) * orders.dt;
     way = (displacement + of_frame) / orders.least_skin;
     search_in_doubt = search.may_have_strayed(box, way, orders.reach, 1);
-    search_is_due = false;
     choice_in_doubt = orders.follows_limit && choice.may_have_strayed(box, way, orders.reach, orders.leeway);
-    if (search_in_doubt || choice_in_doubt) stop = StepStop::after_move;
+    search_is_due = choice_is_due = false;
   }
 
   /// After the forces of the walls: books their work and steers them.
@@ -121,7 +148,7 @@ struct DeviceSteps {
   Field<StepState> state = Field<StepState>("step_state", 1);
   decltype(Kokkos::create_mirror_view(Kokkos::HostSpace(), state)) on_host =
       Kokkos::create_mirror_view(Kokkos::HostSpace(), state);
-  Kokkos::View<Real, MemorySpace> displacement = Kokkos::View<Real, MemorySpace>("largest_displacement");
+  Kokkos::View<Ways, MemorySpace> ways = Kokkos::View<Ways, MemorySpace>("longest_ways");
   static constexpr std::size_t words_of_reactions = sum_words(3 * wall_count);
   Field<SumWord> reactions = Field<SumWord>("wall_reactions", words_of_reactions);
   /// Where a GPU sums them up, and the number of threads that have done so; zero between launches.

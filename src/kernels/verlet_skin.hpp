@@ -28,15 +28,23 @@ struct SkinRange {
 /// @param mean_speed  of all discs of all ranks (survey.hpp) [m/s]
 void assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range, Real mean_speed);
 
+/// The largest (d / skin)^2 of a group of owned discs since they were at (x, y), as below.
+KOKKOS_FORCEINLINE_FUNCTION Real nonaffine_displacement2(ParticleSoA const& p, Field<Coord> const& x, Field<Coord> const& y,
+                                                         AffineFrame const& frame, int group) {
+  auto const i = static_cast<std::size_t>(group) * lane_count;
+  Lanes const dx = load(&p.x(i)) - (frame.centre_x + frame.stretch_x * (load(&x(i)) - frame.reference_centre_x));
+  Lanes const dy = load(&p.y(i)) - (frame.centre_y + frame.stretch_y * (load(&y(i)) - frame.reference_centre_y));
+  Lanes const skin = load(&p.verlet_skin(i));
+  Lanes share2 = (dx * dx + dy * dy) / (skin * skin);
+  for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(share2, l, 0);  // ghosts share the last group
+  return largest(select(share2 > Lanes(0), share2, Lanes(0)));
+}
+
 /// Non-affine displacements since discs were at (x, y).
 /// @param frame  the homogeneous motion since then
 /// @return the largest (d / skin)^2 of this rank's discs, d the distance from where the homogeneous motion would have brought
 /// one
 Real largest_nonaffine_displacement2(ParticleSoA const& particles, Field<Coord> const& x, Field<Coord> const& y,
                                      AffineFrame const& frame);
-
-/// Asks the device, behind steps whose ways may have added up, whether a search is due: where they stopped in doubt of one, its
-/// mark and `search_is_due` of the state are then what the host would find from the displacements above.
-void ask_whether_search_is_due(ParticleSoA const& particles, DeviceSteps const& steps, StepLaunches const& launches);
 
 }  // namespace clathra

@@ -145,8 +145,11 @@ void Simulation::renew_time_step() {
   following_.due = false;
   ++renewals_;
   now_.choice = {now_.box, 0};
-  for (auto* field : {&step_x_, &step_y_})
-    if (field->extent(0) != particles_.x.extent(0)) *field = Field<Coord>("step_reference", particles_.x.extent(0));
+  for (auto* field : {&step_x_, &step_y_}) {
+    if (field->extent(0) == particles_.x.extent(0)) continue;
+    graph_.drop();
+    *field = Field<Coord>("step_reference", particles_.x.extent(0));
+  }
   Kokkos::deep_copy(step_x_, particles_.x);
   Kokkos::deep_copy(step_y_, particles_.y);
 }

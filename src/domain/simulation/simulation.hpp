@@ -182,7 +182,6 @@ class Simulation {
   void find_rows_and_walls(SearchReach const& reach, OldRows& old, Field<int> const& slot, WallShear const& wall_shear);
   Survey survey_discs() const;
   Survey checked(Survey of_this_rank) const;
-  void survey_ahead(StepLaunches const& launches);
   Bounds own_bounds(Bounds const& all) const;
   void upload_discs(Specimen const& specimen);
   void restore_history(Specimen const& specimen);
@@ -248,8 +247,8 @@ class Simulation {
   Faults faults_;
   Real skin_ = 0, reach_ = 0, cell_rate_ = 0, solid_area_ = 0, largest_radius_ = 0;
   Real density_ = 0, d50_ = 0, critical_thickness_ = 0, added_mass_ = 0;
-  std::int64_t rebuilds_ = 0;
-  mutable std::int64_t last_good_step_ = 0;  // of the last look for faults that found none
+  std::int64_t rebuilds_ = 0, searched_at_ = 0;  // the step of the last
+  mutable std::int64_t last_good_step_ = 0;      // of the last look for faults that found none
   double rebuild_seconds_ = 0;
   int discs_ = 0;
   Field<Coord> start_x_, start_y_;

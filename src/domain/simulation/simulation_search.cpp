@@ -16,7 +16,7 @@ constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
 
 }  // namespace
 
-/// @param all  of the present discs, by survey_discs() or survey_ahead(), which find those that are nowhere and have no cell
+/// @param all  of the present discs, by survey_discs() or asked for before, which finds those that are nowhere and have no cell
 /// @param also  what goes with the discs beside auxiliary_fields()
 void Simulation::rebuild(Survey const& all, bool skin_by_speed, AuxiliaryFields const& also) {
   Kokkos::Timer const clock;
@@ -54,6 +54,7 @@ void Simulation::rebuild(Survey const& all, bool skin_by_speed, AuxiliaryFields 
   following_.due = following_.on;  // pairs that were not listed may touch from now on
   rebuild_pending_ = false;
   ++rebuilds_;
+  searched_at_ = now_.step;
   scratch_.tidy();
   rebuild_seconds_ += clock.seconds();
 }

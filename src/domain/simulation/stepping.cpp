@@ -24,20 +24,26 @@ void Simulation::step(std::int64_t count, Real until_height) {
   }
 }
 
-/// Steps that the host need not look at, by what is known of them: when faults are looked for, when the step is chosen anew, and
-/// when the ways of the discs will have added up, if they go on as in the last step: then the last one may have to search.
+/// Steps that the host need not look at, by what is known of them: when faults are looked for and when the step is chosen anew.
+/// A GPU sees for itself how far the discs have strayed, and what it was asked for after the step that has to search does
+/// nothing; for a processor it is said when their ways will have added up, if they go on as in the last step.
 Simulation::StepsAtOnce Simulation::steps_at_once(std::int64_t most) const {
   if (host_goes_along()) return {1, rebuild_pending_};
   most = std::min(most, check_every - now_.step % check_every);
-  Real ways = 1 - now_.search.strayed;
-  if (following_.on) {
-    most = std::min(most, most_steps_of_a_choice - following_.age);
-    ways = std::min(ways, following_.leeway - now_.choice.strayed);
+  if (following_.on) most = std::min(most, most_steps_of_a_choice - following_.age);
+  Real until = 0;
+  if constexpr (for_gpu) {
+    constexpr Real beyond = 8;  // steps, that would not do to fall short of a search by a few
+    Real const strayed = now_.search.strayed + now_.search.closing(now_.box) * reach_in_skins();
+    until = static_cast<Real>(now_.step - searched_at_) * (1 - strayed) / std::max(strayed, Real(1e-9)) + beyond;
+  } else {
+    Real ways = 1 - now_.search.strayed;
+    if (following_.on) ways = std::min(ways, following_.leeway - now_.choice.strayed);
+    until = 1 + ways / now_.way;
   }
-  Real const until_doubt = 1 + ways / now_.way;
-  bool const doubt = until_doubt < static_cast<Real>(most + 1);
-  if (doubt) most = static_cast<std::int64_t>(until_doubt);
-  return {static_cast<int>(std::max<std::int64_t>(most, 1)), doubt};
+  bool const may_search = until < static_cast<Real>(most);
+  if (may_search) most = static_cast<std::int64_t>(until);
+  return {static_cast<int>(std::max<std::int64_t>(most, 1)), may_search};
 }
 
 /// Asks for steps and waits for them. The host has no part in them unless it goes along, which it does one step at a time, or the
@@ -51,8 +57,10 @@ void Simulation::advance(StepsAtOnce const& steps) {
     move_discs(0, {});
   else
     ask_for(steps.count);
-  bool const surveys = steps.may_search && ranks_.alone() && !periodic();
-  if (surveys) survey_ahead(along ? StepLaunches() : graph_.behind());
+  bool const surveys = for_gpu && steps.may_search && ranks_.alone() && !periodic();
+  if (surveys)
+    ask_for_survey(particles_, rows_, faults_, sums_.unit, steps_,
+                   along ? StepLaunches() : graph_.behind());  // one wait for both
   now_ = steps_.get();
   busy_seconds_ += moving.seconds();
   following_.last = time_step;
@@ -94,7 +102,7 @@ void Simulation::hand_over(bool host_goes_along) {
 void Simulation::move_discs(int ahead, StepLaunches const& launches) {
   bool const changed = ahead == 0 && following_.last > 0;
   StepLengths const lengths{changed ? 0.5 * (following_.last + time_step) : time_step, time_step};
-  integrate(particles_, laws_.motion, lengths, losses_, faults_, steps_, launches);
+  integrate(particles_, laws_.motion, lengths, losses_, faults_, steps_, {step_x_, step_y_}, launches);
 }
 
 /// The forces at the places that the discs have come to, and the end of the step.
@@ -105,29 +113,24 @@ void Simulation::push_discs(StepLaunches const& launches) {
     add_wall_forces(particles_, wall_contacts_, laws_.wall, time_step, losses_, faults_, sums_.unit, steps_, launches);
 }
 
-/// Asks the device for what the host has to know if these steps end with a search, so that it waits for both at once.
-void Simulation::survey_ahead(StepLaunches const& launches) {
-  if (!rebuild_pending_) ask_whether_search_is_due(particles_, steps_, launches);
-  ask_for_survey(particles_, rows_, faults_, sums_.unit, steps_, launches);
-}
-
 /// The host's part between the move and the forces: a search, or the ghosts follow their discs.
-/// @param surveyed  whether the device was asked by survey_ahead()
+/// @param surveyed  whether the device was asked for a survey
 void Simulation::end_move(bool surveyed) {
   if (now_.orders.host_goes_along) {
     if (periodic()) stretch_homogeneously();
     now_.displacement = ranks_.max(now_.displacement);
     now_.look_for_doubts();
   }
-  if (!surveyed && !rebuild_pending_ && now_.search_in_doubt)
+  bool const known = rebuild_pending_ || now_.search_is_due;
+  if (!known && now_.search_in_doubt)
     now_.search_is_due = have_strayed(now_.search, particles_.reference_x, particles_.reference_y, 1);
   if (rebuild_pending_ || now_.search_is_due) {
-    rebuild(surveyed ? checked(survey_of(now_)) : survey_discs());
+    rebuild(surveyed && known ? checked(survey_of(now_)) : survey_discs());
     return;
   }
   refresh_ghosts();
   if (following_.on)
-    following_.due = ++following_.age >= most_steps_of_a_choice ||
+    following_.due = ++following_.age >= most_steps_of_a_choice || now_.choice_is_due ||
                      (now_.choice_in_doubt && have_strayed(now_.choice, step_x_, step_y_, following_.leeway));
 }
 
