@@ -93,8 +93,9 @@ struct SurveyDiscs {
     for (int n = 0; n < value_number; ++n) values[n] = n < Survey::sum_count ? 0 : ordered(-1e300);
   }
   KOKKOS_FUNCTION void join(std::int64_t* into, std::int64_t const* from) const { join_values(into, from); }
-  // Kokkos before 4 calls join with volatile pointers.
+#if KOKKOS_VERSION < 40000  // which calls join with volatile pointers
   KOKKOS_FUNCTION void join(std::int64_t volatile* into, std::int64_t const volatile* from) const { join_values(into, from); }
+#endif
 
   template <class To, class From>
   KOKKOS_INLINE_FUNCTION void join_values(To* into, From* from) const {

@@ -82,7 +82,8 @@ struct WallForces : ReactionSums {
   }
 
   /// @param group  of discs near walls
-  KOKKOS_FUNCTION void operator()(int group, SumWord* reactions) const {
+  template <class Sums>
+  KOKKOS_FUNCTION void operator()(int group, Sums reactions) const {
     if (!is_stopped(steps)) add_group(group, reactions);
   }
   template <class Sums>
