@@ -66,9 +66,7 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
   return simulation;
 }
 
-double stable_step(Simulation const& simulation, Scene const& scene) {
-  return simulation.stable_time_step(usual_share_of_estimate);
-}
+double stable_step(Simulation const& simulation) { return simulation.stable_time_step(usual_share_of_estimate); }
 
 template <class T>
 auto on_host(Field<T> const& field) {
@@ -125,7 +123,7 @@ void write_for_peers(char const* path, std::string const& folder) {
   write_bonds(bonded, folder);
   Scene const scene = scene_of(specimen, "rolling");
   GrainLaw const& law = rolling.laws().contact.grain;
-  double const dt = std::min(stable_step(rolling, scene), stable_step(bonded, scene));
+  double const dt = std::min(stable_step(rolling), stable_step(bonded));
   std::printf("dt %.17g\nskin %.17g\nkn %.17g\nks %.17g\nfriction %.17g\nshape_factor %.17g\ndensity %.17g\n", dt,
               skin_in_d50 * specimen.d50, law.normal_stiffness, law.shear_stiffness, law.friction, law.shape_factor,
               specimen.density);
