@@ -25,7 +25,7 @@ if(CLATHRA_DEVICE OR CLATHRA_KOKKOS MATCHES "^(auto|installed)$")
     find_package(Kokkos 3.4.1 CONFIG REQUIRED)
     if(CLATHRA_DEVICE STREQUAL "CUDA" AND Kokkos_VERSION VERSION_GREATER_EQUAL 4.6 AND NOT "IMPL_VIEW_LEGACY" IN_LIST Kokkos_OPTIONS)
       message(WARNING "Kokkos: the views of this one have another layout on the GPU than on the host where nvcc 13.0 and GCC 12 compile "
-                      "them as C++20, and kernels get wrong addresses (the test KernelArguments tells). Kokkos built with "
+                      "them as C++20, and kernels get wrong addresses (the test KernelArguments compares the two). Kokkos built with "
                       "-DKokkos_ENABLE_IMPL_VIEW_LEGACY=ON has others.")
     endif()
   else()

@@ -19,6 +19,7 @@ struct StepLengths {
   Real kick, drift;
 };
 
+/// Where the last choice of the time step found the discs.
 struct PlacesOfChoice {
   Field<Coord> x, y;  ///< [owned] [m]
 };
