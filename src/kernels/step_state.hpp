@@ -109,6 +109,8 @@ struct StepState {
       choice_in_doubt = choice_is_due = settle(choice, ways.choice2, orders.leeway);
     if (search_in_doubt || choice_in_doubt) stop = StepStop::after_move;
   }
+  /// Settles a doubt by the discs' own ways. @param share2  (d / skin)^2 of the disc that strayed most;  @return whether there
+  /// was reason for it
   KOKKOS_INLINE_FUNCTION bool settle(Mark& mark, Real share2, Real leeway) const {
     mark.strayed = lane_sqrt(share2);
     return mark.has_strayed(box, orders.reach, leeway);

@@ -1,6 +1,5 @@
 /// The time step: what is asked of the device, and what part the host has in it.
 #include <algorithm>
-#include <cmath>
 
 #include "domain/simulation/simulation.hpp"
 
@@ -151,12 +150,11 @@ void Simulation::end_step() {
   }
 }
 
-/// Mark::has_strayed() by the largest non-affine displacement of a disc since then.
+/// StepState::settle() by the largest non-affine displacement of a disc since then.
 /// @param x,y  where the discs were then
 bool Simulation::have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real leeway) const {
   AffineFrame const f = frame_since(now_.box, mark.box);
-  mark.strayed = std::sqrt(ranks_.max(largest_nonaffine_displacement2(particles_, x, y, f)));
-  return mark.has_strayed(now_.box, reach_in_skins(), leeway);
+  return now_.settle(mark, ranks_.max(largest_nonaffine_displacement2(particles_, x, y, f)), leeway);
 }
 
 /// Isotropic stretching of the periodic cell with all its discs.
