@@ -37,7 +37,7 @@ TEST(Diverged, ByANumberThatIsNotFiniteInAnyFieldOfADisc) {
   for (double bad : {nan, infinity, -infinity}) {
     for (int field = 0; field < 5; ++field) {
       Simulation sim = pressed_packing();
-      for (int n = 0; n < 150; ++n) sim.step();
+      sim.step(150);
       ParticleSoA const& p = sim.particles();
       int const disc = index_of(sim, 42);
       if (field < 2)
@@ -110,7 +110,7 @@ TEST(Diverged, NamesThePlaceAndTheDeepestContactOfTheDisc) {
   Simulation sim(s, sand_laws(), 1e-5);
   sim.time_step = 1e-9;
   try {
-    for (int n = 0; n < 200; ++n) sim.step();
+    sim.step(200);
     ADD_FAILURE() << "went on";
   } catch (Diverged const& fault) {
     std::string const text = fault.what();
@@ -124,12 +124,12 @@ TEST(Diverged, NamesThePlaceAndTheDeepestContactOfTheDisc) {
 
 TEST(Diverged, KnowsWhereADiscWasThatIsNowhere) {
   Simulation sim = pressed_packing();
-  for (int n = 0; n < 150; ++n) sim.step();
+  sim.step(150);
   int const disc = index_of(sim, 42);
   double const x = value(sim.particles().x, disc);
   assign(sim.particles().x, disc, nan);
   try {
-    for (int n = 0; n < 200; ++n) sim.step();
+    sim.step(200);
     ADD_FAILURE() << "went on";
   } catch (Diverged const& fault) {
     EXPECT_TRUE(std::isfinite(fault.x) && std::isfinite(fault.y)) << fault.what();
@@ -226,9 +226,9 @@ TEST(ExtremeSizes, RestTogetherUnderStress) {
   Simulation sim(s, laws, 0.5 * grain_radius);
   sim.time_step = 0.7 * sim.stable_time_step();
   sim.loading().x = sim.loading().y = AxisDrive::at_stress(1e5, 0.5);
-  for (int n = 0; n < 40000; ++n) sim.step();
+  sim.step(40000);
   sim.loading().x = sim.loading().y = AxisDrive::held();
-  for (int n = 0; n < 40000; ++n) sim.step();
+  sim.step(40000);
   sim.throw_if_unstable();
   Measures const m = sim.measures();
   EXPECT_NEAR(m.stress_area_xx / sim.area() / sim.stress().x, 1, 1e-3);
@@ -262,7 +262,7 @@ TEST(ScatteredDiscs, TakeNoMoreMemoryThanCloseOnes) {
   add_disc(s, -1e7, 3);
   Simulation sim(s, sand_laws(), 1e-5);
   sim.time_step = 1e-8;
-  for (int n = 0; n < 20; ++n) sim.step();
+  sim.step(20);
   EXPECT_EQ(sim.measures().touching, 1);
   EXPECT_LT(sim.bytes(), 20000u);
 }

@@ -27,13 +27,13 @@ TEST(ExtremeStates, NoDiscOneDiscTwoDiscs) {
   expect_refusal<std::invalid_argument>("0 discs", "at least one disc", [] { Simulation(open_space(), sand_laws(), 1e-5); });
   Simulation one(disc_on_floor(1e-6), sand_laws(), 1e-6);
   one.choose_time_step({});
-  for (int n = 0; n < 1000; ++n) one.step();
+  one.step(1000);
   expect_row("1 disc on a floor", "kinetic + elastic energy over the first",
              (one.measures().kinetic + one.measures().wall_energy) / (0.5 * sand_kn * 1e-12), 0.1,
              2.5);  // leapfrog's own energy swings by so much at 0.95 of the limit, and stays
   Simulation two(two_discs(1e-6), sand_laws(), 1e-6);
   two.choose_time_step({});
-  for (int n = 0; n < 1000; ++n) two.step();
+  two.step(1000);
   expect_row("2 discs pressed together fly apart", "distance over their diameter",
              disc(two, 1).x - disc(two, 0).x > 0 ? (disc(two, 1).x - disc(two, 0).x) / (2 * grain_radius) : 0, 1, 1e99);
 }
@@ -60,14 +60,14 @@ TEST(ExtremeStates, BondsWithoutStrengthAndBondsThatNeverBreak) {
     std::string const name = composite == Composite::parallel ? " (parallel)" : " (replace)";
     expect_row("bond strength 0" + name, "bonds broken in the first step", weak.broken_bonds(), 200, 1e99);
     expect_row("bond strength 0" + name, "bonds left", weak.measures().bonded, 0, 0);
-    for (int n = 0; n < 3000; ++n) weak.step();
+    weak.step(3000);
     weak.throw_if_unstable();
     expect_row("bond strength 0, after 3,000 steps" + name, "kinetic over elastic energy",
                weak.measures().kinetic / weak.measures().grain_energy, 0, 1e-2);
     Simulation strong = bonded(0.55, composite, [](SimulationLaws& laws) { laws = unbreakable(laws); });
     strong.choose_time_step({});
     strong.loading().y = AxisDrive::at_rate(50);
-    for (int n = 0; n < 5000; ++n) strong.step();
+    strong.step(5000);
     strong.throw_if_unstable();
     expect_row("bond strength without end" + name, "bonds broken", strong.broken_bonds(), 0, 0);
   }
@@ -76,7 +76,7 @@ TEST(ExtremeStates, BondsWithoutStrengthAndBondsThatNeverBreak) {
 TEST(ExtremeStates, OverlapOfHalfARadiusAndCoincidentCentres) {
   Simulation deep(two_discs(0.5 * grain_radius), sand_laws(), 1e-6);
   deep.choose_time_step({});
-  for (int n = 0; n < 2000; ++n) deep.step();
+  deep.step(2000);
   deep.throw_if_unstable();
   double const energy = 0.5 * sand_kn * 0.25 * grain_radius * grain_radius;
   expect_row("overlap of half a radius", "kinetic energy afterwards over the elastic one before",
@@ -84,7 +84,7 @@ TEST(ExtremeStates, OverlapOfHalfARadiusAndCoincidentCentres) {
   expect_refusal<Diverged>("coincident centres", "overlaps", [] {
     Simulation sim(two_discs(2 * grain_radius), sand_laws(), 1e-6);
     sim.time_step = 1e-8;
-    for (int n = 0; n < 100; ++n) sim.step();
+    sim.step(100);
     sim.throw_if_unstable();
   });
 }
@@ -97,7 +97,7 @@ TEST(ExtremeStates, OneDiscWideAndAThousandTall) {
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.choose_time_step({});
-  for (int n = 0; n < 60000; ++n) sim.step();
+  sim.step(60000);
   sim.throw_if_unstable();
   expect_row("a column of 1,000 discs", "force at its top over that at its foot",
              sim.reactions().normal[top] / sim.reactions().normal[bottom], 0.99, 1.01);
@@ -174,7 +174,7 @@ TEST(ExtremeStates, ADiscFastEnoughToCrossAnotherInOneStep) {
     s.vx[0] = 1.4 * 2 * grain_radius / dt;
     Simulation sim(s, laws, 1e-6);
     sim.time_step = dt;
-    for (int n = 0; n < 64; ++n) sim.step();
+    sim.step(64);
     sim.throw_if_unstable();
   });
 }
@@ -184,7 +184,7 @@ TEST(ExtremeStates, WallsThatMeet) {
     Simulation sim(packing(), sand_laws(), 0.1 * packing().d50);
     sim.choose_time_step({});
     sim.loading().y = AxisDrive::at_rate(20000);
-    for (int n = 0; n < 100000; ++n) sim.step();
+    sim.step(100000);
   });
 }
 
@@ -226,7 +226,7 @@ TEST(ExtremeStates, LongARestingBondedSpecimenKeepsItsForcesOverTenMillionSteps)
              within(1e-9, 1e-3));  // at 50 kPa 15 pm are 5e-4 of the mean overlap
   std::vector<double> const before = shear_forces(sim);
   double const stress = sim.stress().y;
-  for (int n = 0; n < 10000000; ++n) sim.step();
+  sim.step(10000000);
   std::vector<double> const after = shear_forces(sim);
   ASSERT_EQ(after.size(), before.size());
   double mean = 0, worst = 0;

@@ -39,7 +39,7 @@ class SnapshotFile : public testing::Test {
     fs::create_directories(folder);
     Simulation sim = squeezed_patch();
     sim.mark_start();
-    for (int n = 0; n < 4000; ++n) sim.step();
+    sim.step(4000);
     broken = sim.break_events(0);
     measures = sim.measures();
     area = sim.area();
@@ -248,7 +248,7 @@ Simulation million_discs() {
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
   sim.time_step = 1e-8;
-  for (int n = 0; n < 20; ++n) sim.step();
+  sim.step(20);
   return sim;
 }
 

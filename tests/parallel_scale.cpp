@@ -32,7 +32,7 @@ std::vector<double> numbers_of(double scale) {
   sim.loading().y = AxisDrive::at_rate(300 / scale);
   sim.set_ledger(true);
   std::vector<double> numbers{sim.stable_time_step() / scale, sim.largest_frequency() * scale};
-  for (int n = 0; n < 4000; ++n) sim.step();
+  sim.step(4000);
   Measures const m = sim.measures();
   LossTotals const lost = sim.losses();
   double const area = scale * scale;

@@ -67,7 +67,7 @@ void expect_equal_steps(Simulation const& one, Simulation const& many) {
 TEST_P(StateIn, IsThatOfStepsOneByOneAfterManyAtOnce) {
   Simulation one = between_servo_walls(GetParam()), many = between_servo_walls(GetParam());
   for (int const steps : {1, 7, 64, 200, 1500}) {
-    for (int n = 0; n < steps; ++n) one.step();
+    one.step(steps);
     many.step(steps);
     EXPECT_EQ(one.hash(), many.hash()) << steps;
     expect_equal_steps(one, many);
@@ -103,7 +103,7 @@ TEST(State, OfUnboundSandDoesNotKnowTheOrderOfTheInput) {
     Simulation sim(s, laws, 0.05 * grain_d50);
     sim.time_step = 1e-7;
     sim.loading().x = sim.loading().y = AxisDrive::at_rate(300);
-    for (int n = 0; n < 3000; ++n) sim.step();
+    sim.step(3000);
     EXPECT_GT(sim.measures().touching, 200);
     return sim.hash();
   };
@@ -153,7 +153,7 @@ std::vector<double> forces_of(Simulation const& sim) {
 
 TEST(State, TakenWhileASearchIsDueKeepsTheForcesOfEachDisc) {
   Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel);
-  for (int n = 0; n < 2000; ++n) sim.step();
+  sim.step(2000);
   std::vector<double> const before = forces_of(sim);
   auto const order = [&] {
     std::vector<int> places;

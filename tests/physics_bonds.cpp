@@ -28,7 +28,7 @@ double stiffness_of_chain(int bonds) {
   sim.loading().x = AxisDrive::at_rate(1.0, true);
   while (width - sim.walls().width() < 0.3e-6 * bonds) sim.step();
   sim.loading().x = AxisDrive::held();
-  for (int n = 0; n < 6000; ++n) sim.step();
+  sim.step(6000);
   EXPECT_NEAR(sim.reactions().normal[left] / sim.reactions().normal[right], 1, within(1e-7, 3e-5));
   return sim.reactions().normal[left] / (width - sim.walls().width());
 }

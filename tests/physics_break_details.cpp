@@ -42,7 +42,7 @@ BreakEvents broken(Composite composite, double angle, Motion const& motion, int 
   sim.time_step = dt;
   hold_all(sim);
   sim.loading().y = AxisDrive::at_rate(wall_rate);
-  for (int n = 0; n < earlier; ++n) sim.step();
+  sim.step(earlier);
   sim.keep_break_details();
   drive(sim, 0, 0, 0, motion.spin_a);
   drive(sim, 1, motion.apart * nx, motion.apart * ny, motion.spin_b);

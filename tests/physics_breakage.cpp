@@ -28,7 +28,7 @@ Simulation held_pair(Composite composite, double overlap, double shear = 0, doub
 void move(Simulation& sim, double closing, double spin_a, double spin_b, int steps) {
   drive(sim, 0, 0, 0, spin_a);
   drive(sim, 1, -closing, 0, spin_b);
-  for (int n = 0; n < steps; ++n) sim.step();
+  sim.step(steps);
 }
 
 /// Forces of the pair as disc 0 feels them: normal, shear, moment.

@@ -70,7 +70,7 @@ TEST(HeadOnCollision, OverlapGrowsToRelativeVelocityTimesRootOfMassOverStiffness
     double error[3];
     for (int level = 0; level < 3; ++level) {
       Simulation sim = collide(partner, {v, 0, 0, 1, 64 << level});
-      for (int n = 0; n < 32 << level; ++n) sim.step();
+      sim.step(32 << level);
       error[level] = overlap(sim) - exact;
     }
     EXPECT_LT(std::abs(error[2] / exact), 1e-4);
@@ -143,7 +143,7 @@ TEST(StickingCollision, TurnsTheRimVelocityByTheRatioOfStiffnesses) {
 double psi_after(Partner partner, double psi1, double stiffness_ratio, int steps) {
   double const vn = slow(1e-4), friction = 0.5;
   Simulation sim = collide(partner, {vn, psi1 * friction * vn, friction, stiffness_ratio, steps});
-  for (int n = 0; n < steps + 2; ++n) sim.step();
+  sim.step(steps + 2);
   return rim_velocity(sim) / (friction * vn);
 }
 
@@ -151,7 +151,7 @@ TEST(SlippingCollision, ChangesTheSpinByTwiceFrictionTimesTheNormalVelocityChang
   double const vn = slow(1e-4);
   for (double psi1 : {5.0, 8.0, -6.0}) {
     Simulation sim = on_the_floor({vn, psi1 * 0.5 * vn, 0.5, 0.5, 200});
-    for (int n = 0; n < 202; ++n) sim.step();
+    sim.step(202);
     double const gained = disc(sim, 0).vy + vn;  // (1 + e) v_n, whatever the step
     EXPECT_NEAR(disc(sim, 0).omega * grain_radius / (-2 * 0.5 * gained * (psi1 > 0 ? 1 : -1)), 1, 3e-3) << psi1;
     for (Partner partner : partners)
@@ -175,7 +175,7 @@ TEST(SlippingCollision, FollowsTheTableOfPartialSlip) {
 double restitution(Partner partner, double damping_ratio, int steps) {
   double const vn = speed(1e-3);
   Simulation sim = collide(partner, {vn, 0, 0, 1, steps, damping_ratio});
-  for (int n = 0; n < 2 * steps; ++n) sim.step();
+  sim.step(2 * steps);
   return partner == Partner::wall ? disc(sim, 0).vy / vn : (disc(sim, 1).vx - disc(sim, 0).vx) / vn;
 }
 

@@ -22,7 +22,7 @@ BrokenPair break_pair(Composite composite, int refinement) {
   sim.time_step = 0.2e-7 / refinement;
   sim.set_ledger(true);
   double const start = stored(sim.measures());
-  for (int n = 0; n < 400 * refinement; ++n) sim.step();
+  sim.step(400 * refinement);
   EXPECT_EQ(sim.broken_bonds(), 1);
   Measures const m = sim.measures();
   EXPECT_EQ(m.grain_energy + m.bond_energy, 0);
@@ -48,7 +48,7 @@ TEST(EnergyLedger, CountsWhatBreakingStiffens) {
   sim.time_step = 1e-7;
   hold_all(sim);
   drive(sim, 1, -2e-6 / 100 / 1e-7, 0, 0);
-  for (int n = 0; n < 100; ++n) sim.step();
+  sim.step(100);
   sim.set_ledger(true);
   EXPECT_NEAR(sim.measures().bond_energy, 0.5 * 1.4209e8 * 4e-12, 1e-7);
   drive(sim, 0, 0, 0, 100);

@@ -72,7 +72,7 @@ std::size_t bytes_per_entry(Simulation const& sim) {
 
 TEST(Features, ASceneWithoutHydrateHasNoBondField) {
   Simulation sim = packing(sand_laws(), false);
-  for (int n = 0; n < 100; ++n) sim.step();
+  sim.step(100);
   ContactRows const& rows = sim.rows();
   EXPECT_EQ(rows.formation_overlap.extent(0) + rows.width.extent(0) + rows.bond_shear.extent(0) + rows.bond_moment.extent(0), 0u);
   EXPECT_EQ(sim.wall_contacts().shear.extent(0), 0u);  // smooth walls
@@ -94,7 +94,7 @@ TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
   Simulation sand = packing(sand_laws(), false), bonded = packing(hydrate_laws(Composite::parallel), true);
   {
     Launches const launches;
-    for (int n = 0; n < 50; ++n) sand.step();
+    sand.step(50);
     EXPECT_EQ(launches.of("contact_forces"), 50);
     EXPECT_EQ(launches.with("bond"), 0);
     EXPECT_EQ(launches.with("loss"), 0);
@@ -102,7 +102,7 @@ TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
     EXPECT_EQ(launches.of("kick_and_drift"), 50);
   }
   Launches const launches;
-  for (int n = 0; n < 50; ++n) bonded.step();
+  bonded.step(50);
   EXPECT_EQ(launches.of("contact_forces_bonded"), 50);
   EXPECT_EQ(launches.of("contact_forces"), 0);
 }
@@ -134,7 +134,7 @@ void expect_needs(std::string const& what, Scene const& scene) {
             static_cast<std::size_t>(needs.bytes(FieldOf::disc) - of_walls) * places)
       << what;
   Launches const launches;
-  for (int n = 0; n < 7; ++n) sim.step();
+  sim.step(7);
   std::set<std::string> kernels;
   for (NeededKernel const& kernel : needs.kernels) kernels.insert(kernel.name);
   EXPECT_EQ(launches.launched(7), kernels) << what;
@@ -175,7 +175,7 @@ std::string accounts_of(SimulationLaws const& laws, bool hydrate) {
     ++accounts;
   });
   EXPECT_EQ(sim.bytes() - before, accounts * sizeof(Accum) * sim.particles().x.extent(0)) << names;
-  for (int n = 0; n < 50; ++n) sim.step();
+  sim.step(50);
   EXPECT_GT(sim.losses().sliding + sim.losses().damping + 1, 0);
   return names;
 }
@@ -213,7 +213,7 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
       Simulation sim = packing(laws, hydrate);
       sim.time_step = 1e-7;
       sim.loading().y = AxisDrive::at_rate(1000);
-      for (int n = 0; n < 2000; ++n) sim.step();
+      sim.step(2000);
       EXPECT_GT(sim.measures().touching, 20);
       Specimen const end = sim.specimen();
       return std::vector{end.x, end.y, end.vx, end.vy};
@@ -229,7 +229,7 @@ TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
     if (details) sim.keep_break_details();
     sim.loading().y = AxisDrive::at_rate(2000);
     sim.loading().x = AxisDrive::at_rate(-1500);
-    for (int n = 0; n < 4000; ++n) sim.step();
+    sim.step(4000);
     return sim;
   };
   Simulation const logged = sheared(true), counted = sheared(false);

@@ -59,7 +59,7 @@ double frequency_of_wave(int columns, bool longitudinal, double spin_ratio) {
   int const m = columns;
   double a[3];
   for (double& value_at : a) {
-    for (int n = 0; n < m; ++n) sim.step();
+    sim.step(m);
     value_at = amplitude();
   }
   double const numerical = std::acos((a[0] + a[2]) / (2 * a[1])) / (m * dt);
@@ -114,7 +114,7 @@ TEST(HexagonalLattice, ResistsCompressionWithRootThreeHalvesOfTheStiffness) {
     sim.time_step = dt;
     double const area = sim.area();
     sim.stretch_cell((level == 0 ? 2e-4 : 1e-4) / (100 * dt));
-    for (int n = 0; n < 100; ++n) sim.step();
+    sim.step(100);
     Measures const m = sim.measures();
     double const pressure = 0.5 * (m.stress_area_xx + m.stress_area_yy) / sim.area();
     EXPECT_NEAR(m.stress_area_xx / m.stress_area_yy, 1, within(1e-9, 3e-5));

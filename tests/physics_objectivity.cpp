@@ -24,7 +24,7 @@ Simulation run_cluster(double vx, double vy, double dt, int steps) {
   Specimen const s = wild_cluster(vx, vy);
   Simulation sim(s, bonded_laws(hydrate_scene(0.41, Composite::parallel), s.critical_thickness), 0.05 * grain_d50);
   sim.time_step = dt;
-  for (int n = 0; n < steps; ++n) sim.step();
+  sim.step(steps);
   return sim;
 }
 
@@ -92,7 +92,7 @@ TEST(StressAtRest, IsTheSameInTheContactsAndAtTheWalls) {
   prepare_servo(sim, 1e6, 2e-3, grain_d50, {});
   EXPECT_TRUE(hold_stress(sim, 1e6, within(1e-5, 1e-4), 60000, {}, "test"));
   sim.loading().x = sim.loading().y = AxisDrive::held();
-  for (int n = 0; n < 3000; ++n) sim.step();
+  sim.step(3000);
   Measures const m = sim.measures();
   EXPECT_NEAR(m.stress_area_xx / sim.area() / sim.stress().x, 1, 2e-5);
   EXPECT_NEAR(m.stress_area_yy / sim.area() / sim.stress().y, 1, 2e-5);

@@ -27,7 +27,7 @@ TEST(ServoWall, ThatMustMoveAtAConstantRateKeepsTheStress) {
   double const rate = strain_rate_of(1e-4, stress, sand_density, grain_d50), width = sim.walls().width();
   sim.loading().y = AxisDrive::at_rate(rate);
   sim.loading().x.largest_speed = rate * width;
-  for (int n = 0; n < 2000; ++n) sim.step();  // the servo finds the rate
+  sim.step(2000);  // the servo finds the rate
   double const from = sim.walls().width();
   double mean = 0, worst = 0, speed_early = 0, speed_late = 0;
   constexpr int steps = 6000;

@@ -73,7 +73,7 @@ double growth_of(Simulation&& sim, double time_step, int steps) {
   sim.time_step = time_step;
   double const before = sim.measures().kinetic;
   try {
-    for (int n = 0; n < steps; ++n) sim.step();
+    sim.step(steps);
   } catch (Diverged const&) {
     return HUGE_VAL;
   }
@@ -110,7 +110,7 @@ Simulation trembling_sand(double alpha, double dashpot) {
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.time_step = 0.2 * sim.stable_time_step();
-  for (int n = 0; n < 20000; ++n) sim.step();  // it comes to rest
+  sim.step(20000);  // it comes to rest
   laws.motion.damping = alpha;
   sim.set_laws(laws);
   sim.add_uniform_strain_rate(1e-3, -2e-3);

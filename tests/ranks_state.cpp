@@ -43,7 +43,7 @@ TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
   for (Golden const& g : golden) {
     Specimen const whole = bonded_patch(g.composite), part = dealt(whole);
     Simulation sim = ready(whole, g.composite, world(), &part, g.precision);
-    for (int n = 0; n < 3000; ++n) sim.step();
+    sim.step(3000);
     EXPECT_EQ(sim.hash(), g.hash);
     EXPECT_EQ(sim.broken_bonds(), g.broken);
     EXPECT_EQ(sim.discs(), static_cast<int>(whole.size()));
@@ -202,7 +202,7 @@ TEST(Ranks, OwnEqualPartsOfTheWork) {
 TEST(Ranks, HandOutASpecimenWhosePartsAreTheWhole) {
   Specimen const whole = bonded_patch(Composite::replace), part = dealt(whole);
   Simulation sim = ready(whole, Composite::replace, world(), &part);
-  for (int n = 0; n < 500; ++n) sim.step();
+  sim.step(500);
   Simulation alone = ready(whole, Composite::replace);
   for (int n = 0; n < 500; ++n) alone.step();
   Specimen const mine = sim.specimen(), all = alone.specimen();

@@ -132,7 +132,7 @@ TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
 
 TEST(ContactRows, KeepTheWidthThatTheLawGivesABond) {
   Simulation sim = crushed_packing(Composite::parallel);
-  for (int n = 0; n < 200; ++n) sim.step();
+  sim.step(200);
   HostDiscs const p(sim.particles());
   HostRows const rows(sim.rows());
   int bonds = 0;

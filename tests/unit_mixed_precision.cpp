@@ -137,7 +137,7 @@ TEST(MixedPrecision, FindsADiscWhosePlaceIsNoNumber) {
     assign(sim.particles().x, index_of(sim, 1), nowhere);
     std::string text = "none";
     try {
-      for (int n = 0; n < 100; ++n) sim.step();
+      sim.step(100);
     } catch (Diverged const& fault) {
       text = fault.what();
     }
@@ -174,7 +174,7 @@ TEST(MixedPrecision, SurvivesTheWayThroughASpecimenToTheBit) {
   Simulation sim(s, laws, 0.05 * grain_d50);
   sim.time_step = 1e-7;
   sim.loading().x = sim.loading().y = AxisDrive::at_rate(300);
-  for (int n = 0; n < 1500; ++n) sim.step();
+  sim.step(1500);
   ASSERT_GT(sim.measures().touching, 50);
   EXPECT_EQ(Simulation(sim.specimen(), laws, 0.05 * grain_d50).hash(), sim.hash());
 }

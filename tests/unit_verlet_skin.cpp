@@ -70,7 +70,7 @@ TEST(VerletSkin, OneDiscThatFliesSeldomCallsForASearch) {
   sim.time_step = 1e-6;
   std::int64_t const before = sim.rebuilds();
   auto const steps = static_cast<int>(way / sim.time_step);
-  for (int n = 0; n < steps; ++n) sim.step();
+  sim.step(steps);
   // Without a skin of its own it would be one for each h of the way.
   EXPECT_LE(sim.rebuilds() - before, way / (4.5 * h) + 3);
   EXPECT_GE(sim.rebuilds() - before, way / (5.5 * h) - 3);
@@ -129,7 +129,7 @@ TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
 TEST(VerletSkin, OfAStateWithoutItIsThatOfDiscsAtRest) {
   Simulation sim(gas(), {}, 2 * h);
   sim.time_step = 0.3 * sim.stable_time_step();
-  for (int n = 0; n < 50; ++n) sim.step();
+  sim.step(50);
   SimulationState state = sim.state();
   std::size_t const at = state.disc_columns.size();  // of the last column in a record: the id comes first
   ASSERT_EQ(state.disc_columns.back(), "verlet_skin");
