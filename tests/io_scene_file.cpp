@@ -217,7 +217,7 @@ TEST(SceneFile, AStrainRateReplacesTheDefaultInertialNumberButNotAStatedOne) {
 
 TEST(SceneFile, AWaveNumberBoundsTheRateOfAnInertialNumberNotAStatedRate) {
   std::string const bounded = sized + "[test]\nwave_number = 0.1\n";
-  EXPECT_EQ(load(sized).scene.test.wave_number, 0.2);
+  EXPECT_EQ(load(sized).scene.test.wave_number, 0.13);
   EXPECT_EQ(load(sized + "[test]\ninertial_number = 1e-3\n").scene.test.wave_number, 0) << "a stated rate is kept";
   EXPECT_EQ(load(sized, {"test.inertial_number=1e-3", "run.accuracy=draft"}).scene.test.wave_number, 0);
   EXPECT_EQ(load(bounded + "inertial_number = 1e-3\n").scene.test.wave_number, 0.1);

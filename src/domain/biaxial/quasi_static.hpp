@@ -22,12 +22,8 @@ inline constexpr double inertial_warning = 1e-3, inertial_limit = 1e-2, wave_lim
 /// Of W: up to there the walls measure 1 % more than the contacts inside at most, of 500 discs 1.4 % (docs/accuracy.md).
 inline constexpr double wave_warning = 0.3;
 inline constexpr double stiffness_warning = 50, stiffness_limit = 10;  ///< of k_n / sigma_3
-/// The same, up to which mixed precision resolves the overlaps: round-off of 15 pm lets forces of 1 nm of overlap rest at an
-/// unbalanced ratio of 5e-3 (8e-3 was measured at 3e5), and rest is below 1e-3. Discs that turn slowly rest higher still: 1.1e-3
-/// to 1.6e-3 at 2e4 in three of six specimens with the usual inertia_scaling, below 1e-3 in all of them at 1.4e4.
-inline constexpr double stiffness_resolved = 1e4;
 inline bool mixed_precision_resolves(Scene const& scene) {
-  return scene.grains.kn <= stiffness_resolved * scene.test.confining_stress;
+  return mixed_precision_resolves(scene.grains.kn, scene.test.confining_stress);
 }
 
 /// The stress of the wave that either platen sends out when they compress a specimen at a rate, over the confining stress.

@@ -47,6 +47,14 @@ void close_homogeneously(Simulation& simulation, double rate, double present_rat
   simulation.add_uniform_strain_rate(rate - present_rate, rate - present_rate);
 }
 
+/// While an assembly closes its discs turn as heavily as in a test, and step in mixed precision where that resolves the overlaps.
+SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& friction) {
+  SimulationLaws laws = generation_laws(scene, friction);
+  laws.scaling.inertia = RunScene::usual_inertia_scaling;
+  if (mixed_precision_resolves(scene.grains.kn, scene.bond.stress)) laws.precision = Precision::mixed;
+  return laws;
+}
+
 /// Closes the assembly to the target's void ratio, ever slower towards it, so that it arrives at rest: the force network of a
 /// flowing assembly would collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
 /// @return the lowest share of the friction that was needed
@@ -60,14 +68,14 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
   while (simulation.void_ratio() > target.void_ratio + 1e-5) {
     double const above = simulation.void_ratio() - target.void_ratio;
     double const rate_factor = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
-    double const slowed = full_rate * rate_factor * std::clamp(above / slowing_range, 0.05, 1.0);
+    double const slowed = full_rate * rate_factor * std::clamp(above / slowing_range, 0.1, 1.0);
     close_homogeneously(simulation, slowed, rate);
     rate = slowed;
     simulation.step(interval);
     double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
     friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
     lowest = std::min(lowest, friction.share);
-    simulation.set_laws(generation_laws(scene, friction));
+    simulation.set_laws(closing_laws(scene, friction));
     if (friction.share < 1e-3 && mean_stress(simulation) > 4 * target.stress) {
       throw Refused("without friction these grains resist densification beyond a void ratio of " +
                     std::to_string(simulation.void_ratio()) + " at " + std::to_string(target.stress / 1e3) + " kPa; " +
@@ -145,24 +153,40 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
   return checks_at_rest >= 3;
 }
 
-double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,
-                              CompressionTarget const& target, ProgressCallback const& progress) {
-  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, StepChoice{});
-  AxisDrive const servo_x = simulation.loading().x, servo_y = simulation.loading().y;
-  double const lowest = compress_until_void_ratio(simulation, scene, friction, target, progress);
+PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
+                                      CompressionTarget const& target, double skin, ProgressCallback const& progress,
+                                      Ranks const& ranks) {
+  Simulation closing(loose, closing_laws(scene, friction), skin, ranks);
+  prepare_servo(closing, target.stress, target.inertial_number, target.d50, StepChoice{});
+  double const share = compress_until_void_ratio(closing, scene, friction, target, progress);
   // With the full friction back the assembly creeps no further.
   friction.share = 1;
-  simulation.set_laws(generation_laws(scene, friction));
-  simulation.loading().x = servo_x;
-  simulation.loading().y = servo_y;
-  hold_stress(simulation, target.stress, 1e-3, 200000, progress, "generate");
-  if (simulation.void_ratio() < target.void_ratio - target.void_tolerance) {
+  Simulation resting(closing.specimen(), generation_laws(scene, friction), skin, ranks);
+  prepare_servo(resting, target.stress, target.inertial_number, target.d50, StepChoice{});
+  std::int64_t const steps_before = closing.steps();
+  ProgressCallback const counted = [&](Progress p) {
+    p.disc_steps += steps_before * resting.discs();
+    return !progress || progress(p);
+  };
+  hold_stress(resting, target.stress, 1e-3, 200000, counted, "generate");
+  if (resting.void_ratio() < target.void_ratio - target.void_tolerance) {
     throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains pack to a void ratio of " +
-                  std::to_string(simulation.void_ratio()) + " with a friction of " + std::to_string(friction.friction) +
+                  std::to_string(resting.void_ratio()) + " with a friction of " + std::to_string(friction.friction) +
                   " and a shape factor of " + std::to_string(friction.shape_factor) + "; " + std::to_string(target.void_ratio) +
                   " is looser than they can hold");
   }
-  return lowest;
+  PackedSpecimen packed;
+  packed.specimen = resting.specimen();
+  packed.specimen.stress = target.stress;
+  packed.friction = friction.friction * share;
+  packed.shape_factor = friction.shape_factor * share;
+  packed.unbalanced = resting.measures().unbalanced_ratio(resting.discs());
+  if (!resting.periodic()) {
+    packed.stress_x = resting.stress().x;
+    packed.stress_y = resting.stress().y;
+  }
+  packed.disc_steps = (steps_before + resting.steps()) * resting.discs();
+  return packed;
 }
 
 }  // namespace clathra

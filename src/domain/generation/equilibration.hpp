@@ -34,14 +34,25 @@ struct GenerationFriction {
 /// The laws of generation for a scene: frictionless walls, no bonds, strong local damping (0.7).
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction);
 
+/// A packed specimen (this rank's share), resting under the stress of the design, with its generation friction.
+struct PackedSpecimen {
+  Specimen specimen;
+  double friction = 0, shape_factor = 0;  ///< in generation, at its end
+  double unbalanced = 0;
+  double stress_x = 0, stress_y = 0;  ///< on the walls [Pa]; of a periodic cell 0
+  std::int64_t disc_steps = 0;
+};
+
 /// Closes the box homogeneously, walls and discs together, from a looser state to the target void ratio; the friction is lowered
 /// where the stress exceeds the target and raised where it falls short, so that the assembly yields everywhere alike. Then it
 /// comes to rest at the stress (unbalanced ratio < 1e-3, contacts and walls within 0.5 %) with the full friction back, so that it
-/// creeps no further. No search for a friction is needed.
-/// @return the lowest share;  @throws Refused where the target is denser than frictionless grains pack, or looser than full
-/// friction holds
-double compress_to_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction friction,
-                              CompressionTarget const& target, ProgressCallback const& progress);
+/// creeps no further. No search for a friction is needed. It closes with the moments of inertia of a test and in mixed precision
+/// where that resolves the overlaps, and rests with true ones in double precision.
+/// @param skin [m] of the neighbour search
+/// @throws Refused where the target is denser than frictionless grains pack, or looser than full friction holds
+PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
+                                      CompressionTarget const& target, double skin, ProgressCallback const& progress,
+                                      Ranks const& ranks = {});
 
 /// Steps with walls (or the periodic cell) steered to an isotropic stress until it holds within 0.5 % and the unbalanced ratio is
 /// below `rest`.

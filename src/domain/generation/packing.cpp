@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "domain/generation/equilibration.hpp"
 #include "domain/generation/random.hpp"
 #include "domain/generation/random_sequential_addition.hpp"
 
@@ -72,14 +71,15 @@ double highest_point(Specimen const& specimen, Ranks const& ranks) {
 }
 
 /// Laws for layers that only meet, for time steps that are far longer: springs that are just stiff enough for the stress, the
-/// finest 30 % (by mass) of the grading as heavy as the next disc, moments of inertia times 4. The closing that follows has the
-/// scene's own stiffness and true masses.
+/// finest 30 % (by mass) of the grading as heavy as the next disc, moments of inertia times 4, mixed precision. The closing that
+/// follows has the scene's own stiffness and true masses.
 SimulationLaws loose_laws(SimulationLaws laws, double stress, Grading const& grading) {
   laws.scaling = {4, 0.5 * grading.diameter_finer(0.3)};
   double const share = std::min(1.0, loose_stiffness * stress / laws.contact.grain.normal_stiffness);
   for (auto* stiffness : {&laws.contact.grain.normal_stiffness, &laws.contact.grain.shear_stiffness, &laws.wall.normal_stiffness,
                           &laws.wall.shear_stiffness})
     *stiffness *= share;
+  laws.precision = Precision::mixed;
   return laws;
 }
 
@@ -91,7 +91,7 @@ void compact(Simulation& simulation, StepChoice const& step, double void_ratio, 
   simulation.loading().x = AxisDrive::held();
   double mean_stress = 0;  // over the last steps: single blows of flying discs are no stress
   while (simulation.void_ratio() > void_ratio && mean_stress < 20 * stress) {
-    double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.03, 1.0);
+    double const slowed = speed * std::clamp((simulation.void_ratio() - void_ratio - 0.02) / slowing_range, 0.05, 1.0);
     simulation.loading().y = AxisDrive::at_rate(slowed / simulation.walls().height(), true);
     constexpr int interval = 200;
     mean_stress = 0;
@@ -150,29 +150,19 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   double const d50 = design.grading.d50();
   GenerationFriction friction;
   friction.shape_factor = design.void_ratio > 0.28 ? 2 : 1;  // friction alone packs to about 0.25, with impacts to 0.24
-  SimulationLaws const laws = generation_laws(scene, friction);
-  PackedSpecimen packed;
+  std::int64_t of_layers = 0;
   ProgressCallback const counted = [&](Progress p) {
-    p.disc_steps += packed.disc_steps;  // of the layers before
+    p.disc_steps += of_layers;
     return !progress || progress(p);
   };
-  Specimen const specimen =
-      compacted_layers(scene, design, loose_laws(laws, scene.bond.stress, design.grading), counted, packed.disc_steps, ranks);
-  Simulation simulation(specimen, laws, 0.1 * d50, ranks);
-  simulation.stop_discs();
+  SimulationLaws const laws = loose_laws(generation_laws(scene, friction), scene.bond.stress, design.grading);
+  Specimen const layers = compacted_layers(scene, design, laws, counted, of_layers, ranks);
   CompressionTarget target;
   target.stress = scene.bond.stress;
   target.void_ratio = design.void_ratio;
   target.d50 = d50;
-  double const share = compress_to_void_ratio(simulation, scene, friction, target, counted);
-  packed.disc_steps += simulation.steps() * simulation.discs();
-  packed.specimen = simulation.specimen();
-  packed.specimen.stress = scene.bond.stress;
-  packed.friction = friction.friction * share;
-  packed.shape_factor = friction.shape_factor * share;
-  packed.unbalanced = simulation.measures().unbalanced_ratio(simulation.discs());
-  packed.stress_x = simulation.stress().x;
-  packed.stress_y = simulation.stress().y;
+  PackedSpecimen packed = compress_to_void_ratio(layers, scene, friction, target, 0.1 * d50, counted, ranks);
+  packed.disc_steps += of_layers;
   return packed;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Multi-layer under-compaction (Jiang, Konrad, Leroueil 2003) to a target void ratio, and the proof of what came out.
+#include "domain/generation/equilibration.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "domain/scene/specimen.hpp"
@@ -10,15 +11,6 @@ namespace clathra {
 /// Void ratio to which the first i of n layers are compacted together: e_(i) = e_t + De (1 - (i-1)/(n-1))^m.
 /// @param layer 1 .. layers;  De = 0.02, m = 2
 double under_compaction_void_ratio(double target, int layer, int layers, double excess = 0.02, double exponent = 2);
-
-/// A packed specimen (this rank's share), resting under the stress of the design, with its generation friction.
-struct PackedSpecimen {
-  Specimen specimen;
-  double friction = 0, shape_factor = 0;  ///< in generation, at its end
-  double unbalanced = 0;
-  double stress_x = 0, stress_y = 0;  ///< on the walls [Pa]
-  std::int64_t disc_steps = 0;
-};
 
 /// Layer by layer: discs of the whole grading are placed loosely above the ones below, and the top wall compacts all of them to
 /// e_(i); then the walls are brought to the bonding stress and the friction is lowered until the target void ratio is met.

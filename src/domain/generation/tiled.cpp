@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "domain/generation/equilibration.hpp"
 #include "domain/generation/random_sequential_addition.hpp"
 
 namespace clathra {
@@ -122,19 +121,11 @@ PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design
   specimen.x = placed.x;
   specimen.y = placed.y;
   for (std::int64_t i = 0; i < particles; ++i) specimen.id.push_back(static_cast<int>(i));
-  Simulation simulation(specimen, generation_laws(scene, friction), 0.2 * d50);
   CompressionTarget target;
   target.stress = scene.bond.stress;
   target.void_ratio = design.void_ratio;
   target.d50 = d50;
-  PackedSpecimen packed;
-  double const share = compress_to_void_ratio(simulation, scene, friction, target, progress);
-  packed.specimen = simulation.specimen();
-  packed.specimen.stress = scene.bond.stress;
-  packed.friction = friction.friction * share;
-  packed.shape_factor = friction.shape_factor * share;
-  packed.disc_steps = simulation.steps() * simulation.discs();
-  return packed;
+  return compress_to_void_ratio(specimen, scene, friction, target, 0.2 * d50, progress);
 }
 
 Specimen replicate(Specimen const& cell, double width, double height, Ranks const& ranks) {

@@ -80,8 +80,8 @@ struct TestScene {
   double inertial_number = 2e-4;  ///< I, 0 where strain_rate is given; 1e-3: peak of q of sand +5.6 +- 0.8 %, 2e-4: +0.7 +- 0.5 %
   double strain_rate = 0;         ///< [1/s]
   /// The rate of inertial_number is lowered until W is no larger, 0 = whatever it is; 20,000 discs at 55 %, 0.26: peak of q
-  /// +1.4 +- 0.5 %, 0.2: +1.0 +- 0.5 %.
-  double wave_number = 0.2;
+  /// +1.4 +- 0.5 %, 0.2: +1.0 +- 0.5 %, 0.13: +0.3 +- 0.5 %.
+  double wave_number = 0.13;
   double wall_friction = 0;
   static constexpr int usual_consolidation_steps = 200000;
   int consolidation_steps = usual_consolidation_steps;  ///< at most; another number than the usual one is sheared at rest or not

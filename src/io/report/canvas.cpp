@@ -18,6 +18,9 @@ struct Span {
 
 constexpr double half_pixel = 0.5;
 
+/// Some pixels: no need for the range of std::hypot, which took a seventh of a report's time.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 std::uint8_t mixed(std::uint8_t below, std::uint8_t above, double cover) {
   return static_cast<std::uint8_t>(std::lround(below + cover * (above - below)));
 }
@@ -42,7 +45,7 @@ void Canvas::disc(double x, double y, double radius, Rgb colour) {
   Span const rows(y - drawn - half_pixel, y + drawn + half_pixel, height_);
   for (int row = rows.first; row <= rows.last; ++row)
     for (int column = columns.first; column <= columns.last; ++column) {
-      double const distance = std::hypot(column + half_pixel - x, row + half_pixel - y);
+      double const distance = length(column + half_pixel - x, row + half_pixel - y);
       blend(column, row, strength * std::clamp(drawn - distance + half_pixel, 0.0, 1.0), colour);
     }
 }
@@ -56,7 +59,7 @@ void Canvas::line(double x0, double y0, double x1, double y1, double width, Rgb 
     for (int column = columns.first; column <= columns.last; ++column) {
       double const px = column + half_pixel - x0, py = row + half_pixel - y0;
       double const along = length2 > 0 ? std::clamp((px * dx + py * dy) / length2, 0.0, 1.0) : 0;
-      double const distance = std::hypot(px - along * dx, py - along * dy);
+      double const distance = length(px - along * dx, py - along * dy);
       blend(column, row, strength * std::clamp(half - distance + half_pixel, 0.0, 1.0), colour);
     }
 }

@@ -28,13 +28,14 @@ bool before(Counted const& a, Counted const& b) { return a.count != b.count ? a.
 
 std::vector<Counted> counted_colours(Canvas const& canvas) {
   std::unordered_map<std::uint32_t, Counted> counts;
+  Counted* entry = nullptr;  // neighbouring pixels are often alike
   for (Rgb const c : canvas.pixels()) {
-    Counted& entry = counts[key(c)];
-    entry.colour = c;
-    ++entry.count;
+    if (entry == nullptr || key(entry->colour) != key(c)) entry = &counts[key(c)];
+    entry->colour = c;
+    ++entry->count;
   }
   std::vector<Counted> sorted;
-  for (auto const& [value, entry] : counts) sorted.push_back(entry);
+  for (auto const& [value, counted] : counts) sorted.push_back(counted);
   std::sort(sorted.begin(), sorted.end(), before);
   return sorted;
 }
@@ -75,7 +76,13 @@ std::string png_bytes(Canvas const& canvas) {
   std::unordered_map<std::uint32_t, std::uint8_t> place;
   for (Counted const& c : colours) place[key(c.colour)] = static_cast<std::uint8_t>(nearest(palette, c.colour));
   std::vector<std::uint8_t> pixels, map;
-  for (Rgb const c : canvas.pixels()) pixels.push_back(place[key(c)]);
+  pixels.reserve(canvas.pixels().size());
+  Rgb last = canvas.pixels().front();
+  std::uint8_t at = place[key(last)];
+  for (Rgb const c : canvas.pixels()) {
+    if (key(c) != key(last)) last = c, at = place[key(c)];
+    pixels.push_back(at);
+  }
   for (Counted const& c : palette) map.insert(map.end(), {c.colour.red, c.colour.green, c.colour.blue});
 
   png_image image{};
