@@ -82,20 +82,20 @@ int main(int argc, char** argv) {
   Simulation simulation = throughput_simulation(options.setup, session.ranks());
   std::printf(
       "case,discs,ranks,threads,lanes,disc_steps_per_second,ns_per_disc_step,contact_steps_per_s,steps,rebuilds,rebuild_share,"
-      "bytes_per_disc,entries_per_disc,bandwidth_share,flop_share,broken\n");
+      "bytes_per_disc,entries_per_disc,bandwidth_share,flop_share,broken,search_bytes_per_disc\n");
   double const bandwidth = update_bandwidth(simulation.bytes()), arithmetic = arithmetic_rate();  // of this rank
   std::vector<double> rates;
   for (int n = 0; n < options.repeat; ++n) {
     Throughput const t = measure_throughput(simulation, options.seconds);
     rates.push_back(t.disc_steps_per_second);
     int const ranks = session.ranks().count();
-    std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f,%.3f,%.3f,%lld\n",
+    std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f,%.3f,%.3f,%lld,%.0f\n",
                 throughput_case_names[static_cast<int>(options.setup.what)], simulation.discs(), ranks,
                 ExecutionSpace().concurrency(), lane_count, rates.back(), 1e9 / rates.back(), t.contact_steps_per_s,
                 static_cast<long long>(t.steps), static_cast<long long>(t.rebuilds), t.rebuild_share, t.bytes_per_disc,
                 static_cast<double>(simulation.contact_entries()) / std::max(simulation.particles().owned, 1),
                 rates.back() * t.moved_per_step / (bandwidth * ranks), t.flops_per_s / (arithmetic * ranks),
-                static_cast<long long>(t.broken));
+                static_cast<long long>(t.broken), t.search_bytes_per_disc);
   }
   std::sort(rates.begin(), rates.end());
   std::printf("median %.4g disc-steps/s\n", rates[rates.size() / 2]);

@@ -236,6 +236,8 @@ TEST(BenchCommand, PrintsACardOfThisMachine) {
     EXPECT_GT(contacts / discs, 1.2);  // pairs a disc: 1.5 to 2.2 here
     EXPECT_LT(contacts / discs, 3);
     EXPECT_GT(card["bytes_per_disc"], card["bytes_moved_per_disc_and_step"].get<double>() / 2);
+    EXPECT_GT(card["search_bytes_per_disc"], 36);  // its candidates alone
+    EXPECT_LT(card["search_bytes_per_disc"], 0.6 * card["bytes_per_disc"].get<double>());
     EXPECT_GT(card["bandwidth_share"], 0);
     EXPECT_LT(card["rebuild_share"], 1);
     EXPECT_EQ(card["threads"], 1);

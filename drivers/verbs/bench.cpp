@@ -33,6 +33,7 @@ nlohmann::ordered_json json_of(ThroughputRow const& row) {
           {"contact_steps_per_s", t.contact_steps_per_s},
           {"seconds_per_step", 1e-6 * row.microseconds_per_step()},
           {"bytes_per_disc", t.bytes_per_disc},
+          {"search_bytes_per_disc", t.search_bytes_per_disc},
           {"bytes_moved_per_disc_and_step", t.moved_per_step},
           {"bandwidth_bytes_per_s", row.bandwidth},
           {"bandwidth_share", row.bandwidth_share()},

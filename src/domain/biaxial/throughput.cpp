@@ -161,6 +161,7 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   result.flops_per_s = steps_per_s * flops_per_step(simulation, m);
   result.broken = simulation.broken_bonds() - broken;
   result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.discs();
+  result.search_bytes_per_disc = static_cast<double>(total(simulation, simulation.search_bytes())) / simulation.discs();
   result.moved_per_step = moved_bytes(simulation);
   result.rebuild_share = (simulation.rebuild_seconds() - rebuilding) / result.seconds;
   return result;

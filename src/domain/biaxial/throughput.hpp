@@ -27,12 +27,13 @@ struct Throughput {
   std::int64_t steps = 0, rebuilds = 0;
   double seconds = 0;
   double disc_steps_per_second = 0;
-  double contact_steps_per_s = 0;  ///< pairs that touch or are bonded
-  double bytes_per_disc = 0;       ///< held: fields, rows and buffers
-  double moved_per_step = 0;       ///< [bytes a disc] that one step reads and writes at the least, each field once
-  double flops_per_s = 0;          ///< double precision operations of the laws; empty lanes and neighbour searches not counted
-  std::int64_t broken = 0;         ///< bonds broken while it was timed
-  double rebuild_share = 0;        ///< of the time, spent in neighbour searches
+  double contact_steps_per_s = 0;    ///< pairs that touch or are bonded
+  double bytes_per_disc = 0;         ///< held: fields, rows and buffers
+  double search_bytes_per_disc = 0;  ///< of these what only neighbour searches need
+  double moved_per_step = 0;         ///< [bytes a disc] that one step reads and writes at the least, each field once
+  double flops_per_s = 0;            ///< double precision operations of the laws; empty lanes and neighbour searches not counted
+  std::int64_t broken = 0;           ///< bonds broken while it was timed
+  double rebuild_share = 0;          ///< of the time, spent in neighbour searches
 };
 
 /// Steps for about so many seconds; of several ranks the rates are those of all together. @throws Diverged

@@ -162,8 +162,10 @@ class Simulation {
   /// Bytes of this rank's fields, with the ledger, the log of breaks and what neighbour searches need beside them.
   std::size_t bytes() const {
     return clathra::bytes(particles_) + clathra::bytes(rows_) + halo_.bytes() + clathra::bytes(losses_) + broken_bonds_.bytes() +
-           (start_x_.span() + start_y_.span() + step_x_.span() + step_y_.span()) * sizeof(Coord) + scratch_.bytes();
+           (start_x_.span() + start_y_.span() + step_x_.span() + step_y_.span()) * sizeof(Coord) + search_bytes();
   }
+  /// Those of them that only neighbour searches need, kept from one to the next.
+  std::size_t search_bytes() const { return scratch_.bytes(); }
   // Of this rank:
   std::size_t contact_entries() const { return rows_.neighbour.extent(0); }
   ParticleSoA const& particles() const { return particles_; }
