@@ -91,6 +91,21 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
   return lowest;
 }
 
+/// An assembly at the target's void ratio, not yet at rest.
+struct Closed {
+  Specimen specimen;
+  double share;        ///< of the friction, the lowest that was needed
+  std::int64_t steps;  ///< until then
+};
+
+Closed close_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
+                           CompressionTarget const& target, double skin, ProgressCallback const& progress, Ranks const& ranks) {
+  Simulation simulation(loose, closing_laws(scene, friction), skin, ranks);
+  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, StepChoice{});
+  double const share = compress_until_void_ratio(simulation, scene, friction, target, progress);
+  return {simulation.specimen(), share, simulation.steps()};
+}
+
 }  // namespace
 
 double strain_rate_of(double inertial_number, double stress, double density, double d50) {
@@ -156,16 +171,12 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
 PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
                                       CompressionTarget const& target, double skin, ProgressCallback const& progress,
                                       Ranks const& ranks) {
-  Simulation closing(loose, closing_laws(scene, friction), skin, ranks);
-  prepare_servo(closing, target.stress, target.inertial_number, target.d50, StepChoice{});
-  double const share = compress_until_void_ratio(closing, scene, friction, target, progress);
+  Closed const closed = close_to_void_ratio(loose, scene, friction, target, skin, progress, ranks);
   // With the full friction back the assembly creeps no further.
-  friction.share = 1;
-  Simulation resting(closing.specimen(), generation_laws(scene, friction), skin, ranks);
+  Simulation resting(closed.specimen, generation_laws(scene, friction), skin, ranks);
   prepare_servo(resting, target.stress, target.inertial_number, target.d50, StepChoice{});
-  std::int64_t const steps_before = closing.steps();
   ProgressCallback const counted = [&](Progress p) {
-    p.disc_steps += steps_before * resting.discs();
+    p.disc_steps += closed.steps * resting.discs();
     return !progress || progress(p);
   };
   hold_stress(resting, target.stress, 1e-3, 200000, counted, "generate");
@@ -178,14 +189,14 @@ PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene,
   PackedSpecimen packed;
   packed.specimen = resting.specimen();
   packed.specimen.stress = target.stress;
-  packed.friction = friction.friction * share;
-  packed.shape_factor = friction.shape_factor * share;
+  packed.friction = friction.friction * closed.share;
+  packed.shape_factor = friction.shape_factor * closed.share;
   packed.unbalanced = resting.measures().unbalanced_ratio(resting.discs());
   if (!resting.periodic()) {
     packed.stress_x = resting.stress().x;
     packed.stress_y = resting.stress().y;
   }
-  packed.disc_steps = (steps_before + resting.steps()) * resting.discs();
+  packed.disc_steps = (closed.steps + resting.steps()) * resting.discs();
   return packed;
 }
 
