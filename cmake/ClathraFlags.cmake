@@ -5,7 +5,8 @@ target_compile_features(clathra_flags INTERFACE cxx_std_20)
 # The determinism contract: the state after a run is equal to the bit for every number of threads, every order of the
 # input and every instruction set of one architecture. So: no contraction into fused multiply-adds (whether the compiler
 # finds one depends on the vector width and on inlining), and never -ffast-math, -Ofast or -fassociative-math (sums would
-# be taken in another order). The two flags below do not change any result: they only drop errno and the floating-point
+# be taken in another order). Mixed precision asks by name for the fused operations that it has (times_plus() in
+# src/kernels/lane.hpp), which are the same everywhere. The two flags below do not change any result: they only drop errno and the floating-point
 # exception flags, which we do not read and which keep loops with sqrt and with selects from being vectorised.
 target_compile_options(clathra_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # GCC (12 at least) contracts neighbouring statements like x = a * b - c, y = d * e + f all the same: its vectoriser of
@@ -35,6 +36,17 @@ if(CLATHRA_NATIVE AND NOT CLATHRA_DEVICE) # on a GPU's host nothing is vectorise
     if(CLATHRA_HAS_AVX512)
       target_compile_options(clathra_flags INTERFACE -mprefer-vector-width=512)
     endif()
+  endif()
+endif()
+
+# For any machine of its kind: x86 processors have had AVX2 and fused operations since 2013 and 2015, and without the latter
+# mixed precision, the default, calls a function for each.
+if(NOT CLATHRA_NATIVE AND NOT CLATHRA_DEVICE AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CMAKE_CXX_FLAGS MATCHES
+                                                                                                   "-march=")
+  include(CheckCXXCompilerFlag)
+  check_cxx_compiler_flag(-march=x86-64-v3 CLATHRA_HAS_MARCH_V3)
+  if(CLATHRA_HAS_MARCH_V3)
+    target_compile_options(clathra_flags INTERFACE -march=x86-64-v3)
   endif()
 endif()
 

@@ -4,19 +4,16 @@
 #ifdef _OPENMP
 #include <omp.h>
 #endif
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "domain/parallel/host_memory.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "job_cores.hpp"
 
@@ -87,18 +84,6 @@ bool set_variable(char const* name, std::string const& value) {
   return true;
 }
 
-/// Replaces this process by the same program with the same arguments. Returns only where the system does not let it.
-void start_anew() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> arguments;
-  for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  unbind();
-  if (!arguments.empty()) ::execv("/proc/self/exe", pointers.data());
-}
-
 }  // namespace
 
 int thread_count(int wanted) {
@@ -127,7 +112,11 @@ void set_up_threads(int wanted) {
   }
   if (!std::getenv("OMP_WAIT_POLICY") && !std::getenv("GOMP_SPINCOUNT"))
     changed = set_variable("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
-  if (changed) start_anew();
+  changed = ask_for_huge_pages() || changed;
+  if (changed) {
+    unbind();
+    start_anew();
+  }
 }
 
 struct KokkosSession::Guard {
@@ -136,20 +125,6 @@ struct KokkosSession::Guard {
   char* arguments[2] = {name, nullptr};
   Kokkos::ScopeGuard scope{argument_count, arguments};
 };
-
-namespace {
-
-/// Searches and choices of the time step allocate and free the same fields over and over. Handed back to the system and fetched
-/// anew, page by page, they made choosing a time step twice as dear.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int kept = 1 << 30, in_one_piece = 1 << 25;  // [bytes]; the second is the largest that glibc takes
-  ::mallopt(M_TRIM_THRESHOLD, kept);
-  ::mallopt(M_MMAP_THRESHOLD, in_one_piece);
-#endif
-}
-
-}  // namespace
 
 KokkosSession::KokkosSession() : guard_(std::make_unique<Guard>()) { keep_freed_memory(); }
 KokkosSession::~KokkosSession() = default;

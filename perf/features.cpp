@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "domain/biaxial/throughput.hpp"
+#include "domain/parallel/host_memory.hpp"
 
 namespace {
 
@@ -101,6 +102,7 @@ void print(char const* name, Price const& p) {
 int main(int argc, char** argv) {
   Options const options = read_options(argc, argv);
   ::setenv("OMP_PROC_BIND", "false", 0);
+  set_up_host_memory();
   Kokkos::ScopeGuard const guard(argc, argv);
   std::printf("| feature | ns a disc and step without | with | price |\n|---|---|---|---|\n");
   Simulation sand = throughput_simulation({ThroughputCase::rolling, options.discs, 0.1});

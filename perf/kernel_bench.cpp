@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "domain/biaxial/throughput.hpp"
+#include "domain/parallel/host_memory.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/measures.hpp"
 
@@ -91,6 +92,7 @@ BENCHMARK(state_hash_of_all)->Apply(sizes);
 
 int main(int argc, char** argv) {
   ::setenv("OMP_PROC_BIND", "false", 0);
+  set_up_host_memory();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 64;
   Kokkos::ScopeGuard const guard(argc, argv);

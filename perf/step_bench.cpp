@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "domain/biaxial/throughput.hpp"
+#include "domain/parallel/host_memory.hpp"
 #include "kernels/phases.hpp"
 
 namespace {
@@ -75,6 +76,7 @@ void print_phases(Simulation& simulation, double seconds) {
 int main(int argc, char** argv) {
   Options const options = read_options(argc, argv);
   ::setenv("OMP_PROC_BIND", "false", 0);
+  set_up_host_memory();
   RankSession const session;
   bool const root = session.ranks().root();
   if (!root) std::freopen("/dev/null", "w", stdout);  // one of the ranks speaks

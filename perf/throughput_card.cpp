@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "domain/parallel/host_memory.hpp"
 #include "domain/parallel/ranks.hpp"
 
 int main(int argc, char** argv) {
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
     }
   }
   ::setenv("OMP_PROC_BIND", "false", 0);
+  set_up_host_memory();
   RankSession const session;
   Kokkos::ScopeGuard const guard(argc, argv);
   std::printf("%s, %d threads\n%s", ExecutionSpace::name(), ExecutionSpace().concurrency(), card_head().c_str());

@@ -77,8 +77,8 @@ struct Golden {
 inline constexpr Golden golden[] = {{Composite::replace, Precision::full, 0xb32266e6acdafbebULL, 213},
                                     {Composite::parallel, Precision::full, 0xc2baf36149f36ff8ULL, 469},
                                     {Composite::memory, Precision::full, 0x92e06ba7ed616b25ULL, 308},
-                                    {Composite::replace, Precision::mixed, 0x8d59b93440f690f4ULL, 297},
-                                    {Composite::parallel, Precision::mixed, 0x4dbba59ea3608d37ULL, 472},
-                                    {Composite::memory, Precision::mixed, 0x83fc6b379d70fcb1ULL, 195}};
+                                    {Composite::replace, Precision::mixed, 0x7c3405153e516d8cULL, 235},
+                                    {Composite::parallel, Precision::mixed, 0xf70ae4e9215076f7ULL, 482},
+                                    {Composite::memory, Precision::mixed, 0xdaf84b3ae4919886ULL, 334}};
 
 }  // namespace clathra

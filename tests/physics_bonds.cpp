@@ -232,7 +232,7 @@ TEST(RigidTurn, CarriesShearRoundToSecondOrder) {
     for (int level = 0; level < 3; ++level) {
       LoadedPair pair = loaded_pair(composite);
       ASSERT_NE(pair.history.shear + pair.history.bond_shear, 0);
-      int const steps = 4000 << level;
+      int const steps = (tested_precision() == Precision::mixed ? 500 : 4000) << level;  // errors far above round-off
       double const turn = 2 * pi / steps;
       for (int n = 0; n < steps; ++n) carry_round(pair.sim, pair.dx, pair.dy, turn * n, turn, turn / pair.sim.time_step);
       SpecimenContact const now = pair_history(pair.sim);
@@ -241,7 +241,7 @@ TEST(RigidTurn, CarriesShearRoundToSecondOrder) {
       drift[level] = now.shear + now.bond_shear - pair.history.shear - pair.history.bond_shear;
     }
     EXPECT_TRUE(shrinks(drift[0], drift[1], 2));
-    EXPECT_TRUE(shrinks(drift[1], drift[2], 2, within(0.1, 0.3)));
+    EXPECT_TRUE(shrinks(drift[1], drift[2], 2));
   }
 }
 

@@ -41,7 +41,7 @@ ContactStiffness<Real> bond_of(SimulationLaws const& laws) {
 /// @param spin_ratio  amplitude of the rotation over that of the displacement across (S) [1/m];  `longitudinal`: P
 double frequency_of_wave(int columns, bool longitudinal, double spin_ratio) {
   Specimen s = periodic_lattice(columns, 4);
-  double const q = 2 * pi / (columns * d), speed = 1e-3;
+  double const q = 2 * pi / (columns * d), speed = within(1e-3, 1e-2);  // far above round-off
   for (std::size_t i = 0; i < s.size(); ++i) {
     (longitudinal ? s.vx : s.vy)[i] = speed * std::cos(q * s.x[i]);
     if (!longitudinal) s.omega[i] = -spin_ratio * speed * std::sin(q * s.x[i]);
@@ -75,11 +75,11 @@ TEST(HexagonalLattice, CarriesCompressionWavesAtItsExactFrequency) {
     int const columns = 16 << level;
     double const q = 2 * pi / (columns * d), w = frequency_of_wave(columns, true, 0);
     double const exact = std::sqrt((2 * kn * (1 - std::cos(q * d)) + (kn + 3 * ks) * (1 - std::cos(q * d / 2))) / m);
-    EXPECT_NEAR(w / exact, 1, within(1e-6, 2e-3)) << columns;
+    EXPECT_NEAR(w / exact, 1, within(1e-6, 2e-4)) << columns;
     error[level] = w / q / continuum - 1;
   }
   EXPECT_LT(std::abs(error[1]), 2e-3);  // long waves: c_p^2 = (lambda + 2 mu) / rho
-  EXPECT_TRUE(shrinks(error[0], error[1], 2, within(0.1, 0.3)));
+  EXPECT_TRUE(shrinks(error[0], error[1], 2));
 }
 
 TEST(HexagonalLattice, CarriesShearWavesAtItsExactFrequency) {
@@ -98,7 +98,7 @@ TEST(HexagonalLattice, CarriesShearWavesAtItsExactFrequency) {
     double const half = 0.5 * (turning - across);
     double const w2 = 0.5 * (across + turning) - std::sqrt(half * half + coupling * coupling / (m * inertia));
     double const w = frequency_of_wave(columns, false, coupling / (inertia * (turning - w2)));
-    EXPECT_NEAR(w / std::sqrt(w2), 1, within(1e-6, 2e-3)) << columns;
+    EXPECT_NEAR(w / std::sqrt(w2), 1, within(1e-6, 2e-4)) << columns;
     error[level] = w / q / continuum - 1;
   }
   EXPECT_LT(std::abs(error[1]), 5e-3);  // long waves: c_s^2 = mu / rho

@@ -142,9 +142,13 @@ TEST(BondQuickTest, LeastStrengthsLieBelowThoseOfEveryBondButNotFar) {
       double const gap = law.bond_thickness(-draw.between(0, 1) * law.critical_thickness),
                    width = law.width(draw.of_size(2e-5, 4e-4), gap);
       BondStrength const exact = bond_strength(law.strength, width, gap);
-      double const tension = least.tension_per_width * width + least.tension;
-      double const compression = least.compression_per_width * width + least.compression;
-      double const moment_slope = least.moment_per_width * width + least.moment;
+      // The trapezoid is 1.28 (F_n + R_t), 0.28 (R_c + R_t) and 2.02 (R_c - F_n), times the slope.
+      double const tension = least.rising.of(width) / least.rising_per_normal,
+                   compression = least.falling.of(width) / least.falling_per_normal, moment_slope = least.moment.of(width);
+      ASSERT_NEAR(least.rising_per_normal, 1.28 * least.shear_slope, 1e-15);
+      ASSERT_NEAR(least.falling_per_normal, 2.02 * least.shear_slope, 1e-15);
+      ASSERT_NEAR(least.flat.of(width), 0.28 * least.shear_slope * (compression + tension),
+                  1e-12 * (compression + lane_abs(tension)));
       ASSERT_LT(tension, exact.tension);
       ASSERT_LT(compression, exact.compression);
       ASSERT_LT(least.shear_slope, exact.shear_slope);

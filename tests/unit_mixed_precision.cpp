@@ -33,12 +33,14 @@ TEST(Ticks, GiveDifferencesToTheTickAtAnyPlace) {
 }
 
 /// The number after `steps` increments of `increment` units each.
+template <Sides Which = Sides::opposite>
 double after(double increment, int steps, std::int64_t first = 0) {
   std::int32_t value[lane_count_of<float>] = {};
   for (int n = 0; n < steps; ++n) {
-    // A stiffness of 4 at a rate of a half in steps of a second.
-    HistoryScale<float> const scale{0.5, 2, 2, rounding_of_step(first + n)};
-    store_ints(value, Kept::advanced(load_ints(value), 4.0F, FloatLanes(static_cast<float>(increment / 8)), scale));
+    // A stiffness of 4 in steps of a second and units of a half.
+    HistoryScale<float> const scale{2, rounding_of_step(first + n)};
+    FloatLanes const rate(static_cast<float>(increment / 8));
+    store_ints(value, Kept::advanced<Which>(load_ints(value), Kept::of_step(4.0F, scale), rate, scale));
   }
   return value[0];
 }
@@ -49,6 +51,8 @@ TEST(FixedPointHistory, LosesNothingHoweverSlowlyItGrows) {
     EXPECT_NEAR(after(increment, steps), increment * steps, 3 + 1e-6 * increment * steps) << increment;
     EXPECT_NEAR(after(-increment, steps, 12345), -increment * steps, 3 + 1e-6 * increment * steps) << increment;
     EXPECT_EQ(after(-increment, steps), -after(increment, steps)) << increment;  // moments are opposite on the two sides
+    for (double const either : {increment, -increment})
+      EXPECT_NEAR(after<Sides::equal>(either, steps, 777), either * steps, 3 + 1e-6 * increment * steps) << either;
   }
   // What it is there for: a float at a thousand times the increments of a very slow test.
   float plain = 1;
@@ -57,23 +61,23 @@ TEST(FixedPointHistory, LosesNothingHoweverSlowlyItGrows) {
 }
 
 TEST(FixedPointHistory, IsKeptWhereNoLimitCutsItAndTheLimitWhereOneDoes) {
-  HistoryScale<float> const scale{0x1p-14F, 0x1p14F, 1, 0.5F};
-  auto const limited = [&](std::int32_t trial, float limit) {
+  auto const limited = [&](std::int32_t trial, float limit, auto... free) {
     std::int32_t value[lane_count_of<float>] = {trial};
-    float const volatile at_run_time = limit;  // a compiler that folds the conversion of 1e34 makes another number of it
-    store_ints(value, Kept::limited(load_ints(value), FloatLanes(at_run_time), scale));
+    store_ints(value, Kept::limited(load_ints(value), FloatLanes(limit), MaskOf<FloatLanes>(free)...));
     return value[0];
   };
   for (std::int32_t const sign : {1, -1}) {
     constexpr std::int32_t fine = 123456789;  // more digits than a float has
-    EXPECT_EQ(limited(sign * fine, 7536), sign * fine);
-    EXPECT_EQ(limited(sign * fine, 1e30F), sign * fine);  // more than any history holds
-    EXPECT_EQ(limited(sign * fine, 80.0F), sign * 80 * 16384);
-    EXPECT_EQ(limited(sign * fine, 80.00001F), sign * 80 * 16384);  // never more than the limit
+    EXPECT_EQ(limited(sign * fine, 123500000), sign * fine);
+    EXPECT_EQ(limited(sign * fine, 2.1e9F), sign * fine);
+    EXPECT_EQ(limited(sign * fine, 1310720.0F), sign * 1310720);
+    EXPECT_EQ(limited(sign * fine, 1310720.9F), sign * 1310720);  // never more than the limit
     EXPECT_EQ(limited(sign * fine, 0), 0);
+    EXPECT_EQ(limited(sign * fine, 80, true), sign * fine);
+    EXPECT_EQ(limited(sign * fine, 80, false), sign * 80);
   }
-  std::int32_t const kept[lane_count_of<float>] = {-80 * 16384};
-  EXPECT_EQ(largest(lane_abs(Kept::number(load_ints(kept), scale))), 80.0F);
+  std::int32_t const kept[lane_count_of<float>] = {-1310720};
+  EXPECT_EQ(largest(lane_abs(Kept::number(load_ints(kept)))), 1310720.0F);
 }
 
 /// Number by number in kernels, which alone reach a field.
@@ -184,13 +188,26 @@ TEST(LeastStrength, OfSinglePrecisionLiesBelowThatOfDoubleByLittle) {
   BondLaw const law = make_bond_law(scene, grain_d50, h_max_of(scene));
   LeastStrengthOf<double> const exact = least_strength<double>(law);
   LeastStrengthOf<float> const single = least_strength<float>(law);
-  auto const below = [](float a, double b) { return a < b && a > b - 3e-5 * std::abs(b); };
-  EXPECT_TRUE(below(single.tension, exact.tension));
-  EXPECT_TRUE(below(single.tension_per_width, exact.tension_per_width));
-  EXPECT_TRUE(below(single.compression, exact.compression));
-  EXPECT_TRUE(below(single.compression_per_width, exact.compression_per_width));
+  auto const below = [](double a, double b) { return a < b && a > b - 5e-5 * std::abs(b); };
+  // Strengths, which are these lines over their slopes.
+  auto const line_below = [&](OfWidth<float> const& a, double per_a, OfWidth<double> const& b, double per_b) {
+    return below(a.at_zero / per_a, b.at_zero / per_b) && below(a.per_width / per_a, b.per_width / per_b);
+  };
+  EXPECT_TRUE(line_below(single.rising, single.rising_per_normal, exact.rising, exact.rising_per_normal));
+  EXPECT_TRUE(line_below(single.flat, single.shear_slope, exact.flat, exact.shear_slope));
+  EXPECT_TRUE(line_below(single.falling, single.falling_per_normal, exact.falling, exact.falling_per_normal));
+  EXPECT_TRUE(below(single.rising_per_normal, exact.rising_per_normal));
+  EXPECT_TRUE(below(single.falling_per_normal, exact.falling_per_normal));
   EXPECT_TRUE(below(single.shear_slope, exact.shear_slope));
-  EXPECT_TRUE(below(single.moment_per_width, exact.moment_per_width));
+  EXPECT_TRUE(below(single.moment.per_width, exact.moment.per_width));
+  // In other units the same, which are powers of two.
+  constexpr double unit = 0x1p-14, of_moments = 0x1p-20;
+  LeastStrengthOf<float> const in_units = least_strength<float>(law, unit, of_moments);
+  EXPECT_EQ(in_units.rising_per_normal, single.rising_per_normal);
+  EXPECT_EQ(in_units.flat.at_zero, single.flat.at_zero / unit);
+  EXPECT_EQ(in_units.falling.per_width, single.falling.per_width / unit);
+  EXPECT_EQ(in_units.moment.per_width, single.moment.per_width);
+  EXPECT_EQ(in_units.shear_slope, single.shear_slope * of_moments);
 }
 
 }  // namespace

@@ -44,6 +44,9 @@ Threads, where neither \-\-threads nor run.threads says how many.
 .B OMP_PROC_BIND\fR, \fBOMP_PLACES
 Where threads stay. If unset, threads are bound to cores only when they take all of them.
 .TP
+.B GLIBC_TUNABLES
+If unset, glibc.malloc.hugetlb=1: memory in huge pages where the system has them.
+.TP
 .B NO_COLOR
 If set and not empty, warnings on a terminal have no colour.
 .TP

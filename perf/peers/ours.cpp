@@ -16,6 +16,7 @@
 #include "domain/biaxial/throughput.hpp"
 #include "domain/generation/bonding.hpp"
 #include "domain/measurement/snapshot.hpp"
+#include "domain/parallel/host_memory.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/specimen.hpp"
@@ -171,6 +172,7 @@ int main(int argc, char** argv) {
     return 64;
   }
   ::setenv("OMP_PROC_BIND", "false", 0);
+  set_up_host_memory();
   int none = 1;
   Kokkos::ScopeGuard const guard(none, argv);
   try {

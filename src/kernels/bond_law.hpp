@@ -35,7 +35,7 @@ struct BondLawOf {
   /// Thickness h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION L bond_thickness(L const& formation_overlap) const {
-    return thickness_weight * lane_max(-formation_overlap, L(0)) + plate_thickness;
+    return minus_times(L(thickness_weight), lane_min(formation_overlap, L(0)), L(plate_thickness));
   }
   /// B [m] of a bond with the given common radius and h_cr [m].
   template <class L>
@@ -63,6 +63,14 @@ BondLawOf<R> in_numbers(BondLaw const& law) {
           R(law.least_shape_of_rolling)};
 }
 
+/// The same law where forces count in `unit` [N/m] and lengths in metres, but for the strength, which stays as it is.
+inline BondLaw in_force_units(BondLaw law, Real unit) {
+  law.modulus /= unit;
+  law.particle_stiffness /= unit;
+  law.preload_stiffness /= unit;
+  return law;
+}
+
 /// Forces of an intact bond and what they follow from.
 template <class L>
 struct BondForce {
@@ -81,8 +89,8 @@ KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_springs(BondLawOf<R> const& law, C
   bond.thickness = law.bond_thickness(formation_overlap);
   bond.width = width;
   bond.stiffness = law.stiffness(bond.width, bond.thickness);
-  bond.force.normal =
-      bond.stiffness.normal * (motion.overlap - formation_overlap) + law.preload_stiffness * lane_max(formation_overlap, L(0));
+  bond.force.normal = times_plus(bond.stiffness.normal, motion.overlap - formation_overlap,
+                                 law.preload_stiffness * lane_max(formation_overlap, L(0)));
   bond.force.shear = bond.force.moment = L(0);
   return bond;
 }

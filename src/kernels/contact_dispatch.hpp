@@ -37,21 +37,15 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
                        StepLaunches const& launches) {
   using R = typename P::Real;
   HistoryFormat const& format = rows.features.format;
-  ContactConstants<R> const constants{in_numbers<R>(laws.grain),
-                                      in_numbers<R>(laws.bond),
-                                      least_strength<R>(laws.bond),
-                                      R(dt),
-                                      {R(format.force_unit), R(1 / format.force_unit), R(dt / format.force_unit), 0},
-                                      {R(format.moment_unit), R(1 / format.moment_unit), R(dt / format.moment_unit), 0},
-                                      R(particles.mirror.tick)};
+  ContactConstants<R> const constants = constants_in<R>(laws, format, dt, particles.mirror.tick);
   int const groups = group_count(particles.owned, lane_count_of<R>);
   std::visit(
       [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
         using Kernel = ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()>;
-        launches.parallel_for(
-            Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
-            Kernel{particles, rows, constants, laws.bond, step, steps, breaks, losses, faults, discs_ahead(particles.owned)});
+        launches.parallel_for(Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
+                              Kernel{particles, rows, constants, laws.bond, step, steps, breaks, losses, faults,
+                                     laws.grain.friction > 1, discs_ahead(particles.owned)});
       },
       bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
       on(laws.ledger));

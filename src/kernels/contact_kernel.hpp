@@ -3,24 +3,11 @@
 /// forces_full.cpp and forces_mixed.cpp only.
 #include <type_traits>
 
-#include "kernels/bond_quick_test.hpp"
+#include "kernels/bond_failures.hpp"
+#include "kernels/contact_constants.hpp"
 #include "kernels/disc_reader.hpp"
-#include "kernels/forces.hpp"
-#include "kernels/history.hpp"
 
 namespace clathra {
-
-/// Numbers of the laws. The kernel works on a copy on its stack, which no store can change, so that what follows from them is
-/// computed once a group.
-template <class R>
-struct ContactConstants {
-  GrainLawOf<R> grain;
-  BondLawOf<R> bond;
-  LeastStrengthOf<R> least;
-  R dt;
-  HistoryScale<R> forces, moments;
-  R tick;  ///< mixed precision: what differences of places count in [m]
-};
 
 /// One group of discs per call, as many as a vector holds: walks their rows side by side.
 /// @tparam P  FullPrecision or MixedPrecision;  @tparam Friction  false where grain contacts carry no shear
@@ -33,6 +20,7 @@ struct ContactKernel {
   using Stored = typename Kept::Value;
   using Constants = ContactConstants<R>;
   using Discs = DiscReader<P, Dashpot>;
+  using Failures = BondFailures<P>;
   static constexpr bool mixed = P::precision == Precision::mixed;
   static constexpr int lanes = lane_count_of<R>, slice_width = slice_width_of<R>;
   static constexpr bool bonded_code = Bond != BondKind::none;
@@ -48,12 +36,14 @@ struct ContactKernel {
   BreakLog breaks;
   EnergyLosses losses;
   Faults faults;
+  bool caps_normal;         ///< whether normal forces may be larger than most_normal
   std::size_t discs_ahead;  ///< that are fetched before a neighbour needs them, discs_ahead()
 
   /// State of the group's own discs and what has been summed for them.
   struct Own {
     typename Discs::Own disc;
     V force_x, force_y, torque;
+    V moment, most_overlap;  ///< mixed precision: the sum of moments, and the largest overlap of each disc
     V sliding, rolling, dashpot, breakage;
   };
 
@@ -82,14 +72,19 @@ struct ContactKernel {
         carrying |= bit;
     }
     rows.active(group) = carrying;
-    store(p.force_x.data<R>() + first, own.force_x);
-    store(p.force_y.data<R>() + first, own.force_y);
-    store(p.torque.data<R>() + first, own.torque);
+    if constexpr (mixed) {
+      own.torque = times_plus(own.moment, V(law.moment_unit), own.torque);
+      // Where a disc's centre lies inside another one. That one looks, too.
+      if (auto const deep = own.most_overlap > own.disc.radius; any(deep)) report_deep(first, deep);
+    }
+    store(p.force_x.data<R>() + first, in_si(law, own.force_x));
+    store(p.force_y.data<R>() + first, in_si(law, own.force_y));
+    store(p.torque.data<R>() + first, in_si(law, own.torque));
     if constexpr (Ledger) {
-      if constexpr (shears) Discs::book(losses.sliding, first, own.sliding);
-      if constexpr (Rolling) Discs::book(losses.rolling, first, own.rolling);
-      if constexpr (Dashpot) Discs::book(losses.dashpot, first, own.dashpot);
-      if constexpr (bonded_code) Discs::book(losses.breakage, first, own.breakage);
+      if constexpr (shears) Discs::book(losses.sliding, first, in_si(law, own.sliding));
+      if constexpr (Rolling) Discs::book(losses.rolling, first, in_si(law, own.rolling));
+      if constexpr (Dashpot) Discs::book(losses.dashpot, first, in_si(law, own.dashpot));
+      if constexpr (bonded_code) Discs::book(losses.breakage, first, in_si(law, own.breakage));
     }
   }
 
@@ -100,27 +95,34 @@ struct ContactKernel {
     int const* const j = &rows.neighbour(e);
     typename Discs::Own const& disc = own.disc;
     typename Discs::OtherMotion moving;
-    typename Discs::Other const other = Discs::other(p, j, disc, law.tick, active, moving);
+    typename Discs::Other const other = Discs::other(p, j, disc, active, moving);
     V const &dx = other.dx, &dy = other.dy, &other_radius = other.radius;
-    V const reach = disc.radius + other_radius, distance2 = dx * dx + dy * dy;
-    auto const touching = distance2 < reach * reach;
+    V const reach = disc.radius + other_radius, distance2 = Discs::squared(dx, dy),
+            reach_of_branch = Discs::as_branch(reach, law.per_tick);
+    auto const touching = distance2 < reach_of_branch * reach_of_branch;
     if (!active && !any(touching)) return false;
     History h = read(e);
 
-    V const distance = lane_max(lane_sqrt(distance2), constant<V>(1e-30)), inverse = V(1) / distance;
+    V const distance = Discs::distance_of(distance2), inverse = V(1) / distance;
     V const nx = dx * inverse, ny = dy * inverse;
     Discs::complete(p, j, active, moving);
     V const dvx = moving.vx - disc.vx, dvy = moving.vy - disc.vy, &other_omega = moving.omega;
     ContactMotion<V> motion;
-    motion.overlap = reach - distance;
+    motion.overlap = Discs::overlap_at(distance, reach, law.tick);
     motion.closing_velocity = -(dvx * nx + dvy * ny);
-    V const half_overlap = constant<V>(0.5) * motion.overlap;
-    V const arm = disc.radius - half_overlap, other_arm = other_radius - half_overlap;  // arm + other_arm = distance
-    motion.shear_increment = during_step(law, (dvy * nx - dvx * ny) - (disc.omega * arm + other_omega * other_arm));
+    V const half = constant<V>(0.5), arm = minus_times(half, motion.overlap, disc.radius),
+            other_arm = minus_times(half, motion.overlap, other_radius);  // arm + other_arm = distance
+    // Both sides of a pair get the same bits: a fused product must not be that of one side.
+    motion.shear_increment = during_step(law, minus_times(dvx, ny, dvy * nx) - (disc.omega * arm + other_omega * other_arm));
     motion.relative_rotation = during_step(law, other_omega - disc.omega);
-    motion.common_radius = common_radius(disc.radius, other_radius);
-    auto const deep = Discs::is_deep(motion.overlap, distance, disc.radius, other_radius);
-    if (any(deep)) report_deep(first, deep);
+    if constexpr (mixed) {
+      motion.common_radius = V(2) * disc.radius * other_radius / reach;  // common_radius() of radii that are not zero
+      own.most_overlap = lane_max(motion.overlap, own.most_overlap);
+    } else {
+      motion.common_radius = common_radius(disc.radius, other_radius);
+      auto const deep = distance < lane_max(disc.radius, other_radius);
+      if (any(deep)) report_deep(first, deep);
+    }
 
     Viscosity dashpot;
     if constexpr (Dashpot) dashpot = dashpot_coefficient(law.grain, disc.inverse_mass, moving.inverse_mass);
@@ -128,20 +130,46 @@ struct ContactKernel {
     auto carrying = touching;
     if constexpr (bonded_code) {
       auto const bonded = is_bonded(h.formation_overlap);
-      BondTrial const trial = bond_trial(law, motion, h);
+      BondTrial const trial = bond_trial(law, motion, h, bonded);
       auto intact = bonded;
       auto const doubt = bonded && !is_far_from_breaking(law.least, trial.bond);
       if (any(doubt)) {
         ContactForce<V> const& f = trial.bond.force;
-        intact = bonded &&
-                 !break_bonds({first, e, doubt, trial.bond.width, trial.bond.thickness, f.normal, f.shear, f.moment, dx, dy});
+        intact = bonded && !Failures{p, rows, constants, exact, breaks, number_of_step()}.break_bonds(
+                               {first, e, doubt, trial.bond.width, trial.bond.thickness, f.normal, f.shear, f.moment, dx, dy});
       }
       force = with_bond(law, force, motion, dashpot, trial, bonded, intact, h, own);
       carrying = touching || intact;
     }
     write(e, h);
     // Entries out of touch and without a bond got exact zeros from the laws; nothing needs masking here.
-    if constexpr (shears || bonded_code) {
+    add_force(force, nx, ny, arm, own);
+    return any(carrying);
+  }
+
+ private:
+  /// A force, torque or energy in SI units.
+  KOKKOS_FORCEINLINE_FUNCTION static V in_si(Constants const& law, V const& of_unit) {
+    if constexpr (mixed)
+      return of_unit * law.force_unit;
+    else
+      return of_unit;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION std::int64_t number_of_step() const { return steps.extent(0) > 0 ? steps(0).step + 1 : step; }
+
+  KOKKOS_FORCEINLINE_FUNCTION static void add_force(ContactForce<V> const& force, V const& nx, V const& ny, V const& arm,
+                                                    Own& own) {
+    constexpr bool sheared = shears || bonded_code;
+    if constexpr (mixed) {
+      own.force_x = minus_times(force.normal, nx, own.force_x);
+      own.force_y = minus_times(force.normal, ny, own.force_y);
+      if constexpr (sheared) {
+        own.force_x = minus_times(force.shear, ny, own.force_x);
+        own.force_y = times_plus(force.shear, nx, own.force_y);
+        own.torque = times_plus(arm, force.shear, own.torque);
+      }
+      own.moment += force.moment;
+    } else if constexpr (sheared) {
       own.force_x -= force.normal * nx + force.shear * ny;
       own.force_y += force.shear * nx - force.normal * ny;
       own.torque += arm * force.shear + force.moment;
@@ -150,11 +178,7 @@ struct ContactKernel {
       own.force_y -= force.normal * ny;
       own.torque += force.moment;
     }
-    return any(carrying);
   }
-
- private:
-  KOKKOS_FORCEINLINE_FUNCTION std::int64_t number_of_step() const { return steps.extent(0) > 0 ? steps(0).step + 1 : step; }
 
   /// A motion as the history takes it: in mixed precision the rate itself (HistoryScale::per_rate).
   KOKKOS_FORCEINLINE_FUNCTION static V during_step(Constants const& law, V const& rate) {
@@ -165,22 +189,14 @@ struct ContactKernel {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Own load_own(std::size_t first) const {
-    Own own{};
+    Own own;  // each number of which is set here: as a whole it would be set to zero by a function
     own.disc = Discs::own(p, first);
-    own.force_x = own.force_y = own.torque = own.sliding = own.rolling = own.dashpot = own.breakage = V(0);
+    own.most_overlap = constant<V>(-1e30);
+    own.force_x = own.force_y = own.torque = own.moment = own.sliding = own.rolling = own.dashpot = own.breakage = V(0);
     return own;
   }
 
   using Viscosity = std::conditional_t<Dashpot, V, Undamped>;
-
-  /// A block with bonds that may break. It is put together where one is met: a block whose values had an address would spend its
-  /// time storing and loading them.
-  struct FailureCandidates {
-    std::size_t first, entry;
-    VMask where;
-    V width, thickness, normal, shear, moment;
-    V dx, dy;  ///< branches
-  };
 
   /// Bonds as they would be if none broke, and what would then be kept of them.
   struct BondTrial {
@@ -212,6 +228,10 @@ struct ContactKernel {
     }
   }
 
+  /// k_m of a grain contact, as its history takes it.
+  KOKKOS_FORCEINLINE_FUNCTION static V rolling_of_step(Constants const& law, ContactMotion<V> const& motion) {
+    return law.rolling_of_step * motion.common_radius * motion.common_radius;
+  }
   /// Shear force and moment of a grain contact before the limits.
   struct GrainTrial {
     Stored shear, moment;
@@ -219,26 +239,31 @@ struct ContactKernel {
   KOKKOS_FORCEINLINE_FUNCTION static GrainTrial grain_trial(Constants const& law, ContactMotion<V> const& motion,
                                                             History const& h) {
     GrainTrial trial{Kept::none(), Kept::none()};
-    if constexpr (shears) trial.shear = Kept::advanced(h.shear, law.grain.shear_stiffness, motion.shear_increment, law.forces);
+    if constexpr (shears)
+      trial.shear = Kept::template advanced<Sides::equal>(h.shear, law.shear_of_step, motion.shear_increment, law.forces);
     if constexpr (Rolling)
       trial.moment =
-          Kept::advanced(h.moment, rolling_stiffness(law.grain, motion.common_radius), motion.relative_rotation, law.moments);
+          Kept::template advanced<Sides::opposite>(h.moment, rolling_of_step(law, motion), motion.relative_rotation, law.moments);
     return trial;
   }
 
   /// Eq. 8: puts a trial within its limits. @return the forces that it then is
-  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> limit(Constants const& law, ContactMotion<V> const& motion,
-                                                           Viscosity const& dashpot, GrainTrial& trial) {
+  /// @param free  the mask of lanes without limits, where there are such
+  template <class... Free>
+  KOKKOS_FORCEINLINE_FUNCTION ContactForce<V> limit(Constants const& law, ContactMotion<V> const& motion,
+                                                    Viscosity const& dashpot, GrainTrial& trial, Free const&... free) const {
     ContactForce<V> force;
     force.normal = normal_force(law.grain, motion, dashpot);
     force.shear = force.moment = V(0);
+    V pressing = force.normal;
+    if (mixed && caps_normal) pressing = lane_min(pressing, V(law.most_normal));
     if constexpr (shears) {
-      trial.shear = Kept::limited(trial.shear, shear_limit(law.grain, force.normal), law.forces);
-      force.shear = Kept::number(trial.shear, law.forces);
+      trial.shear = Kept::limited(trial.shear, shear_limit(law.grain, pressing), free...);
+      force.shear = Kept::number(trial.shear);
     }
     if constexpr (Rolling) {
-      trial.moment = Kept::limited(trial.moment, moment_limit(law.grain, motion.common_radius, force.normal), law.moments);
-      force.moment = Kept::number(trial.moment, law.moments);
+      trial.moment = Kept::limited(trial.moment, law.limit_of_moment * motion.common_radius * pressing, free...);
+      force.moment = Kept::number(trial.moment);
     }
     return force;
   }
@@ -256,16 +281,22 @@ struct ContactKernel {
     return force;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION static BondTrial bond_trial(Constants const& law, ContactMotion<V> const& motion,
-                                                          History const& h) {
+  /// With `replace` an entry that is not bonded gets the trial of its grain contact.
+  KOKKOS_FORCEINLINE_FUNCTION static BondTrial bond_trial(Constants const& law, ContactMotion<V> const& motion, History const& h,
+                                                          VMask const& bonded) {
     constexpr bool parallel = Bond == BondKind::parallel;
     BondTrial trial{bond_springs(law.bond, motion, h.formation_overlap, h.width), Kept::none(), Kept::none()};
     ContactForce<V>& force = trial.bond.force;
     ContactStiffness<V> const& k = trial.bond.stiffness;
-    trial.shear = Kept::advanced(parallel ? h.bond_shear : h.shear, k.shear, motion.shear_increment, law.forces);
-    trial.moment = Kept::advanced(parallel ? h.bond_moment : h.moment, k.rolling, motion.relative_rotation, law.moments);
-    force.shear = Kept::number(trial.shear, law.forces);
-    force.moment = Kept::number(trial.moment, law.moments);
+    V shear = Kept::of_step(k.shear, law.forces), rolling = Kept::of_step(k.rolling, law.moments);
+    if constexpr (!parallel) shear = select(bonded, shear, V(law.shear_of_step));
+    if constexpr (!parallel && Rolling) rolling = select(bonded, rolling, rolling_of_step(law, motion));
+    trial.shear =
+        Kept::template advanced<Sides::equal>(parallel ? h.bond_shear : h.shear, shear, motion.shear_increment, law.forces);
+    trial.moment = Kept::template advanced<Sides::opposite>(parallel ? h.bond_moment : h.moment, rolling,
+                                                            motion.relative_rotation, law.moments);
+    force.shear = Kept::number(trial.shear);
+    force.moment = Kept::number(trial.moment);
     return trial;
   }
 
@@ -279,76 +310,40 @@ struct ContactKernel {
     BondForce<V> const& bond = trial.bond;
     if constexpr (Bond == BondKind::parallel) {
       if constexpr (Ledger)
-        own.breakage += select(bonded && !intact, constant<V>(0.5) * spring_energy(bond.force, bond.stiffness), zero);
+        own.breakage +=
+            select(bonded && !intact, constant<V>(0.5) * spring_energy(in_one_unit(law, bond.force), bond.stiffness), zero);
       h.bond_shear = Kept::choose(intact, trial.shear, Kept::none());
       h.bond_moment = Kept::choose(intact, trial.moment, Kept::none());
       return {grain_part.normal + select(intact, bond.force.normal, zero),
               grain_part.shear + select(intact, bond.force.shear, zero),
               grain_part.moment + select(intact, bond.force.moment, zero)};
     } else {
-      GrainTrial const grains = grain_trial(law, motion, h);
-      GrainTrial const before{Kept::choose(bonded, trial.shear, grains.shear), Kept::choose(bonded, trial.moment, grains.moment)};
-      GrainTrial kept{before.shear, Rolling ? before.moment : Kept::none()};
-      ContactForce<V> const unbonded = limit(law, motion, dashpot, kept);
-      if constexpr (Ledger) add_replace_losses(law, motion, bond, before, bonded, intact, unbonded, h, own);
-      h.shear = Kept::choose(intact, trial.shear, kept.shear);
-      h.moment = Kept::choose(intact, trial.moment, kept.moment);
-      return {select(intact, bond.force.normal, unbonded.normal), select(intact, bond.force.shear, unbonded.shear),
-              select(intact, bond.force.moment, unbonded.moment)};
+      GrainTrial const before{trial.shear, trial.moment};
+      GrainTrial kept = before;
+      ContactForce<V> force = limit(law, motion, dashpot, kept, intact);
+      if constexpr (!Rolling) {
+        kept.moment = Kept::choose(intact, trial.moment, Kept::none());
+        force.moment = Kept::number(kept.moment);
+      }
+      if constexpr (Ledger) add_replace_losses(law, motion, bond, before, bonded, intact, force, h, own);
+      h.shear = kept.shear;
+      h.moment = kept.moment;
+      force.normal = select(intact, bond.force.normal, force.normal);
+      return force;
     }
   }
 
-  /// The closer strength test of the failure candidates and, one by one, the exact one of those that it leaves. @return those
-  /// that broke
-  CLATHRA_COLD_FUNCTION VMask break_bonds(FailureCandidates const& block) const {
-    VMask broken(false);
-    for_each_set(doubtful(block), [&](int l) {
-      if (mixed && is_surely_intact(exact, trial_of(block, l))) return;
-      std::size_t const e = block.entry + static_cast<std::size_t>(l), disc = block.first + static_cast<std::size_t>(l);
-      Real const radius = common_radius(p.radius(disc), p.radius(rows.neighbour(e)));
-      BondStrength const strength = bond_strength(exact.strength, lane(block.width, l), lane(block.thickness, l), radius);
-      BreakMode const mode = strength.test(lane(block.normal, l), lane(block.shear, l), lane(block.moment, l));
-      if (mode == BreakMode::none) return;
-      rows.formation_overlap.data<R>()[e] = no_bond_of<R>;
-      set_lane(broken, l, true);
-      int const id = p.id(disc), other = p.id(rows.neighbour(e));
-      if (id < other)  // the other side sees it too
-        breaks.record(number_of_step(), id, other, mode, p.x(disc) + 0.5 * lane(block.dx, l), p.y(disc) + 0.5 * lane(block.dy, l),
-                      [&] { return details_of(block, l, strength, mode); });
-    });
-    return broken;
+  /// Forces with the moment in the unit of force times metres, for energies.
+  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> in_one_unit(Constants const& law, ContactForce<V> force) {
+    force.moment = in_metres(law, force.moment);
+    return force;
   }
-
-  KOKKOS_FORCEINLINE_FUNCTION static BondForce<Real> trial_of(FailureCandidates const& block, int l) {
-    return {{lane(block.normal, l), lane(block.shear, l), lane(block.moment, l)},
-            {0, 0, 0},
-            lane(block.width, l),
-            lane(block.thickness, l)};
-  }
-
-  /// In full precision the closer test is made in lanes, in mixed precision one by one.
-  KOKKOS_FORCEINLINE_FUNCTION VMask doubtful(FailureCandidates const& block) const {
-    if constexpr (mixed) return block.where;
-    BondForce<V> const trial{{block.normal, block.shear, block.moment}, {0, 0, 0}, block.width, block.thickness};
-    return block.where && !is_surely_intact(constants.bond, trial);
-  }
-
-  /// @param l  the lane of a bond that broke
-  CLATHRA_COLD_FUNCTION BreakDetails details_of(FailureCandidates const& block, int l, BondStrength const& strength,
-                                                BreakMode mode) const {
-    std::size_t const disc = block.first + static_cast<std::size_t>(l);
-    auto const other = static_cast<std::size_t>(rows.neighbour(block.entry + static_cast<std::size_t>(l)));
-    ContactForce<Real> const force = trial_of(block, l).force;
-    BreakDetails details;
-    details.eps1 = 0;  // the host's, from the height of the box
-    details.orientation = angle_of_line(p.x(other) - p.x(disc), p.y(other) - p.y(disc));
-    details.thickness = lane(block.thickness, l);
-    details.width = lane(block.width, l);
-    details.utilisation = strength.utilisation(mode, force.normal, force.shear, force.moment);
-    ContactStiffness<Real> const stiffness = exact.stiffness(details.width, details.thickness);
-    details.energy = spring_energy(force, stiffness);
-    details.relative_rotation = force.moment / lane_max(stiffness.rolling, 1e-300);
-    return details;
+  /// A moment in the unit of force times metres.
+  KOKKOS_FORCEINLINE_FUNCTION static V in_metres(Constants const& law, V const& moment) {
+    if constexpr (mixed)
+      return moment * law.moment_unit;
+    else
+      return moment;
   }
 
   CLATHRA_COLD_FUNCTION void report_deep(std::size_t first, VMask const& deep) const {
@@ -364,13 +359,13 @@ struct ContactKernel {
                                                     VMask const& where = VMask(true)) const {
     V const zero(0), quarter = constant<V>(0.25);
     if constexpr (shears) {
-      V const slid = (Kept::number(trial.shear, law.forces) - now.shear) * V(1 / law.grain.shear_stiffness);
-      own.sliding += select(where, quarter * (Kept::number(old.shear, law.forces) + now.shear) * slid, zero);
+      V const slid = (Kept::number(trial.shear) - now.shear) * V(1 / law.grain.shear_stiffness);
+      own.sliding += select(where, quarter * (Kept::number(old.shear) + now.shear) * slid, zero);
     }
     if constexpr (Rolling) {
       V const stiffness = lane_max(rolling_stiffness(law.grain, motion.common_radius), V(least_divisor<R>));
-      V const turned = (Kept::number(trial.moment, law.moments) - now.moment) / stiffness;
-      own.rolling += select(where, quarter * (Kept::number(old.moment, law.moments) + now.moment) * turned, zero);
+      V const turned = in_metres(law, Kept::number(trial.moment) - now.moment) / stiffness;
+      own.rolling += select(where, quarter * (in_metres(law, Kept::number(old.moment) + now.moment)) * turned, zero);
     }
     if constexpr (Dashpot) {
       own.dashpot += select(where, constant<V>(0.5) * dashpot_loss(law.grain, motion, now.normal, law.dt), zero);
@@ -383,9 +378,11 @@ struct ContactKernel {
                                                       VMask const& intact, ContactForce<V> const& unbonded, History const& old,
                                                       Own& own) const {
     add_grain_losses(law, motion, grains, old, unbonded, own, !bonded);
-    ContactForce<V> elastic{normal_force(law.grain, motion, Undamped()), unbonded.shear, Rolling ? unbonded.moment : V(0)};
-    V const after = grain_energy(law.grain, elastic, grain_stiffness(law.grain, motion.overlap, motion.common_radius));
-    own.breakage += select(bonded && !intact, constant<V>(0.5) * (spring_energy(trial.force, trial.stiffness) - after), V(0));
+    ContactForce<V> const elastic{normal_force(law.grain, motion, Undamped()), unbonded.shear, Rolling ? unbonded.moment : V(0)};
+    V const before = spring_energy(in_one_unit(law, trial.force), trial.stiffness),
+            after = grain_energy(law.grain, in_one_unit(law, elastic),
+                                 grain_stiffness(law.grain, motion.overlap, motion.common_radius));
+    own.breakage += select(bonded && !intact, constant<V>(0.5) * (before - after), V(0));
   }
 };
 

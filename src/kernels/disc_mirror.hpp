@@ -73,8 +73,9 @@ struct DiscMirror {
   static constexpr double shift = 6755399441055744.0;  // 1.5 2^52
   static Real tick_for(Real largest_diameter);
 
-  /// The low 32 bits of a place in ticks, rounded to the nearest. Behind the sum they are those of its own representation: 1.5
-  /// 2^52 has the ulp 1. Exact below 2^51 ticks, 16 km where a tick has 7 pm.
+  /// The low 32 bits of a place in ticks, rounded to the nearest. Fused or not, the product is exact: a tick is a power of two.
+  /// Behind the sum they are those of its own representation: 1.5 2^52 has the ulp 1. Exact below 2^51 ticks, 16 km where a tick
+  /// has 7 pm.
   KOKKOS_FORCEINLINE_FUNCTION static std::int32_t ticks(Coord place, Real per_tick) {
     double const sum = place * per_tick + shift;
     std::uint64_t bits;
@@ -139,14 +140,16 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes in_single(LanesOfHalves const& wide) {
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real per_tick) {
 #if defined(CLATHRA_SIMD) && defined(__AVX512F__)
   auto const sum = [&](int h) {
-    return _mm512_castpd_ps(static_cast<PlainVector<double>>(place.of[h] * per_tick + Lanes(DiscMirror::shift)));
+    return _mm512_castpd_ps(
+        static_cast<PlainVector<double>>(fused_times_plus(place.of[h], Lanes(per_tick), Lanes(DiscMirror::shift))));
   };
   __m512i const low_of_each = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
   return FloatLanes(_mm512_permutex2var_ps(sum(0), low_of_each, sum(1)));
 #elif defined(CLATHRA_SIMD) && defined(__AVX2__)
   // The low halves of the numbers' bits, which are in order within 128 bits, and then the pairs.
   auto const sum = [&](int h) {
-    return _mm256_castpd_ps(static_cast<PlainVector<double>>(place.of[h] * per_tick + Lanes(DiscMirror::shift)));
+    return _mm256_castpd_ps(
+        static_cast<PlainVector<double>>(fused_times_plus(place.of[h], Lanes(per_tick), Lanes(DiscMirror::shift))));
   };
   __m256 const low = _mm256_shuffle_ps(sum(0), sum(1), 0x88);
   return FloatLanes(_mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(low), 0xd8)));

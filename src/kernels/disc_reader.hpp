@@ -42,8 +42,8 @@ struct DiscReader {
     }
   }
 
-  /// What the test for touch needs of the neighbours: branches [m], in mixed precision exact to half a tick at either end and
-  /// then rounded once, and radii.
+  /// What the test for touch needs of the neighbours: branches [m], in mixed precision in ticks,
+  /// exact to half a tick at either end and then rounded once, and radii [m].
   struct Other {
     V dx, dy, radius;
   };
@@ -51,8 +51,8 @@ struct DiscReader {
     V vx, vy, omega, inverse_mass;
   };
   /// @param wanted  whether the motion is needed for sure: in mixed precision it is read along;  @param motion  set then
-  KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own, R tick,
-                                                 [[maybe_unused]] bool wanted, [[maybe_unused]] OtherMotion& motion) {
+  KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own, [[maybe_unused]] bool wanted,
+                                                 [[maybe_unused]] OtherMotion& motion) {
     if constexpr (mixed) {
       PlacesOfDiscs at;
       if (wanted) {
@@ -63,7 +63,7 @@ struct DiscReader {
         at = p.mirror.gather_places(j);
         motion.omega = at.omega;
       }
-      return {to_float(difference(bits_of(at.x), own.x)) * tick, to_float(difference(bits_of(at.y), own.y)) * tick, at.radius};
+      return {to_float(difference(bits_of(at.x), own.x)), to_float(difference(bits_of(at.y), own.y)), at.radius};
     } else if constexpr (for_gpu) {
       DiscRow const& row = p.disc_rows.of(*j);
       return {row.x - own.x, row.y - own.y, row.radius};
@@ -87,12 +87,34 @@ struct DiscReader {
     }
   }
 
-  /// Where one disc's centre lies inside the other. A padding disc may lie anywhere in ticks, but its radius is negative.
-  KOKKOS_FORCEINLINE_FUNCTION static VMask is_deep(V const& overlap, V const& distance, V const& radius, V const& other_radius) {
+  /// The square of a branch; one of ticks is a little more than zero, for the same reason as distance_of().
+  KOKKOS_FORCEINLINE_FUNCTION static V squared(V const& dx, V const& dy) {
     if constexpr (mixed)
-      return overlap > lane_min(radius, lane_abs(other_radius));
+      return times_plus(dx, dx, times_plus(dy, dy, constant<V>(1e-30)));
     else
-      return distance < lane_max(radius, other_radius);
+      return dx * dx + dy * dy;
+  }
+  /// More than zero, so that discs in the same place have no direction instead of one that is no number.
+  KOKKOS_FORCEINLINE_FUNCTION static V distance_of(V const& distance2) {
+    if constexpr (mixed)
+      return lane_sqrt(distance2);
+    else
+      return lane_max(lane_sqrt(distance2), constant<V>(1e-30));
+  }
+  /// A length [m] in what branches count in.
+  KOKKOS_FORCEINLINE_FUNCTION static V as_branch(V const& length, [[maybe_unused]] R per_tick) {
+    if constexpr (mixed)
+      return length * per_tick;
+    else
+      return length;
+  }
+  /// reach - distance [m]
+  /// @param distance  in what branches count in
+  KOKKOS_FORCEINLINE_FUNCTION static V overlap_at(V const& distance, V const& reach, [[maybe_unused]] R tick) {
+    if constexpr (mixed)
+      return minus_times(distance, V(tick), reach);
+    else
+      return reach - distance;
   }
 
   /// Neighbours lie scattered, and a load that waits for the outer caches holds up everything behind it. So the discs some groups

@@ -4,8 +4,9 @@
 /// In mixed precision they are kept in fixed point. In a quasi-static test a step adds 1e-4 N/m to a force of 1e2 N/m and less:
 /// 13 ulps of a float at an inertial number of 1e-4, one at 1e-5, none below, and a sum of floats stands still. Here the unit is
 /// a power of two near 1e-5 N/m, and what a step adds is rounded up or down in turns, so that on the average over steps nothing
-/// is lost at any rate: round(a) = trunc(a + sign(a) u), with u the fractional part of the step's number times the golden
-/// section, the same for all contacts. For a constant a the sum of n steps is off by about a unit, whatever n.
+/// is lost at any rate: a part a becomes the whole number that is nearest to a + d, with d + 1/2 the fractional part of the
+/// step's number times the golden section, the same for all contacts. For a constant a the sum of n steps is off by about a
+/// unit, whatever n. Moments are opposite on the two sides of a pair, so there d has the sign of the rotation.
 ///
 /// A total form (from the discs' angles when the bond formed) would do for bonds without an increment, but not for grain contacts
 /// that slide, and reads three doubles more a pair; a compensated sum in two floats is as large as a double.
@@ -13,19 +14,21 @@
 
 namespace clathra {
 
-/// The unit of a history, what a step adds for a rate, and what rounds that.
+/// How a step's part of a history comes about.
 template <class R>
 struct HistoryScale {
-  R unit, per_unit;
   R per_rate;  ///< dt / unit: in mixed precision contacts know their motion as rates, and the step's length comes in here
-  R rounding;  ///< 0 <= rounding < 1
+  R rounding;  ///< d: -1/2 <= d < 1/2
 };
 
-/// The fraction u of step number n: n times the golden section, to 24 bits, less its whole part.
+/// d of step number n: n times the golden section, to 24 bits, less its whole part and a half.
 KOKKOS_INLINE_FUNCTION float rounding_of_step(std::int64_t n) {
   auto const fraction = static_cast<std::uint32_t>(static_cast<std::uint64_t>(n) * 2654435769u);
-  return static_cast<float>(fraction >> 8) * 0x1p-24F;
+  return static_cast<float>(fraction >> 8) * 0x1p-24F - 0.5F;
 }
+
+/// Whether both sides of a pair hold the same history (of shear forces) or opposite ones (of moments).
+enum class Sides { equal, opposite };
 
 template <class P>
 struct HistoryOf;
@@ -39,16 +42,24 @@ struct HistoryOf<FullPrecision> {
   KOKKOS_FORCEINLINE_FUNCTION static void write(RealField const& field, std::size_t e, Value const& value) {
     store(field.data<double>() + e, value);
   }
-  /// @param motion  during the step
+  /// A stiffness as advanced() takes it.
   template <class Stiffness>
+  KOKKOS_FORCEINLINE_FUNCTION static Stiffness of_step(Stiffness const& stiffness, HistoryScale<double> const&) {
+    return stiffness;
+  }
+  /// @param motion  during the step
+  template <Sides, class Stiffness>
   KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, Stiffness const& stiffness, Lanes const& motion,
                                                     HistoryScale<double> const&) {
     return old + stiffness * motion;
   }
-  KOKKOS_FORCEINLINE_FUNCTION static Lanes number(Value const& value, HistoryScale<double> const&) { return value; }
-  /// @param limit  of the magnitude, >= 0
-  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, Lanes const& limit, HistoryScale<double> const&) {
-    return clamp_to(trial, limit);
+  /// In its own unit.
+  KOKKOS_FORCEINLINE_FUNCTION static Lanes number(Value const& value) { return value; }
+  /// @param limit  of the magnitude, >= 0, in the history's unit
+  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, Lanes const& limit) { return clamp_to(trial, limit); }
+  /// @param free  where there is no limit
+  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, Lanes const& limit, Mask const& free) {
+    return select(free, trial, clamp_to(trial, limit));
   }
   KOKKOS_FORCEINLINE_FUNCTION static Value choose(Mask const& mask, Value const& yes, Value const& no) {
     return select(mask, yes, no);
@@ -75,9 +86,28 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes to_float(IntLanes const& value) {
 KOKKOS_FORCEINLINE_FUNCTION IntLanes truncated(FloatLanes const& value) {
   return __builtin_convertvector(static_cast<PlainVector<float>>(value), IntLanes);
 }
-/// `size` >= 0 with the sign of `value`.
-KOKKOS_FORCEINLINE_FUNCTION FloatLanes with_sign(float size, FloatLanes const& value) {
-  return from_bits((bits_of(value) & (IntLanes{} + INT32_MIN)) | bits_of(FloatLanes(size)));
+/// To the nearest whole number, of two the even one.
+KOKKOS_FORCEINLINE_FUNCTION IntLanes rounded(FloatLanes const& value) {
+  auto const v = static_cast<PlainVector<float>>(value);
+#if defined(__AVX512F__)
+  return reinterpret_cast<IntLanes>(_mm512_cvtps_epi32(v));
+#elif defined(__AVX2__)
+  return reinterpret_cast<IntLanes>(_mm256_cvtps_epi32(v));
+#else
+  IntLanes whole;
+  for (int l = 0; l < lane_count_of<float>; ++l) whole[l] = static_cast<std::int32_t>(::lrintf(v[l]));
+  return whole;
+#endif
+}
+/// `size` where `value` is positive, else -size.
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes turned_with(FloatLanes const& value, float size) {
+#ifdef __AVX512F__  // in one instruction: (mask and value) xor size
+  auto const bits = [](IntLanes const& of) { return reinterpret_cast<__m512i>(of); };
+  return from_bits(reinterpret_cast<IntLanes>(
+      _mm512_ternarylogic_epi32(bits(IntLanes{} + INT32_MIN), bits(bits_of(value)), bits(bits_of(FloatLanes(size))), 0x6a)));
+#else
+  return from_bits((bits_of(value) & (IntLanes{} + INT32_MIN)) ^ bits_of(FloatLanes(size)));
+#endif
 }
 KOKKOS_FORCEINLINE_FUNCTION IntLanes select_ints(MaskOf<FloatLanes> const& mask, IntLanes const& yes, IntLanes const& no) {
   return bits_of(select(mask, from_bits(yes), from_bits(no)));
@@ -94,7 +124,8 @@ KOKKOS_FORCEINLINE_FUNCTION IntLanes sum(IntLanes a, IntLanes b) {
 }
 KOKKOS_FORCEINLINE_FUNCTION float to_float(IntLanes value) { return static_cast<float>(value); }
 KOKKOS_FORCEINLINE_FUNCTION IntLanes truncated(float value) { return static_cast<std::int32_t>(value); }
-KOKKOS_FORCEINLINE_FUNCTION float with_sign(float size, float value) { return std::copysign(size, value); }
+KOKKOS_FORCEINLINE_FUNCTION IntLanes rounded(float value) { return static_cast<std::int32_t>(::lrintf(value)); }
+KOKKOS_FORCEINLINE_FUNCTION float turned_with(float value, float size) { return std::signbit(value) ? -size : size; }
 KOKKOS_FORCEINLINE_FUNCTION IntLanes select_ints(bool mask, IntLanes yes, IntLanes no) { return mask ? yes : no; }
 #endif
 /// `value` within [-limit, limit].
@@ -114,19 +145,26 @@ struct HistoryOf<MixedPrecision> {
   KOKKOS_FORCEINLINE_FUNCTION static void write(RealField const& field, std::size_t e, Value const& value) {
     store_ints(field.data<std::int32_t>() + e, value);
   }
-  /// @param motion  its rate: the products of what is known early come first, since a step waits for this sum
+  /// A stiffness as advanced() takes it: units a step for a rate of one.
   template <class Stiffness>
+  KOKKOS_FORCEINLINE_FUNCTION static Stiffness of_step(Stiffness const& stiffness, Scale const& scale) {
+    return stiffness * scale.per_rate;
+  }
+  /// @param motion  its rate
+  template <Sides Which, class Stiffness>
   KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, Stiffness const& stiffness, FloatLanes const& motion,
                                                     Scale const& scale) {
-    FloatLanes const units = motion * (stiffness * scale.per_rate);
-    return sum(old, truncated(units + with_sign(scale.rounding, units)));
+    FloatLanes const d = Which == Sides::opposite ? turned_with(motion, scale.rounding) : FloatLanes(scale.rounding);
+    return sum(old, rounded(times_plus(motion, FloatLanes(stiffness), d)));
   }
-  KOKKOS_FORCEINLINE_FUNCTION static FloatLanes number(Value const& value, Scale const& scale) {
-    return to_float(value) * scale.unit;
-  }
+  KOKKOS_FORCEINLINE_FUNCTION static FloatLanes number(Value const& value) { return to_float(value); }
   /// Limits as whole units, towards zero: what is kept is what acts.
-  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, FloatLanes const& limit, Scale const& scale) {
-    return clamped(trial, truncated(lane_min(limit * scale.per_unit, FloatLanes(static_cast<float>(most_units)))));
+  /// @param limit  below 2^31 units
+  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, FloatLanes const& limit) {
+    return clamped(trial, truncated(limit));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static Value limited(Value const& trial, FloatLanes const& limit, MaskOf<FloatLanes> const& free) {
+    return clamped(trial, select_ints(free, Value{} + INT32_MAX, truncated(limit)));
   }
   KOKKOS_FORCEINLINE_FUNCTION static Value choose(MaskOf<FloatLanes> const& mask, Value const& yes, Value const& no) {
     return select_ints(mask, yes, no);

@@ -106,19 +106,19 @@ struct KickAndDriftMixed : Moving {
     fetch_ahead(i);
     V &vx = rows.motion.vx, &vy = rows.motion.vy, &omega = rows.places.omega;
     V const inverse_mass = rows.motion.inverse_mass, inverse_inertia = rows.motion.inverse_inertia;
-    LanesOfHalves x = load_halves(&p.x(i)), y = load_halves(&p.y(i)), frame_x, frame_y;
-    for (int h = 0; h < halves; ++h) {
-      frame_x.of[h] = by.frame.velocity_x(x.of[h]);
-      frame_y.of[h] = by.frame.velocity_y(y.of[h]);
-    }
-    V const of_frame_x = in_single(frame_x), of_frame_y = in_single(frame_y);
-    auto const free = inverse_mass > V(0);  // padding discs have none
+    LanesOfHalves x = load_halves(&p.x(i)), y = load_halves(&p.y(i));
+    V const frame_x = frame_velocity(x, by.frame.centre_x, by.frame.gradient_x, by.frame.drift_x),
+            frame_y = frame_velocity(y, by.frame.centre_y, by.frame.gradient_y, by.frame.drift_y);
+    V const of_force = inverse_mass * by.kick;
     V lost(0);
-    vx = kicked<Ledger>(vx, of_frame_x, load(p.force_x.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
-         select(free, V(by.pull_x), V(0));
-    vy = kicked<Ledger>(vy, of_frame_y, load(p.force_y.data<float>() + i), inverse_mass, by.damping, by.kick, lost) +
-         select(free, V(by.pull_y), V(0));
-    omega = kicked<Ledger>(omega, V(0), load(p.torque.data<float>() + i), inverse_inertia, by.damping, by.kick, lost);
+    vx = kicked_mixed(vx, frame_x, load(p.force_x.data<float>() + i), of_force, by, lost);
+    vy = kicked_mixed(vy, frame_y, load(p.force_y.data<float>() + i), of_force, by, lost);
+    omega = kicked_mixed(omega, V(0), load(p.torque.data<float>() + i), inverse_inertia * by.kick, by, lost);
+    if (by.pull_x != 0 || by.pull_y != 0) {
+      auto const free = inverse_mass > V(0);  // padding discs have none
+      vx += select(free, V(by.pull_x), V(0));
+      vy += select(free, V(by.pull_y), V(0));
+    }
     move(&p.angle(i), load_halves(&p.angle(i)), omega, by.drift);
     x = move(&p.x(i), x, vx, by.drift);
     y = move(&p.y(i), y, vy, by.drift);
@@ -128,10 +128,27 @@ struct KickAndDriftMixed : Moving {
     if constexpr (Ledger) book(lost_to_damping, i, lost);
     // At least the way: more by a millionth than its rounding takes away. No number where a spin or a place is none, whose frame
     // has no velocity either.
-    return (lane_abs(vx) + lane_abs(vy)) * constant<V>(by.drift * (1 + 1e-6)) + (omega + of_frame_x + of_frame_y) * V(0);
+    return times_plus(lane_abs(vx) + lane_abs(vy), constant<V>(by.drift * (1 + 1e-6)), (omega + frame_x + frame_y) * V(0));
   }
 
  private:
+  /// kicked(), where a product and a sum may be one operation.
+  /// @param of_force  the velocity that a force gives: dt over the inertia
+  KOKKOS_FORCEINLINE_FUNCTION static V kicked_mixed(V const& velocity, V const& frame, V const& force, V const& of_force,
+                                                    MotionConstants<R> const& by, [[maybe_unused]] V& lost) {
+    V const relative = velocity - frame;
+    V const damping = select(relative != V(0), lane_copysign(by.damping * force, relative), V(0));
+    V const after = times_plus(force - damping, of_force, velocity);
+    if constexpr (Ledger) lost += damping * (constant<V>(0.5) * (velocity + after)) * by.kick;
+    return after;
+  }
+
+  /// Velocity of the homogeneous motion at these places (AffineFrame), from their exact distances from its centre.
+  KOKKOS_FORCEINLINE_FUNCTION static V frame_velocity(LanesOfHalves from_centre, Coord centre, Real gradient, Real drift) {
+    for (Lanes& half : from_centre.of) half = half - Lanes(centre);
+    return times_plus(V(static_cast<R>(gradient)), in_single(from_centre), V(static_cast<R>(drift)));
+  }
+
   /// Rows of discs that come later, backwards (docs/performance.md).
   KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(std::size_t i) const {
     constexpr std::size_t discs_ahead = 256, numbers_a_line = 16;
@@ -143,7 +160,7 @@ struct KickAndDriftMixed : Moving {
   KOKKOS_FORCEINLINE_FUNCTION static LanesOfHalves move(double* to, LanesOfHalves places, V const& velocity, Real drift) {
     LanesOfHalves const rate = in_double(velocity);
     for (int h = 0; h < halves; ++h) {
-      places.of[h] = places.of[h] + rate.of[h] * drift;
+      places.of[h] = fused_times_plus(rate.of[h], Lanes(drift), places.of[h]);
       store(to + h * lane_count, places.of[h]);
     }
     return places;

@@ -1,6 +1,7 @@
 #pragma once
 /// The lane type: laws and kernels are written once on `Lanes` and become SIMD vectors on a CPU (one disc a lane) and plain
 /// numbers on a GPU (one disc a thread). Every operation is exact IEEE arithmetic lane by lane: the width never changes a bit.
+/// Products and sums are fused where times_plus() says so, and nowhere else.
 #include <Kokkos_Core.hpp>
 #include <cmath>
 #include <cstdint>
@@ -100,6 +101,16 @@ KOKKOS_FORCEINLINE_FUNCTION float lane_max(float a, float b) { return a > b ? a 
 KOKKOS_FORCEINLINE_FUNCTION double lane_min(double a, double b) { return a < b ? a : b; }
 KOKKOS_FORCEINLINE_FUNCTION float lane_min(float a, float b) { return a < b ? a : b; }
 
+/// a b + c: in double precision rounded twice, in single precision once, which is one operation instead of two where vectors are
+/// all that a processor is busy with. A processor without it (x86 before 2013) calls the library's, number by number.
+KOKKOS_FORCEINLINE_FUNCTION double times_plus(double a, double b, double c) { return a * b + c; }
+KOKKOS_FORCEINLINE_FUNCTION float times_plus(float a, float b, float c) { return ::fmaf(a, b, c); }
+/// a b + c rounded once, of double precision too: in what mixed precision alone computes.
+KOKKOS_FORCEINLINE_FUNCTION double fused_times_plus(double a, double b, double c) { return ::fma(a, b, c); }
+/// c - a b, as times_plus().
+KOKKOS_FORCEINLINE_FUNCTION double minus_times(double a, double b, double c) { return c - a * b; }
+KOKKOS_FORCEINLINE_FUNCTION float minus_times(float a, float b, float c) { return ::fmaf(-a, b, c); }
+
 #ifdef CLATHRA_SIMD
 template <class R, class Abi>
 using Simd = stdx::simd<R, Abi>;
@@ -176,6 +187,47 @@ KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_min(Simd<R, Abi> const& a, Simd<R,
     return Simd<R, Abi>(PlainVector<R>(_mm512_mask_min_ps(x, 0xffff, x, y)));
 #else
   return Simd<R, Abi>(PlainVector<R>(x < y ? x : y));
+#endif
+}
+KOKKOS_FORCEINLINE_FUNCTION Lanes times_plus(Lanes const& a, Lanes const& b, Lanes const& c) { return a * b + c; }
+KOKKOS_FORCEINLINE_FUNCTION Lanes minus_times(Lanes const& a, Lanes const& b, Lanes const& c) { return c - a * b; }
+KOKKOS_FORCEINLINE_FUNCTION Lanes fused_times_plus(Lanes const& a, Lanes const& b, Lanes const& c) {
+  auto const x = static_cast<PlainVector<double>>(a), y = static_cast<PlainVector<double>>(b),
+             z = static_cast<PlainVector<double>>(c);
+#if defined(__AVX512F__)
+  return Lanes(PlainVector<double>(_mm512_fmadd_pd(x, y, z)));
+#elif defined(__AVX2__) && defined(__FMA__)
+  return Lanes(PlainVector<double>(_mm256_fmadd_pd(x, y, z)));
+#else
+  PlainVector<double> sum;
+  for (int l = 0; l < lane_count; ++l) sum[l] = ::fma(x[l], y[l], z[l]);
+  return Lanes(sum);
+#endif
+}
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes times_plus(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
+  auto const x = static_cast<PlainVector<float>>(a), y = static_cast<PlainVector<float>>(b),
+             z = static_cast<PlainVector<float>>(c);
+#if defined(__AVX512F__)
+  return FloatLanes(PlainVector<float>(_mm512_fmadd_ps(x, y, z)));
+#elif defined(__AVX2__) && defined(__FMA__)
+  return FloatLanes(PlainVector<float>(_mm256_fmadd_ps(x, y, z)));
+#else
+  PlainVector<float> sum;
+  for (int l = 0; l < lane_count_of<float>; ++l) sum[l] = ::fmaf(x[l], y[l], z[l]);
+  return FloatLanes(sum);
+#endif
+}
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes minus_times(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
+#if defined(__AVX512F__) || (defined(__AVX2__) && defined(__FMA__))
+  auto const x = static_cast<PlainVector<float>>(a), y = static_cast<PlainVector<float>>(b),
+             z = static_cast<PlainVector<float>>(c);
+#if defined(__AVX512F__)
+  return FloatLanes(PlainVector<float>(_mm512_fnmadd_ps(x, y, z)));
+#else
+  return FloatLanes(PlainVector<float>(_mm256_fnmadd_ps(x, y, z)));
+#endif
+#else
+  return times_plus(-a, b, c);
 #endif
 }
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(double const* from) { return Lanes(from, stdx::element_aligned); }
