@@ -34,6 +34,7 @@ set(kernels_libraries "${standard}|${kokkos}")
 # Kernels know no files and no logging either.
 set(kernels_forbidden "fstream|iostream|ostream|istream|sstream|iomanip|cstdio|filesystem|format|regex")
 set(domain_folders "kernels|domain")
+# (unistd.h and malloc.h are for parallel/host_memory.cpp.)
 set(domain_libraries "${standard}|${kokkos}|mpi\\.h|unistd\\.h|malloc\\.h|Eigen/[A-Za-z]+|boost/math/distributions/students_t\\.hpp")
 set(domain_forbidden "none")
 set(io_folders "kernels|domain|io")

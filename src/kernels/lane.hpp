@@ -189,46 +189,43 @@ KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_min(Simd<R, Abi> const& a, Simd<R,
   return Simd<R, Abi>(PlainVector<R>(x < y ? x : y));
 #endif
 }
+/// a b + c rounded once, in lanes of either kind; with `Minus` c - a b.
+template <bool Minus, class R, class Abi>
+KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> fused(Simd<R, Abi> const& a, Simd<R, Abi> const& b, Simd<R, Abi> const& c) {
+  auto const x = static_cast<PlainVector<R>>(a), y = static_cast<PlainVector<R>>(b), z = static_cast<PlainVector<R>>(c);
+  constexpr bool single = std::is_same_v<R, float>;
+#if defined(__AVX512F__)
+  if constexpr (single)
+    return Simd<R, Abi>(PlainVector<R>(Minus ? _mm512_fnmadd_ps(x, y, z) : _mm512_fmadd_ps(x, y, z)));
+  else
+    return Simd<R, Abi>(PlainVector<R>(Minus ? _mm512_fnmadd_pd(x, y, z) : _mm512_fmadd_pd(x, y, z)));
+#elif defined(__AVX2__) && defined(__FMA__)
+  if constexpr (single)
+    return Simd<R, Abi>(PlainVector<R>(Minus ? _mm256_fnmadd_ps(x, y, z) : _mm256_fmadd_ps(x, y, z)));
+  else
+    return Simd<R, Abi>(PlainVector<R>(Minus ? _mm256_fnmadd_pd(x, y, z) : _mm256_fmadd_pd(x, y, z)));
+#else
+  PlainVector<R> sum;
+  for (int l = 0; l < lane_count_of<R>; ++l) {
+    R const factor = Minus ? -x[l] : x[l];
+    if constexpr (single)
+      sum[l] = ::fmaf(factor, y[l], z[l]);
+    else
+      sum[l] = ::fma(factor, y[l], z[l]);
+  }
+  return Simd<R, Abi>(sum);
+#endif
+}
 KOKKOS_FORCEINLINE_FUNCTION Lanes times_plus(Lanes const& a, Lanes const& b, Lanes const& c) { return a * b + c; }
 KOKKOS_FORCEINLINE_FUNCTION Lanes minus_times(Lanes const& a, Lanes const& b, Lanes const& c) { return c - a * b; }
 KOKKOS_FORCEINLINE_FUNCTION Lanes fused_times_plus(Lanes const& a, Lanes const& b, Lanes const& c) {
-  auto const x = static_cast<PlainVector<double>>(a), y = static_cast<PlainVector<double>>(b),
-             z = static_cast<PlainVector<double>>(c);
-#if defined(__AVX512F__)
-  return Lanes(PlainVector<double>(_mm512_fmadd_pd(x, y, z)));
-#elif defined(__AVX2__) && defined(__FMA__)
-  return Lanes(PlainVector<double>(_mm256_fmadd_pd(x, y, z)));
-#else
-  PlainVector<double> sum;
-  for (int l = 0; l < lane_count; ++l) sum[l] = ::fma(x[l], y[l], z[l]);
-  return Lanes(sum);
-#endif
+  return fused<false>(a, b, c);
 }
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes times_plus(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
-  auto const x = static_cast<PlainVector<float>>(a), y = static_cast<PlainVector<float>>(b),
-             z = static_cast<PlainVector<float>>(c);
-#if defined(__AVX512F__)
-  return FloatLanes(PlainVector<float>(_mm512_fmadd_ps(x, y, z)));
-#elif defined(__AVX2__) && defined(__FMA__)
-  return FloatLanes(PlainVector<float>(_mm256_fmadd_ps(x, y, z)));
-#else
-  PlainVector<float> sum;
-  for (int l = 0; l < lane_count_of<float>; ++l) sum[l] = ::fmaf(x[l], y[l], z[l]);
-  return FloatLanes(sum);
-#endif
+  return fused<false>(a, b, c);
 }
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes minus_times(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
-#if defined(__AVX512F__) || (defined(__AVX2__) && defined(__FMA__))
-  auto const x = static_cast<PlainVector<float>>(a), y = static_cast<PlainVector<float>>(b),
-             z = static_cast<PlainVector<float>>(c);
-#if defined(__AVX512F__)
-  return FloatLanes(PlainVector<float>(_mm512_fnmadd_ps(x, y, z)));
-#else
-  return FloatLanes(PlainVector<float>(_mm256_fnmadd_ps(x, y, z)));
-#endif
-#else
-  return times_plus(-a, b, c);
-#endif
+  return fused<true>(a, b, c);
 }
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(double const* from) { return Lanes(from, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes load(float const* from) { return FloatLanes(from, stdx::element_aligned); }
