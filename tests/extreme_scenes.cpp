@@ -99,7 +99,7 @@ TEST(ExtremeScenes, WithoutRollingResistanceAndWithTooMuch) {
 TEST(ExtremeScenes, FromOneKilopascalToAHundredMegapascals) {
   Scene scene = sand_scene();
   scene.sample.particles = 100;
-  scene.sample.void_ratio = 0.34;
+  scene.sample.void_ratio = 0.3;  // looser than 0.32 such a specimen is made or refused by chance
   scene.sample.layers = 1;
   scene.bond.stress = scene.test.confining_stress = 1e3;
   if (tested_precision() == Precision::mixed) {

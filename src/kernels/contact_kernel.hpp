@@ -239,11 +239,9 @@ struct ContactKernel {
   KOKKOS_FORCEINLINE_FUNCTION static GrainTrial grain_trial(Constants const& law, ContactMotion<V> const& motion,
                                                             History const& h) {
     GrainTrial trial{Kept::none(), Kept::none()};
-    if constexpr (shears)
-      trial.shear = Kept::template advanced<Sides::equal>(h.shear, law.shear_of_step, motion.shear_increment, law.forces);
+    if constexpr (shears) trial.shear = Kept::advanced(h.shear, law.shear_of_step, motion.shear_increment, law.forces);
     if constexpr (Rolling)
-      trial.moment =
-          Kept::template advanced<Sides::opposite>(h.moment, rolling_of_step(law, motion), motion.relative_rotation, law.moments);
+      trial.moment = Kept::advanced(h.moment, rolling_of_step(law, motion), motion.relative_rotation, law.moments);
     return trial;
   }
 
@@ -291,10 +289,8 @@ struct ContactKernel {
     V shear = Kept::of_step(k.shear, law.forces), rolling = Kept::of_step(k.rolling, law.moments);
     if constexpr (!parallel) shear = select(bonded, shear, V(law.shear_of_step));
     if constexpr (!parallel && Rolling) rolling = select(bonded, rolling, rolling_of_step(law, motion));
-    trial.shear =
-        Kept::template advanced<Sides::equal>(parallel ? h.bond_shear : h.shear, shear, motion.shear_increment, law.forces);
-    trial.moment = Kept::template advanced<Sides::opposite>(parallel ? h.bond_moment : h.moment, rolling,
-                                                            motion.relative_rotation, law.moments);
+    trial.shear = Kept::advanced(parallel ? h.bond_shear : h.shear, shear, motion.shear_increment, law.forces);
+    trial.moment = Kept::advanced(parallel ? h.bond_moment : h.moment, rolling, motion.relative_rotation, law.moments);
     force.shear = Kept::number(trial.shear);
     force.moment = Kept::number(trial.moment);
     return trial;

@@ -5,8 +5,9 @@
 /// 13 ulps of a float at an inertial number of 1e-4, one at 1e-5, none below, and a sum of floats stands still. Here the unit is
 /// a power of two near 1e-5 N/m, and what a step adds is rounded up or down in turns, so that on the average over steps nothing
 /// is lost at any rate: a part a becomes the whole number that is nearest to a + d, with d + 1/2 the fractional part of the
-/// step's number times the golden section, the same for all contacts. For a constant a the sum of n steps is off by about a
-/// unit, whatever n. Moments are opposite on the two sides of a pair, so there d has the sign of the rotation.
+/// step's number times the golden section, and d has the sign of the motion. For a constant a the sum of n steps is off by about
+/// a unit, whatever n. Moments are opposite on the two sides of a pair, so they need the sign; shear forces are equal there, but
+/// with the same d in all contacts discs at rest answer the common push and their forces drift (docs/precision.md).
 ///
 /// A total form (from the discs' angles when the bond formed) would do for bonds without an increment, but not for grain contacts
 /// that slide, and reads three doubles more a pair; a compensated sum in two floats is as large as a double.
@@ -27,9 +28,6 @@ KOKKOS_INLINE_FUNCTION float rounding_of_step(std::int64_t n) {
   return static_cast<float>(fraction >> 8) * 0x1p-24F - 0.5F;
 }
 
-/// Whether both sides of a pair hold the same history (of shear forces) or opposite ones (of moments).
-enum class Sides { equal, opposite };
-
 template <class P>
 struct HistoryOf;
 
@@ -48,7 +46,7 @@ struct HistoryOf<FullPrecision> {
     return stiffness;
   }
   /// @param motion  during the step
-  template <Sides, class Stiffness>
+  template <class Stiffness>
   KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, Stiffness const& stiffness, Lanes const& motion,
                                                     HistoryScale<double> const&) {
     return old + stiffness * motion;
@@ -151,11 +149,10 @@ struct HistoryOf<MixedPrecision> {
     return stiffness * scale.per_rate;
   }
   /// @param motion  its rate
-  template <Sides Which, class Stiffness>
+  template <class Stiffness>
   KOKKOS_FORCEINLINE_FUNCTION static Value advanced(Value const& old, Stiffness const& stiffness, FloatLanes const& motion,
                                                     Scale const& scale) {
-    FloatLanes const d = Which == Sides::opposite ? turned_with(motion, scale.rounding) : FloatLanes(scale.rounding);
-    return sum(old, rounded(times_plus(motion, FloatLanes(stiffness), d)));
+    return sum(old, rounded(times_plus(motion, FloatLanes(stiffness), turned_with(motion, scale.rounding))));
   }
   KOKKOS_FORCEINLINE_FUNCTION static FloatLanes number(Value const& value) { return to_float(value); }
   /// Limits as whole units, towards zero: what is kept is what acts.
