@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "io/scene/scene_guard.hpp"
+#include "read_once.hpp"
+
 namespace clathra {
 
 void SceneOptions::add_to(CLI::App& verb) {
@@ -18,7 +21,8 @@ LoadedScene SceneOptions::load(std::vector<std::string> more) const {
   if (threads > 0) all.push_back(fmt::format("run.threads={}", threads));
   if (force) all.push_back("run.force=true");
   all.insert(all.end(), more.begin(), more.end());
-  return load_scene(file, all);
+  std::filesystem::path const path = file;
+  return parse_scene(read_once(path, largest_scene_file + 1), file, path.parent_path(), all);
 }
 
 Scene sized_by(Scene scene, Specimen const& specimen, std::int64_t discs) {

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <vector>
 
 #include "domain/parallel/host_memory.hpp"
 #include "domain/parallel/ranks.hpp"
@@ -42,20 +41,6 @@ Found look() {
 #endif
   if (char const* const set = std::getenv("OMP_NUM_THREADS")) found.asked = std::max(0, std::atoi(set));
   return found;
-}
-
-/// Takes back that OpenMP has bound this thread to one core: the program that is started anew would have no other.
-void unbind() {
-#ifdef _OPENMP
-  cpu_set_t cores;
-  CPU_ZERO(&cores);
-  for (int place = 0; place < omp_get_num_places(); ++place) {
-    std::vector<int> of_place(static_cast<std::size_t>(omp_get_place_num_procs(place)));
-    omp_get_place_proc_ids(place, of_place.data());
-    for (int const core : of_place) CPU_SET(static_cast<std::size_t>(core), &cores);
-  }
-  if (CPU_COUNT(&cores) > 0) ::sched_setaffinity(0, sizeof cores, &cores);
-#endif
 }
 
 Found const& found() {
@@ -113,10 +98,7 @@ void set_up_threads(int wanted) {
   if (!std::getenv("OMP_WAIT_POLICY") && !std::getenv("GOMP_SPINCOUNT"))
     changed = set_variable("GOMP_SPINCOUNT", std::to_string(spins)) || changed;
   changed = ask_for_huge_pages() || changed;
-  if (changed) {
-    unbind();
-    start_anew();
-  }
+  if (changed) start_anew();
 }
 
 struct KokkosSession::Guard {

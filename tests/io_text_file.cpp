@@ -124,5 +124,21 @@ TEST_F(TextFile, OfASceneMayComeThroughAPipeButNotFromADeviceOrFolder) {
   EXPECT_EQ(endless.output, "/dev/stdin: error: has 1048577 bytes, at most 1048576 are allowed\n");
 }
 
+// A verb that computes starts itself anew when it has read the scene, and the pipe is empty then.
+TEST_F(TextFile, OfASceneThroughAPipeIsThatOfARunToo) {
+  std::ofstream(folder / "my.toml") << "[sample]\nparticles = 77\nvoid_ratio = 0.3\nlayers = 1\n[run]\nthreads = 1\n";
+  std::string const scene = (folder / "my.toml").string(), generate = std::string(CLATHRA_BINARY) + " generate ";
+  fs::path const named = folder / "named";
+  ASSERT_EQ(::mkfifo(named.c_str(), 0600), 0);
+  for (std::string const& command :
+       {"cat " + scene + " | " + generate + "/dev/stdin",
+        "cat " + scene + " > " + named.string() + " & " + generate + named.string(), generate + "/dev/stdin < " + scene}) {
+    CommandResult const made = run_clathra("--version > /dev/null; env -u GLIBC_TUNABLES -u OMP_NUM_THREADS " + command + " -o " +
+                                           (folder / "made.h5").string());
+    EXPECT_EQ(made.code, 0) << made.output;
+    EXPECT_NE(made.output.find("made.h5: 77 discs\n"), std::string::npos) << command << ": " << made.output;
+  }
+}
+
 }  // namespace
 }  // namespace clathra

@@ -79,6 +79,70 @@ TEST(BondQuickTest, NeverPassesABondThatIsBroken) {
   EXPECT_GT(intact, 300000);
 }
 
+/// As the kernel of mixed precision has it: single numbers, forces and moments in their units, of discs of 0.3 mm and k_n = 3e8,
+/// and the exact test in double precision of those numbers.
+struct InSinglePrecision {
+  static constexpr double unit = 0x1p-14, unit_of_moments = 0x1p-20;
+  float normal, shear, moment, width, thickness;
+
+  explicit InSinglePrecision(BondForce<Real> const& bond)
+      : normal(static_cast<float>(bond.force.normal / unit)),
+        shear(static_cast<float>(std::round(bond.force.shear / unit))),
+        moment(static_cast<float>(std::round(bond.force.moment / (unit * unit_of_moments)))),
+        width(static_cast<float>(bond.width)),
+        thickness(static_cast<float>(bond.thickness)) {}
+
+  bool passes_coarse_test(BondLaw const& law) const {
+    BondForce<FloatLanes> const bond{{normal, shear, moment}, {0.0F, 0.0F, 0.0F}, width, thickness};
+    return lane(is_far_from_breaking(least_strength<float>(law, unit, unit_of_moments), bond), 0);
+  }
+  bool holds(BondLaw const& law) const {
+    BondStrength const strength = bond_strength(law.strength, static_cast<double>(width), static_cast<double>(thickness));
+    return strength.test(unit * normal, unit * shear, unit * unit_of_moments * moment) == BreakMode::none;
+  }
+};
+
+TEST(BondQuickTest, NeverPassesABondThatIsBrokenInMixedPrecision) {
+  Draw draw(65);
+  int broken = 0, passed = 0;
+  std::vector<BondLaw> const laws = various_laws();
+  for (int n = 0; n < 1000000; ++n) {
+    BondLaw const& law = laws[static_cast<std::size_t>(n) % laws.size()];
+    InSinglePrecision const bond(any_state(draw, law));
+    bool const holds = bond.holds(law), far = bond.passes_coarse_test(law);
+    broken += holds ? 0 : 1;
+    passed += far ? 1 : 0;
+    ASSERT_TRUE(holds || !far) << n << ": gap " << bond.thickness << " width " << bond.width << " F_n " << bond.normal << " F_s "
+                               << bond.shear << " M " << bond.moment;
+  }
+  EXPECT_GT(broken, 300000);
+  EXPECT_GT(passed, 50000);
+}
+
+/// Where the trapezoid and the envelope are the same: at the ends, of the thinnest and the thickest bond.
+TEST(BondQuickTest, IsRoundedTowardsDoubtInMixedPrecision) {
+  Draw draw(66);
+  int far = 0;
+  for (BondLaw const& law : various_laws()) {
+    for (int n = 0; n < 100; ++n) {
+      BondForce<Real> bond{};
+      bond.thickness = law.bond_thickness(n % 2 == 0 ? 0 : -law.critical_thickness);
+      bond.width = law.width(draw.of_size(2e-5, 4e-4), bond.thickness);
+      BondStrength const strength = bond_strength(law.strength, bond.width, bond.thickness);
+      for (double const end : {-strength.tension, strength.compression}) {
+        for (int ulps = -300; ulps <= 300; ++ulps) {
+          bond.force.normal = end * (1 + ulps * 0x1p-24);
+          InSinglePrecision const single(bond);
+          bool const passes = single.passes_coarse_test(law);
+          far += passes ? 1 : 0;
+          ASSERT_TRUE(!passes || single.holds(law)) << ulps << " ulps from " << end << ", width " << bond.width;
+        }
+      }
+    }
+  }
+  EXPECT_GT(far, 10000);
+}
+
 TEST(BondQuickTest, NeverPassesABondAtTheEndsOfItsEnvelope) {
   Draw draw(62);
   for (BondLaw const& law : various_laws()) {

@@ -180,6 +180,42 @@ TEST(MixedPrecision, SurvivesTheWayThroughASpecimenToTheBit) {
   EXPECT_EQ(Simulation(sim.specimen(), laws, 0.05 * grain_d50).hash(), sim.hash());
 }
 
+/// The contact of two discs after a step, which begins with this shear force and moment, far beyond the limits or within.
+SpecimenContact after_a_step(Specimen s, GrainLaw const& grain, Precision precision, double shear, double moment) {
+  s.contacts.push_back({0, 1, shear, moment});
+  SimulationLaws laws = sand_laws();
+  laws.precision = precision;
+  laws.contact.grain = grain;
+  Simulation sim(s, laws, 0.1 * grain_radius);
+  sim.time_step = 1e-12;
+  sim.step();
+  return sim.specimen().contacts.at(0);
+}
+
+/// Limits that a history cannot hold are those that it can; one does not move the other.
+TEST(MixedPrecision, HasTheLimitsOfDoubleAtAnyFriction) {
+  Specimen const s = two_discs(0.4 * grain_radius);
+  double const most_shear = sand_kn * 2 * grain_radius, most_moment = most_shear * grain_radius;
+  for (double const friction : {0.5, 1.0, 5.0, 1e9}) {
+    GrainLaw const law{sand_kn, sand_ks, friction, 2, 0};
+    SpecimenContact const exact = after_a_step(s, law, Precision::full, 0.9 * most_shear, 0.9 * most_moment),
+                          mixed = after_a_step(s, law, Precision::mixed, 0.49 * most_shear, 0.3 * most_moment);
+    EXPECT_NEAR(exact.moment, sand_kn * 0.4 * grain_radius * grain_radius / 3, 1e-3 * exact.moment);
+    EXPECT_NEAR(mixed.moment, exact.moment, 1e-5 * exact.moment) << friction;
+    EXPECT_NEAR(mixed.shear, std::min(exact.shear, 0.49 * most_shear), 1e-5 * exact.shear) << friction;
+  }
+}
+
+TEST(MixedPrecision, KeepsAHistoryWhereADashpotPressesBeyondAllNumbers) {
+  Specimen s = two_discs(1e-3 * grain_radius);
+  s.vx[1] = -1e5;
+  for (double const ratio : {0.1, 1.0}) {
+    SpecimenContact const kept = after_a_step(s, {sand_kn, sand_ks, 1, 2, ratio}, Precision::mixed, 3, 1e-5);
+    EXPECT_NEAR(kept.shear, 3, 1e-4) << ratio;
+    EXPECT_NEAR(kept.moment, 1e-5, 1e-8) << ratio;
+  }
+}
+
 TEST(LeastStrength, OfSinglePrecisionLiesBelowThatOfDoubleByLittle) {
   Scene const scene = hydrate_scene(0.55, Composite::parallel);
   BondLaw const law = make_bond_law(scene, grain_d50, h_max_of(scene));

@@ -24,7 +24,6 @@ struct ContactConstants {
   R rolling_of_step;  ///< k_m over the common radius squared
   R limit_of_moment;  ///< |M| over the common radius and the normal force
   // In mixed precision:
-  R most_normal;     ///< force whose limits are as large as a history
   R tick, per_tick;  ///< what differences of places count in [m], and one over it
 };
 
@@ -47,8 +46,6 @@ ContactConstants<R> constants_in(ContactLaws const& laws, HistoryFormat const& f
   c.shear_of_step = R(grain.shear_stiffness * (mixed ? dt : 1));
   c.rolling_of_step = R(grain.rolling_factor() * (mixed ? dt / unit_of_moments : 1));
   c.limit_of_moment = R(grain.shape_factor / 6 / unit_of_moments);
-  // history_format() leaves room for the limits of discs as deep in each other as there may be, at a friction of 1.
-  c.most_normal = R(0.5 * most_units / std::max(grain.friction, Real(1)));
   c.tick = R(tick);
   c.per_tick = R(1 / tick);
   return c;

@@ -36,7 +36,7 @@ struct ContactKernel {
   BreakLog breaks;
   EnergyLosses losses;
   Faults faults;
-  bool caps_normal;         ///< whether normal forces may be larger than most_normal
+  bool caps_limits;         ///< whether limits may be larger than a history
   std::size_t discs_ahead;  ///< that are fetched before a neighbour needs them, discs_ahead()
 
   /// State of the group's own discs and what has been summed for them.
@@ -253,17 +253,21 @@ struct ContactKernel {
     ContactForce<V> force;
     force.normal = normal_force(law.grain, motion, dashpot);
     force.shear = force.moment = V(0);
-    V pressing = force.normal;
-    if (mixed && caps_normal) pressing = lane_min(pressing, V(law.most_normal));
     if constexpr (shears) {
-      trial.shear = Kept::limited(trial.shear, shear_limit(law.grain, pressing), free...);
+      trial.shear = Kept::limited(trial.shear, as_kept(shear_limit(law.grain, force.normal)), free...);
       force.shear = Kept::number(trial.shear);
     }
     if constexpr (Rolling) {
-      trial.moment = Kept::limited(trial.moment, law.limit_of_moment * motion.common_radius * pressing, free...);
+      trial.moment = Kept::limited(trial.moment, as_kept(law.limit_of_moment * motion.common_radius * force.normal), free...);
       force.moment = Kept::number(trial.moment);
     }
     return force;
+  }
+
+  /// A limit that a history can hold.
+  KOKKOS_FORCEINLINE_FUNCTION V as_kept(V const& limit) const {
+    if (mixed && caps_limits) return lane_min(limit, constant<V>(most_units));
+    return limit;
   }
 
   /// The unbonded law on every entry; with `replace` the entries that are bonded are overruled by with_bond().

@@ -3,7 +3,7 @@
 ///
 /// In mixed precision they are kept in fixed point. In a quasi-static test a step adds 1e-4 N/m to a force of 1e2 N/m and less:
 /// 13 ulps of a float at an inertial number of 1e-4, one at 1e-5, none below, and a sum of floats stands still. Here the unit is
-/// a power of two near 1e-5 N/m, and what a step adds is rounded up or down in turns, so that on the average over steps nothing
+/// a power of two near 1e-4 N/m, and what a step adds is rounded up or down in turns, so that on the average over steps nothing
 /// is lost at any rate: a part a becomes the whole number that is nearest to a + d, with d + 1/2 the fractional part of the
 /// step's number times the golden section, and d has the sign of the motion. For a constant a the sum of n steps is off by about
 /// a unit, whatever n. Moments are opposite on the two sides of a pair, so they need the sign; shear forces are equal there, but
@@ -84,7 +84,8 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes to_float(IntLanes const& value) {
 KOKKOS_FORCEINLINE_FUNCTION IntLanes truncated(FloatLanes const& value) {
   return __builtin_convertvector(static_cast<PlainVector<float>>(value), IntLanes);
 }
-/// To the nearest whole number, of two the even one.
+/// To the nearest whole number, of two the even one; what 2^31 and more become differs between processors, and no increment of a
+/// step is as large unless the run has become unstable.
 KOKKOS_FORCEINLINE_FUNCTION IntLanes rounded(FloatLanes const& value) {
   auto const v = static_cast<PlainVector<float>>(value);
 #if defined(__AVX512F__)

@@ -102,7 +102,8 @@ KOKKOS_FORCEINLINE_FUNCTION double lane_min(double a, double b) { return a < b ?
 KOKKOS_FORCEINLINE_FUNCTION float lane_min(float a, float b) { return a < b ? a : b; }
 
 /// a b + c: in double precision rounded twice, in single precision once, which is one operation instead of two where vectors are
-/// all that a processor is busy with. A processor without it (x86 before 2013) calls the library's, number by number.
+/// all that a processor is busy with. A processor without it (x86 before 2013, cheap ones later) calls the library's, number by
+/// number.
 KOKKOS_FORCEINLINE_FUNCTION double times_plus(double a, double b, double c) { return a * b + c; }
 KOKKOS_FORCEINLINE_FUNCTION float times_plus(float a, float b, float c) { return ::fmaf(a, b, c); }
 /// a b + c rounded once, of double precision too: in what mixed precision alone computes.

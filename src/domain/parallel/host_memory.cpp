@@ -1,5 +1,9 @@
 #include "domain/parallel/host_memory.hpp"
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+#include <sched.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -8,13 +12,32 @@
 #include <vector>
 #ifdef __GLIBC__
 #include <malloc.h>
+#include <sys/auxv.h>
 #endif
 
 namespace clathra {
+namespace {
+
+/// Takes back that OpenMP has bound this thread to one core: the program that is started anew would have no other.
+void unbind() {
+#ifdef _OPENMP
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  for (int place = 0; place < omp_get_num_places(); ++place) {
+    std::vector<int> of_place(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+    omp_get_place_proc_ids(place, of_place.data());
+    for (int const core : of_place) CPU_SET(static_cast<std::size_t>(core), &cores);
+  }
+  if (CPU_COUNT(&cores) > 0) ::sched_setaffinity(0, sizeof cores, &cores);
+#endif
+}
+
+}  // namespace
 
 bool ask_for_huge_pages() {
 #ifdef __GLIBC__
-  if (std::getenv("GLIBC_TUNABLES")) return false;
+  // A program with rights of its own is started without this variable each time.
+  if (std::getenv("GLIBC_TUNABLES") || ::getauxval(AT_SECURE) != 0) return false;
   return ::setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", 1) == 0;
 #else
   return false;
@@ -22,6 +45,7 @@ bool ask_for_huge_pages() {
 }
 
 void start_anew() {
+  unbind();
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> arguments;
   for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);

@@ -8,7 +8,8 @@ namespace clathra {
 /// @return whether that changed the environment, so that the program has to be started anew
 bool ask_for_huge_pages();
 
-/// Replaces this process by the same program with the same arguments. Returns only where the system does not let it.
+/// Replaces this process by the same program with the same arguments, which may use all cores that OpenMP found. Returns only
+/// where the system does not let it.
 void start_anew();
 
 /// Searches and choices of the time step allocate and free the same fields over and over. Handed back to the system and fetched
