@@ -1,7 +1,5 @@
 #pragma once
 /// The laws as the contact kernel takes them.
-#include <algorithm>
-
 #include "kernels/bond_quick_test.hpp"
 #include "kernels/forces.hpp"
 #include "kernels/history.hpp"
