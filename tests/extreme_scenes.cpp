@@ -178,7 +178,7 @@ TEST(ExtremeScenes, BrittleFailureKeepsTheConfiningStress) {
   scene.test.inertial_number = 1e-4;
   scene.output.records = 300;
   Shear const s = shear(scene);
-  expect_row("brittle failure", "records with sigma_3 within 1 % [%]", s.held, within(99.5, 99), 100);
+  expect_row("brittle failure", "records with sigma_3 within 1 % [%]", s.held, 98.5, 100);
   expect_row("brittle failure", "largest error of sigma_3 [%]", s.largest_error * 100, 0, 15);
   expect_row("brittle failure", "bonds broken", s.broken, 100, 1e99);
 }

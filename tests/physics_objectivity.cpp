@@ -81,7 +81,7 @@ TEST(RigidRotation, OfABondedClusterStrainsNoBond) {
   for (Composite composite : {Composite::replace, Composite::parallel}) {
     double const coarse = force_after_turns(1000, 1, composite), fine = force_after_turns(2000, 1, composite);
     EXPECT_LT(coarse, 1e-3);
-    EXPECT_TRUE(shrinks(coarse, fine, 2));
+    EXPECT_TRUE(shrinks(coarse, fine, 2, 0.1, 3e-5));
   }
 }
 

@@ -79,26 +79,24 @@ TEST(BondQuickTest, NeverPassesABondThatIsBroken) {
   EXPECT_GT(intact, 300000);
 }
 
-/// As the kernel of mixed precision has it: single numbers, forces and moments in their units, of discs of 0.3 mm and k_n = 3e8,
-/// and the exact test in double precision of those numbers.
+/// As the kernel of mixed precision has it, in single numbers, and the exact test in double precision of those numbers.
 struct InSinglePrecision {
-  static constexpr double unit = 0x1p-14, unit_of_moments = 0x1p-20;
   float normal, shear, moment, width, thickness;
 
   explicit InSinglePrecision(BondForce<Real> const& bond)
-      : normal(static_cast<float>(bond.force.normal / unit)),
-        shear(static_cast<float>(std::round(bond.force.shear / unit))),
-        moment(static_cast<float>(std::round(bond.force.moment / (unit * unit_of_moments)))),
+      : normal(static_cast<float>(bond.force.normal)),
+        shear(static_cast<float>(bond.force.shear)),
+        moment(static_cast<float>(bond.force.moment)),
         width(static_cast<float>(bond.width)),
         thickness(static_cast<float>(bond.thickness)) {}
 
   bool passes_coarse_test(BondLaw const& law) const {
     BondForce<FloatLanes> const bond{{normal, shear, moment}, {0.0F, 0.0F, 0.0F}, width, thickness};
-    return lane(is_far_from_breaking(least_strength<float>(law, unit, unit_of_moments), bond), 0);
+    return lane(is_far_from_breaking(least_strength<float>(law), bond), 0);
   }
   bool holds(BondLaw const& law) const {
     BondStrength const strength = bond_strength(law.strength, static_cast<double>(width), static_cast<double>(thickness));
-    return strength.test(unit * normal, unit * shear, unit * unit_of_moments * moment) == BreakMode::none;
+    return strength.test(static_cast<double>(normal), static_cast<double>(shear), static_cast<double>(moment)) == BreakMode::none;
   }
 };
 

@@ -53,10 +53,9 @@ struct BondFailures {
   /// Half of what branches count in [m].
   KOKKOS_FORCEINLINE_FUNCTION Real half_a_unit() const { return mixed ? 0.5 * p.mirror.tick : 0.5; }
 
-  /// One of them, in SI units.
+  /// One of them.
   KOKKOS_FORCEINLINE_FUNCTION BondForce<Real> trial_of(Candidates const& block, int l) const {
-    Real const unit = constants.force_unit, of_moment = unit * constants.moment_unit;
-    return {{unit * lane(block.normal, l), unit * lane(block.shear, l), of_moment * lane(block.moment, l)},
+    return {{lane(block.normal, l), lane(block.shear, l), lane(block.moment, l)},
             {0, 0, 0},
             lane(block.width, l),
             lane(block.thickness, l)};

@@ -63,14 +63,6 @@ BondLawOf<R> in_numbers(BondLaw const& law) {
           R(law.least_shape_of_rolling)};
 }
 
-/// The same law where forces count in `unit` [N/m] and lengths in metres, but for the strength, which stays as it is.
-inline BondLaw in_force_units(BondLaw law, Real unit) {
-  law.modulus /= unit;
-  law.particle_stiffness /= unit;
-  law.preload_stiffness /= unit;
-  return law;
-}
-
 /// Forces of an intact bond and what they follow from.
 template <class L>
 struct BondForce {

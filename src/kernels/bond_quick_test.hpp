@@ -22,15 +22,14 @@ template <class R>
 struct LeastStrengthOf {
   R rising_per_normal, falling_per_normal;
   OfWidth<R> rising, flat, falling;  ///< [N/m, N/m^2]
-  R shear_slope;                     ///< f_s K_s > shear_slope, as moments take it: times their unit over that of the others
+  R shear_slope;                     ///< f_s K_s > shear_slope
   OfWidth<R> moment;                 ///< f_r K_r L_r > moment [m, 1]
 };
 using LeastStrength = LeastStrengthOf<Real>;
 
 /// @tparam R  the numbers of the kernel that tests
-/// @param unit  what forces count in [N/m];  @param unit_of_moments  what moments count in, over that [m]
 template <class R = Real>
-LeastStrengthOf<R> least_strength(BondLaw const& law, Real unit = 1, Real unit_of_moments = 1) {
+LeastStrengthOf<R> least_strength(BondLaw const& law) {
   // Less by a thousand millionth, in single precision by some hundred ulps: strictly below what bond_strength() computes, however
   // that and the test itself are rounded. Of the test's sums the worst is F_n + R_t near -R_t, off by an ulp of either.
   constexpr Real share = sizeof(R) == sizeof(double) ? 1e-9 : 1e-5, less = 1 - share, more = 1 + share;
@@ -38,8 +37,8 @@ LeastStrengthOf<R> least_strength(BondLaw const& law, Real unit = 1, Real unit_o
   Real const least_thickness = rod_thickness(law.strength, law.plate_thickness),
              largest_thickness = rod_thickness(law.strength, law.thickness_weight * law.critical_thickness + law.plate_thickness);
   auto const strength = [&](Real stress, Real addend) {
-    return OfWidth<Real>{less_than(law.strength.rod_share * addend) / unit,
-                         less_than(stress + law.strength.rod_share_per_width * addend) / unit};
+    return OfWidth<Real>{less_than(law.strength.rod_share * addend),
+                         less_than(stress + law.strength.rod_share_per_width * addend)};
   };
   OfWidth<Real> const tension = strength(law.strength.tensile_stress, tension_addend(least_thickness)),
                       compression = strength(law.strength.compressive_stress, compression_addend(largest_thickness));
@@ -54,7 +53,7 @@ LeastStrengthOf<R> least_strength(BondLaw const& law, Real unit = 1, Real unit_o
           times(rising, tension),
           times(0.28 * slope, compression, tension),
           times(falling, compression),
-          R(slope * unit_of_moments),
+          R(slope),
           times(rolling, {law.strength.moment_length, law.strength.moment_width_ratio})};
 }
 

@@ -36,18 +36,15 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
                        BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps,
                        StepLaunches const& launches) {
   using R = typename P::Real;
-  HistoryFormat const& format = rows.features.format;
-  ContactConstants<R> const constants = constants_in<R>(laws, format, dt, particles.mirror.tick);
+  ContactConstants<R> const constants = constants_in<R>(laws, dt, particles.mirror.tick);
   int const groups = group_count(particles.owned, lane_count_of<R>);
-  // history_format() leaves room for the limits of discs as deep in each other as there may be, at a friction of 1.
-  bool const caps_limits = laws.grain.friction > 1 || laws.grain.damping_ratio > 0;
   std::visit(
       [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
         using Kernel = ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()>;
-        launches.parallel_for(Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
-                              Kernel{particles, rows, constants, laws.bond, step, steps, breaks, losses, faults, caps_limits,
-                                     discs_ahead(particles.owned)});
+        launches.parallel_for(
+            Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
+            Kernel{particles, rows, constants, laws.bond, step, steps, breaks, losses, faults, discs_ahead(particles.owned)});
       },
       bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
       on(laws.ledger));

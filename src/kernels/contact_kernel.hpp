@@ -3,9 +3,10 @@
 /// forces_full.cpp and forces_mixed.cpp only.
 #include <type_traits>
 
+#include "kernels/anchoring.hpp"
 #include "kernels/bond_failures.hpp"
 #include "kernels/contact_constants.hpp"
-#include "kernels/disc_reader.hpp"
+#include "kernels/pair_motion.hpp"
 
 namespace clathra {
 
@@ -17,15 +18,20 @@ struct ContactKernel {
   using V = LanesOf<R>;
   using VMask = MaskOf<V>;
   using Kept = HistoryOf<P>;
-  using Stored = typename Kept::Value;
+  using Force = typename Kept::Force;
   using Constants = ContactConstants<R>;
-  using Discs = DiscReader<P, Dashpot>;
-  using Failures = BondFailures<P>;
   static constexpr bool mixed = P::precision == Precision::mixed;
+  using Discs = DiscReader<P, !mixed || Dashpot || Ledger, Dashpot>;
+  using Failures = BondFailures<P>;
+  using StepWay = WayOfStep<V>;
   static constexpr int lanes = lane_count_of<R>, slice_width = slice_width_of<R>;
   static constexpr bool bonded_code = Bond != BondKind::none;
   static constexpr bool shears = Friction || Bond == BondKind::replace;  // has a history of `shear`
   static constexpr bool moments = Rolling || bonded_code;
+  static constexpr bool separate = Bond == BondKind::parallel;
+  static constexpr bool slips = shears || separate,
+                        turns = moments && (Rolling || !separate);  // of `shear` or `bond_shear`; of `moment`
+  using Anchorings = Anchoring<shears, turns, separate>;
 
   ParticleSoA p;
   ContactRows rows;
@@ -36,30 +42,30 @@ struct ContactKernel {
   BreakLog breaks;
   EnergyLosses losses;
   Faults faults;
-  bool caps_limits;         ///< whether limits may be larger than a history
   std::size_t discs_ahead;  ///< that are fetched before a neighbour needs them, discs_ahead()
 
   /// State of the group's own discs and what has been summed for them.
   struct Own {
     typename Discs::Own disc;
     V force_x, force_y, torque;
-    V moment, most_overlap;  ///< mixed precision: the sum of moments, and the largest overlap of each disc
+    V most_overlap;   ///< mixed precision: of each disc
+    bool turned_far;  ///< likewise: whether any of them has
     V sliding, rolling, dashpot, breakage;
   };
 
   /// History of one block of entries.
   struct History {
-    Stored shear, moment;
-    V formation_overlap, width;
-    Stored bond_shear, bond_moment;
+    V shear, moment, formation_overlap, width, bond_shear, bond_moment;
   };
-
+  /// What its histories come to.
+  struct Forces {
+    Force shear, moment, bond_shear, bond_moment;
+  };
   KOKKOS_FUNCTION void operator()(int group) const {
     if (is_stopped(steps)) return;
     auto const first = static_cast<std::size_t>(group) * lanes;
     int const slice = group / (slice_width / lanes);
-    Constants law = constants;
-    if constexpr (mixed) law.forces.rounding = law.moments.rounding = rounding_of_step(number_of_step());
+    Constants const law = constants;
     Own own = load_own(first);
     Discs::fetch_ahead(p, first, discs_ahead);
     // Entries out of touch stay so nearly always, and those that carry a history still do: a branch on what the last step found
@@ -72,19 +78,17 @@ struct ContactKernel {
         carrying |= bit;
     }
     rows.active(group) = carrying;
-    if constexpr (mixed) {
-      own.torque = times_plus(own.moment, V(law.moment_unit), own.torque);
-      // Where a disc's centre lies inside another one. That one looks, too.
+    if constexpr (mixed) {  // where a disc's centre lies inside another one; that one looks, too
       if (auto const deep = own.most_overlap > own.disc.radius; any(deep)) report_deep(first, deep);
     }
-    store(p.force_x.data<R>() + first, in_si(law, own.force_x));
-    store(p.force_y.data<R>() + first, in_si(law, own.force_y));
-    store(p.torque.data<R>() + first, in_si(law, own.torque));
+    store(p.force_x.data<R>() + first, own.force_x);
+    store(p.force_y.data<R>() + first, own.force_y);
+    store(p.torque.data<R>() + first, own.torque);
     if constexpr (Ledger) {
-      if constexpr (shears) Discs::book(losses.sliding, first, in_si(law, own.sliding));
-      if constexpr (Rolling) Discs::book(losses.rolling, first, in_si(law, own.rolling));
-      if constexpr (Dashpot) Discs::book(losses.dashpot, first, in_si(law, own.dashpot));
-      if constexpr (bonded_code) Discs::book(losses.breakage, first, in_si(law, own.breakage));
+      if constexpr (shears) Discs::book(losses.sliding, first, own.sliding);
+      if constexpr (Rolling) Discs::book(losses.rolling, first, own.rolling);
+      if constexpr (Dashpot) Discs::book(losses.dashpot, first, own.dashpot);
+      if constexpr (bonded_code) Discs::book(losses.breakage, first, own.breakage);
     }
   }
 
@@ -94,30 +98,39 @@ struct ContactKernel {
                                              Own& own) const {
     int const* const j = &rows.neighbour(e);
     typename Discs::Own const& disc = own.disc;
-    typename Discs::OtherMotion moving;
-    typename Discs::Other const other = Discs::other(p, j, disc, active, moving);
+    typename Discs::Other const other = Discs::other(p, j, disc);
     V const &dx = other.dx, &dy = other.dy, &other_radius = other.radius;
     V const reach = disc.radius + other_radius, distance2 = Discs::squared(dx, dy),
-            reach_of_branch = Discs::as_branch(reach, law.per_tick);
-    auto const touching = distance2 < reach_of_branch * reach_of_branch;
+            reach2 = Discs::squared_reach(reach, law.per_tick);
+    auto const touching = distance2 < reach2;
     if (!active && !any(touching)) return false;
     History h = read(e);
 
-    V const distance = Discs::distance_of(distance2), inverse = V(1) / distance;
-    V const nx = dx * inverse, ny = dy * inverse;
-    Discs::complete(p, j, active, moving);
-    V const dvx = moving.vx - disc.vx, dvy = moving.vy - disc.vy, &other_omega = moving.omega;
+    V const distance = Discs::distance_of(distance2);
+    Inverses<V> const inverse = inverses<mixed, moments>(distance, distance2, reach);
+    V const nx = dx * inverse.of_distance, ny = dy * inverse.of_distance;
+    typename Discs::MotionOf moving;
+    if constexpr (Discs::moves) moving = Discs::other_motion(p, j);
     ContactMotion<V> motion;
     motion.overlap = Discs::overlap_at(distance, reach, law.tick);
-    motion.closing_velocity = -(dvx * nx + dvy * ny);
     V const half = constant<V>(0.5), arm = minus_times(half, motion.overlap, disc.radius),
             other_arm = minus_times(half, motion.overlap, other_radius);  // arm + other_arm = distance
-    // Both sides of a pair get the same bits: a fused product must not be that of one side.
-    motion.shear_increment = during_step(law, minus_times(dvx, ny, dvy * nx) - (disc.omega * arm + other_omega * other_arm));
-    motion.relative_rotation = during_step(law, other_omega - disc.omega);
+    StepWay in_step{V(0), V(0)};
+    if constexpr (Discs::moves) {
+      motion.closing_velocity = -((moving.vx - disc.motion.vx) * nx + (moving.vy - disc.motion.vy) * ny);
+      in_step = way_of_step(law.dt, disc.motion, moving, nx, ny, arm, other_arm);
+    }
+    motion.shear_increment = in_step.slip, motion.relative_rotation = in_step.rotation;
+    V turned2(0);
     if constexpr (mixed) {
-      motion.common_radius = V(2) * disc.radius * other_radius / reach;  // common_radius() of radii that are not zero
+      motion.common_radius = V(2) * disc.radius * other_radius * inverse.of_reach;  // common_radius() of radii that are not zero
       own.most_overlap = lane_max(motion.overlap, own.most_overlap);
+      motion.relative_rotation = other.turn - disc.turn;
+      if constexpr (slips) {
+        auto const way = way_since(load_ints(rows.anchor.data<std::int32_t>() + e), other.ticks_x, other.ticks_y, dx, dy,
+                                   inverse.of_distance2, arm, other_arm, disc.turn, other.turn);
+        motion.shear_increment = way.slip, turned2 = way.turned2;
+      }
     } else {
       motion.common_radius = common_radius(disc.radius, other_radius);
       auto const deep = distance < lane_max(disc.radius, other_radius);
@@ -125,36 +138,59 @@ struct ContactKernel {
     }
 
     Viscosity dashpot;
-    if constexpr (Dashpot) dashpot = dashpot_coefficient(law.grain, disc.inverse_mass, moving.inverse_mass);
-    ContactForce<V> force = grain_force(law, motion, dashpot, h, own);
-    auto carrying = touching;
+    if constexpr (Dashpot) dashpot = dashpot_coefficient(law.grain, disc.motion.inverse_mass, moving.inverse_mass);
+    Forces now;
+    auto const none = remembers_nothing(h), begins = none && touching;
+    ContactMotion<V> of_grains = motion;
+    if constexpr (mixed && (shears || turns)) {
+      if (any(begins)) {  // with the slip of this step
+        StepWay const way = first_way<Discs>(p, {law.dt, first, j, nx, ny, arm, other_arm});
+        of_grains.shear_increment = select(begins, way.slip, motion.shear_increment);
+        of_grains.relative_rotation = select(begins, way.rotation, motion.relative_rotation);
+        if constexpr (shears) h.shear = select(begins, V(0), h.shear);
+        if constexpr (turns) h.moment = select(begins, V(0), h.moment);
+      }
+    }
+    ContactForce<V> force = grain_force(law, of_grains, dashpot, h, none && !begins, now);
+    if constexpr (Ledger && Bond != BondKind::replace) add_grain_losses(law, motion, now, before(h, now, in_step), force, own);
+    [[maybe_unused]] auto intact = VMask(false), broken = VMask(false);
     if constexpr (bonded_code) {
       auto const bonded = is_bonded(h.formation_overlap);
-      BondTrial const trial = bond_trial(law, motion, h, bonded);
-      auto intact = bonded;
-      auto const doubt = bonded && !is_far_from_breaking(law.least, trial.bond);
+      BondForce<V> const trial = bond_trial(law, separate ? motion : of_grains, h, none && !begins, bonded, now);
+      intact = bonded;
+      auto const doubt = bonded && !is_far_from_breaking(law.least, trial);
       if (any(doubt)) {
-        ContactForce<V> const& f = trial.bond.force;
+        ContactForce<V> const& f = trial.force;
         intact = bonded && !Failures{p, rows, constants, exact, breaks, number_of_step()}.break_bonds(
-                               {first, e, doubt, trial.bond.width, trial.bond.thickness, f.normal, f.shear, f.moment, dx, dy});
+                               {first, e, doubt, trial.width, trial.thickness, f.normal, f.shear, f.moment, dx, dy});
+        broken = bonded && !intact;
       }
-      force = with_bond(law, force, motion, dashpot, trial, bonded, intact, h, own);
-      carrying = touching || intact;
+      force = with_bond(law, force, motion, dashpot, trial, bonded, intact, broken, in_step, h, now, own);
     }
-    write(e, h);
+    auto carrying = touching;
+    if constexpr (bonded_code) carrying = touching || intact;
+    write(e, h, now);
+    if constexpr (mixed && (slips || turns)) {
+      auto const far = carrying && lane_max(other.turn * other.turn, turned2) > V(furthest_turn * furthest_turn);
+      auto changes = broken;
+      if constexpr (shears || turns) changes = changes || none == (separate ? touching : carrying);  // begins or ends
+      if (any(far || changes) || own.turned_far) {
+        if constexpr (Bond == BondKind::replace) {
+          now.shear.stiffness = select(broken, V(law.grain.shear_stiffness), now.shear.stiffness);
+          if constexpr (Rolling)
+            now.moment.stiffness = select(broken, rolling_stiffness(law.grain, motion.common_radius), now.moment.stiffness);
+        }
+        Anchorings{rows}.anchor({e, changes, touching, intact, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2, arm,
+                                 other_arm, disc.turn, other.turn, turned2},
+                                Forces(now));
+      }
+    }
     // Entries out of touch and without a bond got exact zeros from the laws; nothing needs masking here.
     add_force(force, nx, ny, arm, own);
     return any(carrying);
   }
 
  private:
-  /// A force, torque or energy in SI units.
-  KOKKOS_FORCEINLINE_FUNCTION static V in_si(Constants const& law, V const& of_unit) {
-    if constexpr (mixed)
-      return of_unit * law.force_unit;
-    else
-      return of_unit;
-  }
   KOKKOS_FORCEINLINE_FUNCTION std::int64_t number_of_step() const { return steps.extent(0) > 0 ? steps(0).step + 1 : step; }
 
   KOKKOS_FORCEINLINE_FUNCTION static void add_force(ContactForce<V> const& force, V const& nx, V const& ny, V const& arm,
@@ -168,7 +204,7 @@ struct ContactKernel {
         own.force_y = times_plus(force.shear, nx, own.force_y);
         own.torque = times_plus(arm, force.shear, own.torque);
       }
-      own.moment += force.moment;
+      own.torque += force.moment;
     } else if constexpr (sheared) {
       own.force_x -= force.normal * nx + force.shear * ny;
       own.force_y += force.shear * nx - force.normal * ny;
@@ -180,32 +216,19 @@ struct ContactKernel {
     }
   }
 
-  /// A motion as the history takes it: in mixed precision the rate itself (HistoryScale::per_rate).
-  KOKKOS_FORCEINLINE_FUNCTION static V during_step(Constants const& law, V const& rate) {
-    if constexpr (mixed)
-      return rate;
-    else
-      return rate * law.dt;
-  }
-
   KOKKOS_FORCEINLINE_FUNCTION Own load_own(std::size_t first) const {
     Own own;  // each number of which is set here: as a whole it would be set to zero by a function
     own.disc = Discs::own(p, first);
     own.most_overlap = constant<V>(-1e30);
-    own.force_x = own.force_y = own.torque = own.moment = own.sliding = own.rolling = own.dashpot = own.breakage = V(0);
+    own.turned_far = mixed && any(has_turned_far(own.disc.turn));
+    own.force_x = own.force_y = own.torque = own.sliding = own.rolling = own.dashpot = own.breakage = V(0);
     return own;
   }
 
   using Viscosity = std::conditional_t<Dashpot, V, Undamped>;
 
-  /// Bonds as they would be if none broke, and what would then be kept of them.
-  struct BondTrial {
-    BondForce<V> bond;
-    Stored shear, moment;
-  };
-
   KOKKOS_FORCEINLINE_FUNCTION History read(std::size_t e) const {
-    History h{Kept::none(), Kept::none(), V(no_bond_of<R>), V(0), Kept::none(), Kept::none()};
+    History h{V(0), V(0), V(no_bond_of<R>), V(0), V(0), V(0)};
     if constexpr (shears) h.shear = Kept::read(rows.shear, e);
     if constexpr (moments) h.moment = Kept::read(rows.moment, e);
     if constexpr (bonded_code) {
@@ -219,131 +242,101 @@ struct ContactKernel {
     return h;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void write(std::size_t e, History const& h) const {
-    if constexpr (shears) Kept::write(rows.shear, e, h.shear);
-    if constexpr (moments) Kept::write(rows.moment, e, h.moment);
-    if constexpr (Bond == BondKind::parallel) {
-      Kept::write(rows.bond_shear, e, h.bond_shear);
-      Kept::write(rows.bond_moment, e, h.bond_moment);
+  /// Pairs without a history of the grain contact (or of the bond in its place), in mixed precision.
+  KOKKOS_FORCEINLINE_FUNCTION static VMask remembers_nothing(History const& h) {
+    if constexpr (mixed && shears) return Kept::is_none(h.shear);
+    if constexpr (mixed && turns) return Kept::is_none(h.moment);
+    return VMask(false);
+  }
+  /// In mixed precision separate bonds keep what they have: they do not slip.
+  KOKKOS_FORCEINLINE_FUNCTION void write(std::size_t e, History const& h, Forces const& now) const {
+    auto const keep = [e](RealField const& field, V const& kept, Force const& force) {
+      store(field.data<R>() + e, Kept::after(kept, force));
+    };
+    if constexpr (shears) keep(rows.shear, h.shear, now.shear);
+    if constexpr (turns) keep(rows.moment, h.moment, now.moment);
+    if constexpr (separate && !mixed) {
+      keep(rows.bond_shear, h.bond_shear, now.bond_shear);
+      keep(rows.bond_moment, h.bond_moment, now.bond_moment);
     }
   }
 
-  /// k_m of a grain contact, as its history takes it.
-  KOKKOS_FORCEINLINE_FUNCTION static V rolling_of_step(Constants const& law, ContactMotion<V> const& motion) {
-    return law.rolling_of_step * motion.common_radius * motion.common_radius;
-  }
-  /// Shear force and moment of a grain contact before the limits.
-  struct GrainTrial {
-    Stored shear, moment;
-  };
-  KOKKOS_FORCEINLINE_FUNCTION static GrainTrial grain_trial(Constants const& law, ContactMotion<V> const& motion,
-                                                            History const& h) {
-    GrainTrial trial{Kept::none(), Kept::none()};
-    if constexpr (shears) trial.shear = Kept::advanced(h.shear, law.shear_of_step, motion.shear_increment, law.forces);
-    if constexpr (Rolling)
-      trial.moment = Kept::advanced(h.moment, rolling_of_step(law, motion), motion.relative_rotation, law.moments);
-    return trial;
-  }
-
-  /// Eq. 8: puts a trial within its limits. @return the forces that it then is
+  /// Eq. 8: the forces of unbonded pairs, their trials put within their limits.
   /// @param free  the mask of lanes without limits, where there are such
   template <class... Free>
-  KOKKOS_FORCEINLINE_FUNCTION ContactForce<V> limit(Constants const& law, ContactMotion<V> const& motion,
-                                                    Viscosity const& dashpot, GrainTrial& trial, Free const&... free) const {
+  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> limit(Constants const& law, ContactMotion<V> const& motion,
+                                                           Viscosity const& dashpot, Forces& now, Free const&... free) {
     ContactForce<V> force;
     force.normal = normal_force(law.grain, motion, dashpot);
     force.shear = force.moment = V(0);
+    auto const limited = [&](V const& trial, V const& most) {
+      if constexpr (sizeof...(Free) > 0)
+        return select((free, ...), trial, clamp_to(trial, most));
+      else
+        return clamp_to(trial, most);
+    };
+    if constexpr (shears) force.shear = now.shear.now = limited(now.shear.trial, shear_limit(law.grain, force.normal));
+    if constexpr (Rolling)
+      force.moment = now.moment.now = limited(now.moment.trial, moment_limit(law.grain, motion.common_radius, force.normal));
+    return force;
+  }
+
+  /// The unbonded law on every entry; with `replace` with_bond() does it.
+  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> grain_force(Constants const& law, ContactMotion<V> const& motion,
+                                                                 Viscosity const& dashpot, History const& h, VMask const& none,
+                                                                 Forces& now) {
+    if constexpr (Bond == BondKind::replace) return {};
     if constexpr (shears) {
-      trial.shear = Kept::limited(trial.shear, as_kept(shear_limit(law.grain, force.normal)), free...);
-      force.shear = Kept::number(trial.shear);
+      now.shear.stiffness = V(law.grain.shear_stiffness);
+      now.shear.trial = Kept::trial(h.shear, law.grain.shear_stiffness, motion.shear_increment, none);
     }
     if constexpr (Rolling) {
-      trial.moment = Kept::limited(trial.moment, as_kept(law.limit_of_moment * motion.common_radius * force.normal), free...);
-      force.moment = Kept::number(trial.moment);
+      now.moment.stiffness = rolling_stiffness(law.grain, motion.common_radius);
+      now.moment.trial = Kept::trial(h.moment, now.moment.stiffness, motion.relative_rotation, none);
     }
-    return force;
+    return limit(law, motion, dashpot, now);
   }
 
-  /// A limit that a history can hold.
-  KOKKOS_FORCEINLINE_FUNCTION V as_kept(V const& limit) const {
-    if (mixed && caps_limits) return lane_min(limit, constant<V>(most_units));
-    return limit;
-  }
-
-  /// The unbonded law on every entry; with `replace` the entries that are bonded are overruled by with_bond().
-  KOKKOS_FORCEINLINE_FUNCTION ContactForce<V> grain_force(Constants const& law, ContactMotion<V> const& motion,
-                                                          Viscosity const& dashpot, History& h, Own& own) const {
-    if constexpr (Bond == BondKind::replace) return {};
-    GrainTrial const trial = grain_trial(law, motion, h);
-    GrainTrial kept = trial;
-    ContactForce<V> const force = limit(law, motion, dashpot, kept);
-    if constexpr (Ledger) add_grain_losses(law, motion, trial, h, force, own);
-    if constexpr (shears) h.shear = kept.shear;
-    if constexpr (Rolling) h.moment = kept.moment;
-    return force;
-  }
-
-  /// With `replace` an entry that is not bonded gets the trial of its grain contact.
-  KOKKOS_FORCEINLINE_FUNCTION static BondTrial bond_trial(Constants const& law, ContactMotion<V> const& motion, History const& h,
-                                                          VMask const& bonded) {
+  /// Bonds as they would be if none broke. With `replace` an entry that is not bonded gets the trial of its grain contact.
+  KOKKOS_FORCEINLINE_FUNCTION static BondForce<V> bond_trial(Constants const& law, ContactMotion<V> const& motion,
+                                                             History const& h, [[maybe_unused]] VMask const& none,
+                                                             VMask const& bonded, Forces& now) {
     constexpr bool parallel = Bond == BondKind::parallel;
-    BondTrial trial{bond_springs(law.bond, motion, h.formation_overlap, h.width), Kept::none(), Kept::none()};
-    ContactForce<V>& force = trial.bond.force;
-    ContactStiffness<V> const& k = trial.bond.stiffness;
-    V shear = Kept::of_step(k.shear, law.forces), rolling = Kept::of_step(k.rolling, law.moments);
-    if constexpr (!parallel) shear = select(bonded, shear, V(law.shear_of_step));
-    if constexpr (!parallel && Rolling) rolling = select(bonded, rolling, rolling_of_step(law, motion));
-    trial.shear = Kept::advanced(parallel ? h.bond_shear : h.shear, shear, motion.shear_increment, law.forces);
-    trial.moment = Kept::advanced(parallel ? h.bond_moment : h.moment, rolling, motion.relative_rotation, law.moments);
-    force.shear = Kept::number(trial.shear);
-    force.moment = Kept::number(trial.moment);
-    return trial;
+    BondForce<V> bond = bond_springs(law.bond, motion, h.formation_overlap, h.width);
+    Force& shear = parallel ? now.bond_shear : now.shear;
+    Force& moment = parallel ? now.bond_moment : now.moment;
+    shear.stiffness = bond.stiffness.shear, moment.stiffness = bond.stiffness.rolling;
+    if constexpr (!parallel) shear.stiffness = select(bonded, shear.stiffness, V(law.grain.shear_stiffness));
+    if constexpr (!parallel && Rolling)
+      moment.stiffness = select(bonded, moment.stiffness, rolling_stiffness(law.grain, motion.common_radius));
+    bond.force.shear = shear.trial = parallel ? Kept::trial(h.bond_shear, shear.stiffness, motion.shear_increment)
+                                              : Kept::trial(h.shear, shear.stiffness, motion.shear_increment, none);
+    bond.force.moment = moment.trial = parallel ? Kept::trial(h.bond_moment, moment.stiffness, motion.relative_rotation)
+                                                : Kept::trial(h.moment, moment.stiffness, motion.relative_rotation, none);
+    return bond;
   }
 
-  /// Adds the bond (`parallel`) or puts it in the grain contact's place (`replace`). The pair of a bond that broke, `bonded` but
-  /// not `intact`, follows the unbonded law from this very step on.
+  /// Adds the bond (`parallel`) or puts it in the grain contact's place (`replace`). The pair of a bond that broke follows the
+  /// unbonded law from this very step on.
   KOKKOS_FORCEINLINE_FUNCTION ContactForce<V> with_bond(Constants const& law, ContactForce<V> const& grain_part,
                                                         ContactMotion<V> const& motion, Viscosity const& dashpot,
-                                                        BondTrial const& trial, VMask const& bonded, VMask const& intact,
-                                                        History& h, Own& own) const {
+                                                        BondForce<V> const& bond, VMask const& bonded, VMask const& intact,
+                                                        VMask const& broken, StepWay const& in_step, History const& h,
+                                                        Forces& now, Own& own) const {
     V const zero(0);
-    BondForce<V> const& bond = trial.bond;
     if constexpr (Bond == BondKind::parallel) {
-      if constexpr (Ledger)
-        own.breakage +=
-            select(bonded && !intact, constant<V>(0.5) * spring_energy(in_one_unit(law, bond.force), bond.stiffness), zero);
-      h.bond_shear = Kept::choose(intact, trial.shear, Kept::none());
-      h.bond_moment = Kept::choose(intact, trial.moment, Kept::none());
-      return {grain_part.normal + select(intact, bond.force.normal, zero),
-              grain_part.shear + select(intact, bond.force.shear, zero),
-              grain_part.moment + select(intact, bond.force.moment, zero)};
+      if constexpr (Ledger) own.breakage += select(broken, constant<V>(0.5) * spring_energy(bond.force, bond.stiffness), zero);
+      now.bond_shear.now = select(intact, bond.force.shear, zero);
+      now.bond_moment.now = select(intact, bond.force.moment, zero);
+      return {grain_part.normal + select(intact, bond.force.normal, zero), grain_part.shear + now.bond_shear.now,
+              grain_part.moment + now.bond_moment.now};
     } else {
-      GrainTrial const before{trial.shear, trial.moment};
-      GrainTrial kept = before;
-      ContactForce<V> force = limit(law, motion, dashpot, kept, intact);
-      if constexpr (!Rolling) {
-        kept.moment = Kept::choose(intact, trial.moment, Kept::none());
-        force.moment = Kept::number(kept.moment);
-      }
-      if constexpr (Ledger) add_replace_losses(law, motion, bond, before, bonded, intact, force, h, own);
-      h.shear = kept.shear;
-      h.moment = kept.moment;
+      ContactForce<V> force = limit(law, motion, dashpot, now, intact);
+      if constexpr (!Rolling) force.moment = now.moment.now = select(intact, now.moment.trial, zero);
+      if constexpr (Ledger) add_replace_losses(law, motion, bond, now, bonded, broken, before(h, now, in_step), force, own);
       force.normal = select(intact, bond.force.normal, force.normal);
       return force;
     }
-  }
-
-  /// Forces with the moment in the unit of force times metres, for energies.
-  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> in_one_unit(Constants const& law, ContactForce<V> force) {
-    force.moment = in_metres(law, force.moment);
-    return force;
-  }
-  /// A moment in the unit of force times metres.
-  KOKKOS_FORCEINLINE_FUNCTION static V in_metres(Constants const& law, V const& moment) {
-    if constexpr (mixed)
-      return moment * law.moment_unit;
-    else
-      return moment;
   }
 
   CLATHRA_COLD_FUNCTION void report_deep(std::size_t first, VMask const& deep) const {
@@ -352,20 +345,29 @@ struct ContactKernel {
     }
   }
 
+  /// The forces at the beginning of the step.
+  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> before(History const& h, Forces const& now, StepWay const& in_step) {
+    if constexpr (!mixed) return {V(0), h.shear, h.moment};
+    ContactForce<V> force{V(0), V(0), V(0)};
+    if constexpr (shears) force.shear = minus_times(now.shear.stiffness, in_step.slip, now.shear.trial);
+    if constexpr (moments) force.moment = minus_times(now.moment.stiffness, in_step.rotation, now.moment.trial);
+    return force;
+  }
+
   /// Work of slip and plastic rolling of a grain contact in this step, by the mean force over the step: exactly what leapfrog
   /// takes out.
-  KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(Constants const& law, ContactMotion<V> const& motion, GrainTrial const& trial,
-                                                    History const& old, ContactForce<V> const& now, Own& own,
+  KOKKOS_FORCEINLINE_FUNCTION void add_grain_losses(Constants const& law, ContactMotion<V> const& motion, Forces const& grains,
+                                                    ContactForce<V> const& old, ContactForce<V> const& now, Own& own,
                                                     VMask const& where = VMask(true)) const {
     V const zero(0), quarter = constant<V>(0.25);
     if constexpr (shears) {
-      V const slid = (Kept::number(trial.shear) - now.shear) * V(1 / law.grain.shear_stiffness);
-      own.sliding += select(where, quarter * (Kept::number(old.shear) + now.shear) * slid, zero);
+      V const slid = (grains.shear.trial - now.shear) * V(1 / law.grain.shear_stiffness);
+      own.sliding += select(where, quarter * (old.shear + now.shear) * slid, zero);
     }
     if constexpr (Rolling) {
       V const stiffness = lane_max(rolling_stiffness(law.grain, motion.common_radius), V(least_divisor<R>));
-      V const turned = in_metres(law, Kept::number(trial.moment) - now.moment) / stiffness;
-      own.rolling += select(where, quarter * (in_metres(law, Kept::number(old.moment) + now.moment)) * turned, zero);
+      V const turned = (grains.moment.trial - now.moment) / stiffness;
+      own.rolling += select(where, quarter * (old.moment + now.moment) * turned, zero);
     }
     if constexpr (Dashpot) {
       own.dashpot += select(where, constant<V>(0.5) * dashpot_loss(law.grain, motion, now.normal, law.dt), zero);
@@ -374,15 +376,14 @@ struct ContactKernel {
 
   /// The same for `replace`: unbonded pairs slide and roll; a bond that breaks swaps its energy for that of the grain contact.
   KOKKOS_FORCEINLINE_FUNCTION void add_replace_losses(Constants const& law, ContactMotion<V> const& motion,
-                                                      BondForce<V> const& trial, GrainTrial const& grains, VMask const& bonded,
-                                                      VMask const& intact, ContactForce<V> const& unbonded, History const& old,
-                                                      Own& own) const {
+                                                      BondForce<V> const& trial, Forces const& grains, VMask const& bonded,
+                                                      VMask const& broken, ContactForce<V> const& old,
+                                                      ContactForce<V> const& unbonded, Own& own) const {
     add_grain_losses(law, motion, grains, old, unbonded, own, !bonded);
     ContactForce<V> const elastic{normal_force(law.grain, motion, Undamped()), unbonded.shear, Rolling ? unbonded.moment : V(0)};
-    V const before = spring_energy(in_one_unit(law, trial.force), trial.stiffness),
-            after = grain_energy(law.grain, in_one_unit(law, elastic),
-                                 grain_stiffness(law.grain, motion.overlap, motion.common_radius));
-    own.breakage += select(bonded && !intact, constant<V>(0.5) * (before - after), V(0));
+    V const before_it = spring_energy(trial.force, trial.stiffness),
+            after = grain_energy(law.grain, elastic, grain_stiffness(law.grain, motion.overlap, motion.common_radius));
+    own.breakage += select(broken, constant<V>(0.5) * (before_it - after), V(0));
   }
 };
 

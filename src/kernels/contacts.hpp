@@ -14,12 +14,9 @@
 
 namespace clathra {
 
-/// How the history of rows is kept: forces and moments in fixed point in mixed precision, where what a step adds is far below the
-/// ulp of a float; their units are powers of two. Overlaps and widths in single precision.
+/// How the history of rows is kept: in mixed precision in single precision, and forces as those at the anchor (anchor.hpp).
 struct HistoryFormat {
   Precision precision = Precision::full;
-  Real force_unit = 1;   ///< [N/m]
-  Real moment_unit = 1;  ///< [N m/m]
   bool operator==(HistoryFormat const&) const = default;
 
   KOKKOS_INLINE_FUNCTION int slice_shift() const {
@@ -73,7 +70,8 @@ static_assert(longest_row <= 255);
 
 /// Full rows (each pair stands in both rows) in sliced ELLPACK: slice_width() discs form a slice, entry k of its discs lies side
 /// by side. Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where
-/// discs are stored. Both sides of a pair hold equal `shear` and `formation_overlap` and exactly opposite `moment`.
+/// discs are stored. Both sides of a pair hold equal `shear` and `formation_overlap` and exactly opposite `moment`. In mixed
+/// precision forces and moments are those at the anchor, no_bond where there is none: see history_forces().
 struct ContactRows {
   ContactFeatures features;
   int entries = 0;              ///< of all slices; the fields below may have room for more
@@ -85,6 +83,7 @@ struct ContactRows {
   RealField formation_overlap;  ///< [entries] u_0 of the bond [m], no_bond without one
   RealField bond_shear;         ///< [entries] F_s of a separate bond [N/m]
   RealField bond_moment;        ///< [entries] M of a separate bond [N m/m]
+  RealField anchor;             ///< [entries] mixed precision: the branch that shear forces count from (anchor.hpp)
   // Derived, not part of the state: set by prepare_rows().
   RealField width;              ///< [entries] B of the bond [m], 0 without one
   Field<std::uint64_t> active;  ///< [groups of lanes] bit k: entries k of the group may carry a history and must be evaluated
@@ -94,17 +93,19 @@ struct ContactRows {
 
 /// What there is to know of a field of the history beside its values.
 struct HistoryField {
-  enum class Quantity { force, moment, length };
+  enum class Quantity { force, moment, length, branch };
   char const* name;
   Quantity quantity;
   Real empty = 0;    ///< value of an entry without history
   bool odd = false;  ///< the two sides of a pair hold opposite values, else equal ones
 };
+/// The force or moment of an entry that remembers none, as rows hold it.
+KOKKOS_INLINE_FUNCTION Real no_force(HistoryFormat const& format) { return format.precision == Precision::full ? 0 : no_bond; }
+
 /// How a field of the history is kept.
 inline NumberFormat kept(HistoryFormat const& format, HistoryField::Quantity quantity) {
   if (format.precision == Precision::full) return {};
-  if (quantity == HistoryField::Quantity::length) return {Storage::as_float};
-  return {Storage::as_fixed, quantity == HistoryField::Quantity::force ? format.force_unit : format.moment_unit};
+  return {quantity == HistoryField::Quantity::branch ? Storage::as_int : Storage::as_float};
 }
 
 /// The history of an entry, field by field, here and in kernels: visit(HistoryField, whether the features need it, the field of
@@ -114,11 +115,14 @@ CLATHRA_OF_THE_CALLERS_SIDE
 template <class Visit, class... Rows>
 KOKKOS_INLINE_FUNCTION void for_each_possible_history(ContactFeatures const& f, Visit&& visit, Rows&... rows) {
   using enum HistoryField::Quantity;
-  visit(HistoryField{"shear", force}, f.shear, rows.shear...);
-  visit(HistoryField{"moment", moment, 0, true}, f.rolling || f.bonds, rows.moment...);
+  bool const anchored = f.format.precision == Precision::mixed;
+  Real const none = no_force(f.format);
+  visit(HistoryField{"shear", force, none}, f.shear, rows.shear...);
+  visit(HistoryField{"moment", moment, none, true}, f.rolling || f.bonds, rows.moment...);
   visit(HistoryField{"formation_overlap", length, no_bond}, f.bonds, rows.formation_overlap...);
-  visit(HistoryField{"bond_shear", force}, f.separate_bond, rows.bond_shear...);
-  visit(HistoryField{"bond_moment", moment, 0, true}, f.separate_bond, rows.bond_moment...);
+  visit(HistoryField{"bond_shear", force, none}, f.separate_bond, rows.bond_shear...);
+  visit(HistoryField{"bond_moment", moment, none, true}, f.separate_bond, rows.bond_moment...);
+  visit(HistoryField{"anchor", branch}, anchored && (f.shear || f.bonds), rows.anchor...);
 }
 
 /// Visits what is needed.

@@ -1,74 +1,34 @@
 #pragma once
-/// What the contact kernel reads of discs in mixed precision: 32 bytes a disc, gathered by whole rows. Velocities and masses have
-/// their only place here; that of the centre is derived from x and y in double precision.
+/// What the contact kernel reads of discs in mixed precision, gathered by whole rows: 16 bytes a disc of its place and, where
+/// somebody asks how discs move, as many of its motion. Velocities, masses and turns have their only place here; that of the
+/// centre is derived from x and y in double precision.
 ///
-/// Places are in ticks: multiples of a power of two near 2^-25 of the largest diameter, of which the low 32 bits are kept. The
+/// Places are in ticks: multiples of a power of two near 2^-28 of the largest diameter, of which the low 32 bits are kept. The
 /// difference of two of them, as a signed number, is that of their places to the tick, at any size of the box, as long as it is
-/// below 2^31 ticks, 32 to 64 diameters: rows name no disc that far away. Sixteen numbers of four bytes gathered one by one are
-/// as many loads and as many shuffles; sixteen rows are sixteen loads for four numbers each, and eight shuffles.
+/// below 2^31 ticks, 4 to 8 diameters (`reaches()`). Sixteen numbers of four bytes gathered one by one are as many loads and as
+/// many shuffles; sixteen rows are sixteen loads for four numbers each, and eight shuffles.
+#include "kernels/int_lanes.hpp"
 #include "kernels/real_field.hpp"
 
 namespace clathra {
 
-/// Whole numbers side by side with FloatLanes.
-#ifdef CLATHRA_SIMD
-struct PlainInts {
-  using Type [[gnu::vector_size(sizeof(FloatLanes))]] = std::int32_t;
-  using Unsigned [[gnu::vector_size(sizeof(FloatLanes))]] = std::uint32_t;
-};
-using IntLanes = PlainInts::Type;
-KOKKOS_FORCEINLINE_FUNCTION IntLanes bits_of(FloatLanes const& value) {
-  return (IntLanes) static_cast<PlainVector<float>>(value);
-}
-KOKKOS_FORCEINLINE_FUNCTION FloatLanes from_bits(IntLanes const& bits) { return FloatLanes((PlainVector<float>)bits); }
-/// The difference modulo 2^32.
-KOKKOS_FORCEINLINE_FUNCTION IntLanes difference(IntLanes const& a, IntLanes const& b) {
-  return (IntLanes)((PlainInts::Unsigned)a - (PlainInts::Unsigned)b);
-}
-#else
-using IntLanes = std::int32_t;
-KOKKOS_FORCEINLINE_FUNCTION IntLanes bits_of(float value) {
-  IntLanes bits;
-  __builtin_memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-KOKKOS_FORCEINLINE_FUNCTION float from_bits(IntLanes bits) {
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
-}
-KOKKOS_FORCEINLINE_FUNCTION IntLanes difference(IntLanes a, IntLanes b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-}
-#endif
-
-/// Halves of the rows of as many discs as FloatLanes hold. Named, not arrays: GCC keeps those in memory.
+/// The rows of as many discs as FloatLanes hold. Named, not arrays: GCC keeps those in memory.
 struct PlacesOfDiscs {
   FloatLanes x, y;  ///< in ticks, their bits
-  FloatLanes radius, omega;
+  FloatLanes radius, turn;
 };
 struct MotionOfDiscs {
-  FloatLanes vx, vy, inverse_mass, inverse_inertia;
+  FloatLanes vx, vy, omega, inverse_mass;
 };
-struct RowsOfDiscs {
-  PlacesOfDiscs places;
-  MotionOfDiscs motion;
-};
-
-KOKKOS_FORCEINLINE_FUNCTION float from_bits_of_one(std::int32_t bits) {
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 struct DiscMirror {
-  static constexpr std::size_t row = 8;  ///< numbers a disc
-  // The first half of a row is that of PlacesOfDiscs, in SI units but for the ticks, the second that of MotionOfDiscs.
-  static constexpr int omega_at = 3, vx_at = 4, vy_at = 5, inverse_mass_at = 6, inverse_inertia_at = 7;
+  static constexpr std::size_t row = 4;  ///< numbers a disc has in each table
+  // Columns, in SI units but for the ticks, those of `motion` behind those of `places`.
+  static constexpr int turn_at = 3, vx_at = 4, vy_at = 5, omega_at = 6, inverse_mass_at = 7;
 
-  Real tick = 1;              ///< [m]; 7 pm where the largest disc has 0.3 mm
-  float padding_radius = 0;   ///< negative, so large that nothing touches a padding disc wherever it seems to be [m]
-  Field<std::uint32_t> rows;  ///< [discs][row], the bits of floats
+  Real tick = 1;                        ///< [m]; 0.9 pm where the largest disc has 0.3 mm
+  float padding_radius = 0;             ///< negative, so large that nothing touches a padding disc wherever it seems to be [m]
+  Field<std::uint32_t> places, motion;  ///< [discs][row], the bits of floats
 
   static constexpr double shift = 6755399441055744.0;  // 1.5 2^52
   static Real tick_for(Real largest_diameter);
@@ -83,15 +43,22 @@ struct DiscMirror {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION float* numbers() const { return reinterpret_cast<float*>(rows.data()); }
+  /// Whether places so far apart [m] are told from each other, with a quarter of the ticks to spare for what moves until rows are
+  /// listed anew.
+  bool reaches(Real distance) const { return distance < 0x1.8p30 * tick; }
 
-  /// The rows of the discs j[0 .. lanes), and their halves.
-  KOKKOS_FORCEINLINE_FUNCTION RowsOfDiscs gather(int const* j) const;
+  KOKKOS_FORCEINLINE_FUNCTION static float* numbers(Field<std::uint32_t> const& table) {
+    return reinterpret_cast<float*>(table.data());
+  }
+
+  /// The rows of the discs j[0 .. lanes).
   KOKKOS_FORCEINLINE_FUNCTION PlacesOfDiscs gather_places(int const* j) const;
   KOKKOS_FORCEINLINE_FUNCTION MotionOfDiscs gather_motion(int const* j) const;
   /// The rows of the discs first .. first + lanes, `first` a multiple of the lanes.
-  KOKKOS_FORCEINLINE_FUNCTION RowsOfDiscs load(std::size_t first) const;
-  KOKKOS_FORCEINLINE_FUNCTION void store(std::size_t first, RowsOfDiscs const& rows_of_discs) const;
+  KOKKOS_FORCEINLINE_FUNCTION PlacesOfDiscs load_places(std::size_t first) const;
+  KOKKOS_FORCEINLINE_FUNCTION MotionOfDiscs load_motion(std::size_t first) const;
+  KOKKOS_FORCEINLINE_FUNCTION void store(std::size_t first, PlacesOfDiscs const& places_of_discs) const;
+  KOKKOS_FORCEINLINE_FUNCTION void store(std::size_t first, MotionOfDiscs const& motion_of_discs) const;
 };
 
 }  // namespace clathra
@@ -156,7 +123,7 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real
 #else
   FloatLanes bits(0);
   for (int l = 0; l < lane_count_of<float>; ++l)
-    set_lane(bits, l, from_bits_of_one(DiscMirror::ticks(lane(place.of[l / lane_count], l % lane_count), per_tick)));
+    set_lane(bits, l, from_bits(DiscMirror::ticks(lane(place.of[l / lane_count], l % lane_count), per_tick)));
   return bits;
 #endif
 }

@@ -2,42 +2,52 @@
 /// How the contact kernel reads discs and writes their accounts, in either precision.
 #include <type_traits>
 
-#include "kernels/history.hpp"
+#include "kernels/particles.hpp"
 
 namespace clathra {
 
-/// @tparam P  FullPrecision or MixedPrecision;  @tparam Masses  whether masses are read
-template <class P, bool Masses>
+/// @tparam P  FullPrecision or MixedPrecision;  @tparam Motion,Masses  whether velocities and masses are read
+template <class P, bool Motion, bool Masses>
 struct DiscReader {
   using R = typename P::Real;
   using V = LanesOf<R>;
   using VMask = MaskOf<V>;
   static constexpr bool mixed = P::precision == Precision::mixed;
+  static constexpr bool moves = Motion;
   static constexpr int lanes = lane_count_of<R>;
 
   /// Places, which only their differences are taken of.
   using Places = std::conditional_t<mixed, IntLanes, Lanes>;
 
+  /// How discs move.
+  struct MotionOf {
+    V vx, vy, omega, inverse_mass;
+  };
   /// The discs of a group.
   struct Own {
     Places x, y;
-    V vx, vy, omega, radius, inverse_mass;
+    V radius, turn;
+    MotionOf motion;  ///< where it is read
   };
   KOKKOS_FORCEINLINE_FUNCTION static Own own(ParticleSoA const& p, std::size_t first) {
     if constexpr (mixed) {
-      RowsOfDiscs const rows = p.mirror.load(first);
-      return {bits_of(rows.places.x), bits_of(rows.places.y), rows.motion.vx,          rows.motion.vy,
-              rows.places.omega,      rows.places.radius,     rows.motion.inverse_mass};
+      PlacesOfDiscs const at = p.mirror.load_places(first);
+      if constexpr (Motion) return {bits_of(at.x), bits_of(at.y), at.radius, at.turn, own_motion(p, first)};
+      return {bits_of(at.x), bits_of(at.y), at.radius, at.turn, {}};
     } else if constexpr (for_gpu) {
       DiscRow const& row = p.disc_rows.of(static_cast<int>(first));
-      return {row.x, row.y, row.vx, row.vy, row.omega, row.radius, Masses ? load(p.inverse_mass.data<R>() + first) : V(0)};
+      V const inverse_mass = Masses ? load(p.inverse_mass.data<R>() + first) : V(0);
+      return {row.x, row.y, row.radius, V(0), {row.vx, row.vy, row.omega, inverse_mass}};
     } else {
-      return {load(&p.x(first)),
-              load(&p.y(first)),
-              load(p.vx.data<R>() + first),
-              load(p.vy.data<R>() + first),
-              load(p.omega.data<R>() + first),
-              load(&p.radius(first)),
+      return {load(&p.x(first)), load(&p.y(first)), load(&p.radius(first)), V(0), own_motion(p, first)};
+    }
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static MotionOf own_motion(ParticleSoA const& p, std::size_t first) {
+    if constexpr (mixed) {
+      MotionOfDiscs const m = p.mirror.load_motion(first);
+      return {m.vx, m.vy, m.omega, m.inverse_mass};
+    } else {
+      return {load(p.vx.data<R>() + first), load(p.vy.data<R>() + first), load(p.omega.data<R>() + first),
               Masses ? load(p.inverse_mass.data<R>() + first) : V(0)};
     }
   }
@@ -46,51 +56,38 @@ struct DiscReader {
   /// exact to half a tick at either end and then rounded once, and radii [m].
   struct Other {
     V dx, dy, radius;
+    Places ticks_x, ticks_y;  ///< mixed precision: branches before they are rounded
+    V turn;                   ///< likewise: ParticleSoA::turn
   };
-  struct OtherMotion {
-    V vx, vy, omega, inverse_mass;
-  };
-  /// @param wanted  whether the motion is needed for sure: in mixed precision it is read along;  @param motion  set then
-  KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own, [[maybe_unused]] bool wanted,
-                                                 [[maybe_unused]] OtherMotion& motion) {
+  KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own) {
     if constexpr (mixed) {
-      PlacesOfDiscs at;
-      if (wanted) {
-        RowsOfDiscs const rows = p.mirror.gather(j);
-        at = rows.places;
-        motion = {rows.motion.vx, rows.motion.vy, at.omega, rows.motion.inverse_mass};
-      } else {
-        at = p.mirror.gather_places(j);
-        motion.omega = at.omega;
-      }
-      return {to_float(difference(bits_of(at.x), own.x)), to_float(difference(bits_of(at.y), own.y)), at.radius};
+      PlacesOfDiscs const at = p.mirror.gather_places(j);
+      Places const dx = difference(bits_of(at.x), own.x), dy = difference(bits_of(at.y), own.y);
+      return {to_float(dx), to_float(dy), at.radius, dx, dy, at.turn};
     } else if constexpr (for_gpu) {
       DiscRow const& row = p.disc_rows.of(*j);
-      return {row.x - own.x, row.y - own.y, row.radius};
+      return {row.x - own.x, row.y - own.y, row.radius, {}, {}, V(0)};
     } else {
-      return {gather(p.x.data(), j) - own.x, gather(p.y.data(), j) - own.y, gather(p.radius.data(), j)};
+      return {gather(p.x.data(), j) - own.x, gather(p.y.data(), j) - own.y, gather(p.radius.data(), j), Lanes(0), Lanes(0), V(0)};
     }
   }
-  /// Sets what other() has not.
-  KOKKOS_FORCEINLINE_FUNCTION static void complete(ParticleSoA const& p, int const* j, [[maybe_unused]] bool wanted,
-                                                   OtherMotion& motion) {
+  KOKKOS_FORCEINLINE_FUNCTION static MotionOf other_motion(ParticleSoA const& p, int const* j) {
     if constexpr (mixed) {
-      if (wanted) return;
       MotionOfDiscs const read = p.mirror.gather_motion(j);
-      motion = {read.vx, read.vy, motion.omega, read.inverse_mass};
+      return {read.vx, read.vy, read.omega, read.inverse_mass};
     } else if constexpr (for_gpu) {
       DiscRow const& row = p.disc_rows.of(*j);
-      motion = {row.vx, row.vy, row.omega, Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
+      return {row.vx, row.vy, row.omega, Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
     } else {
-      motion = {gather(p.vx.data<R>(), j), gather(p.vy.data<R>(), j), gather(p.omega.data<R>(), j),
-                Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
+      return {gather(p.vx.data<R>(), j), gather(p.vy.data<R>(), j), gather(p.omega.data<R>(), j),
+              Masses ? gather(p.inverse_mass.data<R>(), j) : V(0)};
     }
   }
 
   /// The square of a branch; one of ticks is a little more than zero, for the same reason as distance_of().
   KOKKOS_FORCEINLINE_FUNCTION static V squared(V const& dx, V const& dy) {
     if constexpr (mixed)
-      return times_plus(dx, dx, times_plus(dy, dy, constant<V>(1e-30)));
+      return times_plus(dx, dx, times_plus(dy, dy, constant<V>(1e-12)));
     else
       return dx * dx + dy * dy;
   }
@@ -101,12 +98,11 @@ struct DiscReader {
     else
       return lane_max(lane_sqrt(distance2), constant<V>(1e-30));
   }
-  /// A length [m] in what branches count in.
-  KOKKOS_FORCEINLINE_FUNCTION static V as_branch(V const& length, [[maybe_unused]] R per_tick) {
-    if constexpr (mixed)
-      return length * per_tick;
-    else
-      return length;
+  /// The square of a reach [m] in what branches count in; below zero for a padding disc, whose radius is.
+  KOKKOS_FORCEINLINE_FUNCTION static V squared_reach(V const& reach, [[maybe_unused]] R per_tick) {
+    if constexpr (!mixed) return reach * reach;
+    V const of_branch = reach * per_tick;
+    return of_branch * lane_abs(of_branch);
   }
   /// reach - distance [m]
   /// @param distance  in what branches count in
@@ -125,7 +121,10 @@ struct DiscReader {
     std::size_t const i = wanted < last ? wanted : last;
     if constexpr (mixed) {
       constexpr int lines = static_cast<int>(lanes * DiscMirror::row * sizeof(float) / 64);
-      for (int line = 0; line < lines; ++line) prefetch(p.mirror.numbers() + i * DiscMirror::row + line * 16);
+      for (int line = 0; line < lines; ++line) {
+        prefetch(DiscMirror::numbers(p.mirror.places) + i * DiscMirror::row + line * 16);
+        if constexpr (Motion) prefetch(DiscMirror::numbers(p.mirror.motion) + i * DiscMirror::row + line * 16);
+      }
     } else {
       prefetch(&p.x(i));
       prefetch(&p.y(i));

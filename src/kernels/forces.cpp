@@ -1,7 +1,5 @@
 #include "kernels/forces.hpp"
 
-#include <cmath>
-
 namespace clathra {
 
 namespace {
@@ -27,27 +25,6 @@ struct SetBondWidths {
 };
 
 }  // namespace
-
-HistoryFormat history_format(Precision precision, ContactLaws const& laws, Real largest_radius) {
-  HistoryFormat format;
-  format.precision = precision;
-  if (precision == Precision::full) return format;
-  bool const bonds = laws.bond_kind != BondKind::none;
-  Real const stiffness =
-      bonds ? lane_max(laws.grain.normal_stiffness, laws.bond.particle_stiffness) : laws.grain.normal_stiffness;
-  Real const force = stiffness * largest_radius;
-  Real moment = lane_max(laws.grain.shape_factor, Real(1)) * force * largest_radius / 6;
-  if (bonds) {
-    constexpr Real one_radian = 1;
-    ContactStiffness<Real> const widest =
-        laws.bond.stiffness(laws.bond.width(largest_radius, Real(0)), laws.bond.plate_thickness);
-    moment = lane_max(moment, widest.rolling * one_radian);
-  }
-  auto const unit = [](Real most) { return std::ldexp(Real(1), std::ilogb(most) + 1) / most_units; };
-  format.force_unit = unit(force);
-  format.moment_unit = unit(moment);
-  return format;
-}
 
 void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law) {
   HistoryFormat const& format = rows.features.format;

@@ -18,12 +18,6 @@ struct ContactLaws {
   bool ledger = false;
 };
 
-/// How rows keep what contacts under these laws remember. In mixed precision the units leave room, twice over, for the force of a
-/// grain contact whose disc has its centre in the other and for the moment of a bond that is bent by a radian. What is beyond
-/// that is a fault (Fault::out_of_range), found at the next neighbour search: there is room for twice as much before a number
-/// wraps.
-HistoryFormat history_format(Precision precision, ContactLaws const& laws, Real largest_radius);
-
 /// Derives what the rows keep beside the history. To be called after a neighbour search and whenever history or law changed.
 void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const& law);
 

@@ -1,7 +1,5 @@
 #pragma once
 /// The contact law of unbonded grains: normal, shear and rolling (seed paper, Eq. 8).
-#include <cmath>
-
 #include "kernels/contact_law.hpp"
 
 namespace clathra {
@@ -24,14 +22,6 @@ using GrainLaw = GrainLawOf<Real>;
 template <class R>
 GrainLawOf<R> in_numbers(GrainLaw const& law) {
   return {R(law.normal_stiffness), R(law.shear_stiffness), R(law.friction), R(law.shape_factor), R(law.damping_ratio)};
-}
-
-/// The same law where forces count in `unit` [N/m] and lengths in metres.
-inline GrainLaw in_force_units(GrainLaw law, Real unit) {
-  law.normal_stiffness /= unit;
-  law.shear_stiffness /= unit;
-  law.damping_ratio /= std::sqrt(unit);  // dashpot_coefficient() is its product with sqrt(k_n)
-  return law;
 }
 
 /// Rolling stiffness k_m = k_n B_c^2 / 12 [N m/rad per m] of a contact with the given common radius [m].

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "kernels/anchor.hpp"
 #include "kernels/verlet_skin.hpp"
 
 namespace clathra {
@@ -102,10 +103,15 @@ struct KickAndDriftMixed : Moving {
   using V = FloatLanes;
 
   KOKKOS_FORCEINLINE_FUNCTION V step(MotionConstants<R> const& by, std::size_t i) const {
-    RowsOfDiscs rows = p.mirror.load(i);
+    PlacesOfDiscs places = p.mirror.load_places(i);
+    MotionOfDiscs motion = p.mirror.load_motion(i);
     fetch_ahead(i);
-    V &vx = rows.motion.vx, &vy = rows.motion.vy, &omega = rows.places.omega;
-    V const inverse_mass = rows.motion.inverse_mass, inverse_inertia = rows.motion.inverse_inertia;
+    V &vx = motion.vx, &vy = motion.vy, &omega = motion.omega;
+    V const inverse_mass = motion.inverse_mass, inverse_inertia = load(p.inverse_inertia.data<float>() + i);
+    if (auto const far = has_turned_far(places.turn); any(far)) {
+      count_on(far, i);
+      places.turn = counted_on(places.turn);
+    }
     LanesOfHalves x = load_halves(&p.x(i)), y = load_halves(&p.y(i));
     V const frame_x = frame_velocity(x, by.frame.centre_x, by.frame.gradient_x, by.frame.drift_x),
             frame_y = frame_velocity(y, by.frame.centre_y, by.frame.gradient_y, by.frame.drift_y);
@@ -119,12 +125,13 @@ struct KickAndDriftMixed : Moving {
       vx += select(free, V(by.pull_x), V(0));
       vy += select(free, V(by.pull_y), V(0));
     }
-    move(&p.angle(i), load_halves(&p.angle(i)), omega, by.drift);
+    places.turn = times_plus(omega, V(static_cast<R>(by.drift)), places.turn);
     x = move(&p.x(i), x, vx, by.drift);
     y = move(&p.y(i), y, vy, by.drift);
-    rows.places.x = ticks_of(x, by.per_tick);
-    rows.places.y = ticks_of(y, by.per_tick);
-    p.mirror.store(i, rows);
+    places.x = ticks_of(x, by.per_tick);
+    places.y = ticks_of(y, by.per_tick);
+    p.mirror.store(i, places);
+    p.mirror.store(i, motion);
     if constexpr (Ledger) book(lost_to_damping, i, lost);
     // At least the way: more by a millionth than its rounding takes away. No number where a spin or a place is none, whose frame
     // has no velocity either.
@@ -149,14 +156,22 @@ struct KickAndDriftMixed : Moving {
     return times_plus(V(static_cast<R>(gradient)), in_single(from_centre), V(static_cast<R>(drift)));
   }
 
+  /// Their pairs have been anchored anew: the discs count their turns from now on.
+  CLATHRA_COLD_FUNCTION void count_on(MaskOf<V> const& far, std::size_t i) const {
+    for_each_set(far, [&](int l) { p.angle(i + static_cast<std::size_t>(l)) += p.turn(static_cast<int>(i) + l); });
+  }
+
   /// Rows of discs that come later, backwards (docs/performance.md).
   KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(std::size_t i) const {
     constexpr std::size_t discs_ahead = 256, numbers_a_line = 16;
-    float const* const wanted = p.mirror.numbers() + DiscMirror::row * (i >= discs_ahead ? i - discs_ahead : 0);
-    for (std::size_t n = 0; n < DiscMirror::row * lane_count_of<R>; n += numbers_a_line) prefetch(wanted + n);
+    std::size_t const wanted = DiscMirror::row * (i >= discs_ahead ? i - discs_ahead : 0);
+    for (std::size_t n = 0; n < DiscMirror::row * lane_count_of<R>; n += numbers_a_line) {
+      prefetch(DiscMirror::numbers(p.mirror.places) + wanted + n);
+      prefetch(DiscMirror::numbers(p.mirror.motion) + wanted + n);
+    }
   }
 
-  /// Moves places (or angles) on and stores them.
+  /// Moves places on and stores them.
   KOKKOS_FORCEINLINE_FUNCTION static LanesOfHalves move(double* to, LanesOfHalves places, V const& velocity, Real drift) {
     LanesOfHalves const rate = in_double(velocity);
     for (int h = 0; h < halves; ++h) {

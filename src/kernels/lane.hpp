@@ -106,6 +106,10 @@ KOKKOS_FORCEINLINE_FUNCTION float lane_min(float a, float b) { return a < b ? a 
 /// number.
 KOKKOS_FORCEINLINE_FUNCTION double times_plus(double a, double b, double c) { return a * b + c; }
 KOKKOS_FORCEINLINE_FUNCTION float times_plus(float a, float b, float c) { return ::fmaf(a, b, c); }
+/// times_plus() where the mask is set, else 0.
+KOKKOS_FORCEINLINE_FUNCTION float times_plus_where(bool mask, float a, float b, float c) {
+  return mask ? times_plus(a, b, c) : 0;
+}
 /// a b + c rounded once, of double precision too: in what mixed precision alone computes.
 KOKKOS_FORCEINLINE_FUNCTION double fused_times_plus(double a, double b, double c) { return ::fma(a, b, c); }
 /// c - a b, as times_plus().
@@ -227,6 +231,17 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes times_plus(FloatLanes const& a, FloatLane
 }
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes minus_times(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
   return fused<true>(a, b, c);
+}
+/// times_plus() where the mask is set, else 0.
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes times_plus_where(MaskOf<FloatLanes> const& mask, FloatLanes const& a, FloatLanes const& b,
+                                                        FloatLanes const& c) {
+#if defined(__AVX512F__)
+  auto const x = static_cast<PlainVector<float>>(a), y = static_cast<PlainVector<float>>(b),
+             z = static_cast<PlainVector<float>>(c);
+  return FloatLanes(PlainVector<float>(_mm512_maskz_fmadd_ps(static_cast<__mmask16>(stdx::__data(mask)), x, y, z)));
+#else
+  return select(mask, times_plus(a, b, c), FloatLanes(0));
+#endif
 }
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(double const* from) { return Lanes(from, stdx::element_aligned); }
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes load(float const* from) { return FloatLanes(from, stdx::element_aligned); }

@@ -125,31 +125,22 @@ struct CarryHistory {
   Field<int> source;
   int entries_here;
   T empty;
-  Field<int> neighbour, id;
-  Faults faults;
   KOKKOS_FUNCTION void operator()(int e) const {
     int const from = source(e);
-    T const value = from < 0 ? empty : from < entries_here ? here(from) : arrived(from - entries_here);
-    to(e) = value;
-    if constexpr (std::is_integral_v<T>) {
-      constexpr T most = static_cast<T>(most_units);
-      if (value > most || value < -most) faults.report(Fault::out_of_range, id(neighbour(e)));
-    }
+    to(e) = from < 0 ? empty : from < entries_here ? here(from) : arrived(from - entries_here);
   }
 };
 
 /// Brings the history of the old rows into the order of `found`, field by field through the storage that the one before left
 /// free, so that a search needs room for one field and not for a second set of rows.
-void carry_history(OldRows& old, ContactRows& found, Field<int> const& source, Field<int> const& id, Faults const& faults,
-                   Scratch& scratch) {
+void carry_history(OldRows& old, ContactRows& found, Field<int> const& source, Scratch& scratch) {
   auto const carry = [&](HistoryField const& about, RealField& field, RealField const& arrived) {
     RealField const to =
         scratch.take_reals(about.name, found.neighbour.extent(0), kept(old.here.features.format, about.quantity));
     visit_as_kept(to, [&]<class T>(Field<T> const& numbers) {
       T const empty = std::is_same_v<T, float> ? static_cast<T>(RealField::to_single(about.empty)) : static_cast<T>(about.empty);
-      Kokkos::parallel_for(
-          "carry_history", Kokkos::RangePolicy<ExecutionSpace>(0, found.entries),
-          CarryHistory<T>{field.as<T>(), arrived.as<T>(), numbers, source, old.entries_here, empty, found.neighbour, id, faults});
+      Kokkos::parallel_for("carry_history", Kokkos::RangePolicy<ExecutionSpace>(0, found.entries),
+                           CarryHistory<T>{field.as<T>(), arrived.as<T>(), numbers, source, old.entries_here, empty});
     });
     field = to;
   };
@@ -265,7 +256,7 @@ SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& rea
     source = scratch.take<int>("rows.source", size);
     Kokkos::parallel_for("fill_rows", light_launch(slices * format.slice_width()), FillRows{search, lists.found, found, source});
   }
-  carry_history(old, found, source, particles.id, faults, scratch);
+  carry_history(old, found, source, scratch);
   rows = found;
   return needed;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// One pair of discs as it stands after a step: what measurements, files and the stability analysis read.
-#include "kernels/forces.hpp"
+#include "kernels/history_forces.hpp"
 
 namespace clathra {
 
@@ -45,10 +45,9 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   bool const separate = laws.bond_kind == BondKind::parallel;
   s.bonded = laws.bond_kind != BondKind::none && is_bonded(rows.formation_overlap(e));
   Real const common = common_radius(p.radius(i), p.radius(s.other));
-  Real const moment = rows.moment.extent(0) > 0 ? rows.moment(e) : 0;
+  HistoryForces const kept = history_forces(p, rows, laws, i, e);
   if (s.touching && (!s.bonded || separate)) {
-    ContactForce<Real> const grain{spring_force(laws.grain, s.overlap), rows.shear.extent(0) > 0 ? Real(rows.shear(e)) : 0,
-                                   moment};
+    ContactForce<Real> const grain{spring_force(laws.grain, s.overlap), kept.shear, kept.moment};
     s.normal = grain.normal;
     s.shear = grain.shear;
     s.moment = grain.moment;
@@ -57,9 +56,8 @@ KOKKOS_INLINE_FUNCTION PairState pair_state(ParticleSoA const& p, ContactRows co
   }
   if (s.bonded) {
     ContactMotion<Real> const still{s.overlap, 0, 0, 0, common};
-    BondForce<Real> const bond =
-        bond_contact(laws.bond, still, Real(rows.formation_overlap(e)), Real(rows.width(e)),
-                     Real(separate ? rows.bond_shear(e) : rows.shear(e)), separate ? Real(rows.bond_moment(e)) : moment);
+    BondForce<Real> const bond = bond_contact(laws.bond, still, Real(rows.formation_overlap(e)), Real(rows.width(e)),
+                                              separate ? kept.bond_shear : kept.shear, separate ? kept.bond_moment : kept.moment);
     s.width = bond.width;
     s.thickness = bond.thickness;
     s.bond_normal = bond.force.normal, s.bond_shear = bond.force.shear, s.bond_moment = bond.force.moment;

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "kernels/anchor.hpp"
+
 namespace clathra {
 
 namespace {
@@ -34,9 +36,9 @@ struct UpdateMirror {
   KOKKOS_FUNCTION void operator()(int k) const {
     auto const i = static_cast<std::size_t>(first + k);
     bool const padding = first + k >= p.owned + p.ghosts;
-    float* const row = p.mirror.numbers() + DiscMirror::row * i;
-    row[0] = from_bits_of_one(padding ? 0 : DiscMirror::ticks(p.x(i), per_tick));
-    row[1] = from_bits_of_one(padding ? 0 : DiscMirror::ticks(p.y(i), per_tick));
+    float* const row = DiscMirror::numbers(p.mirror.places) + DiscMirror::row * i;
+    row[0] = from_bits(padding ? 0 : DiscMirror::ticks(p.x(i), per_tick));
+    row[1] = from_bits(padding ? 0 : DiscMirror::ticks(p.y(i), per_tick));
     row[2] = padding ? p.mirror.padding_radius : static_cast<float>(p.radius(i));
   }
 };
@@ -63,6 +65,15 @@ struct AddAffineVelocity {
   }
 };
 
+struct CountTurnsOn {
+  ParticleSoA p;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    auto const turn = static_cast<float>(p.turn(i));
+    p.angle(i) += turn - counted_on(turn);
+    p.turn.set(i, counted_on(turn));
+  }
+};
+
 struct ScalePositions {
   ParticleSoA p;
   Real factor;
@@ -76,7 +87,7 @@ struct ScalePositions {
 }  // namespace
 
 Real DiscMirror::tick_for(Real largest_diameter) {
-  return largest_diameter > 0 ? std::ldexp(Real(1), std::ilogb(largest_diameter) - 25) : 1;
+  return largest_diameter > 0 ? std::ldexp(Real(1), std::ilogb(largest_diameter) - 28) : 1;
 }
 
 Real rounding_slack(ParticleSoA const& particles, Real largest_radius) {
@@ -87,30 +98,39 @@ Real rounding_slack(ParticleSoA const& particles, Real largest_radius) {
 
 namespace {
 
-/// Takes these rows for the mirror, and its columns for the fields that have their place in it.
-void set_mirror(ParticleSoA& particles, Field<std::uint32_t> const& rows) {
-  particles.mirror.rows = rows;
+using MirrorTable = Field<std::uint32_t>;
+/// Takes these tables for the mirror, and their columns for the fields that have their place there.
+void set_mirror(ParticleSoA& particles, MirrorTable const& places, MirrorTable const& motion) {
+  particles.mirror.places = places;
+  particles.mirror.motion = motion;
+  constexpr int columns = DiscMirror::row;
   for_each_field(particles, [&](DiscField const& about, auto& field) {
     if constexpr (std::is_same_v<std::decay_t<decltype(field)>, RealField>)
-      if (about.mirror_at >= 0) field = RealField::column(rows, DiscMirror::row, about.mirror_at);
+      if (about.mirror_at >= 0)
+        field = RealField::column(about.mirror_at < columns ? places : motion, columns, about.mirror_at % columns);
   });
 }
 
 struct GatherRows {
-  Field<std::uint32_t> from, to;
+  MirrorTable places, motion, to_places, to_motion;
   Field<int> order;
   KOKKOS_FUNCTION void operator()(int i) const {
-    for (std::size_t n = 0; n < DiscMirror::row; ++n)
-      to(DiscMirror::row * static_cast<std::size_t>(i) + n) = from(DiscMirror::row * static_cast<std::size_t>(order(i)) + n);
+    std::size_t const to = DiscMirror::row * static_cast<std::size_t>(i),
+                      from = DiscMirror::row * static_cast<std::size_t>(order(i));
+    for (std::size_t n = 0; n < DiscMirror::row; ++n) {
+      to_places(to + n) = places(from + n);
+      to_motion(to + n) = motion(from + n);
+    }
   }
 };
 
 void permute_mirror(ParticleSoA& particles, Field<int> const& order, Scratch& scratch) {
   if (particles.precision == Precision::full) return;
-  Field<std::uint32_t> const rows = take_like(scratch, particles.mirror.rows, "mirror", particles.mirror.rows.extent(0));
+  auto const room = [&](MirrorTable const& table) { return take_like(scratch, table, "mirror", table.extent(0)); };
+  MirrorTable const places = room(particles.mirror.places), motion = room(particles.mirror.motion);
   Kokkos::parallel_for("permute_mirror", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                       GatherRows{particles.mirror.rows, rows, order});
-  set_mirror(particles, rows);
+                       GatherRows{particles.mirror.places, particles.mirror.motion, places, motion, order});
+  set_mirror(particles, places, motion);
 }
 
 }  // namespace
@@ -124,6 +144,7 @@ ParticleSoA allocate_particles(int discs, Precision precision, Real largest_radi
     field = RealField("", 0, format);
   };
   for_each_force(particles, choose);
+  choose({}, particles.inverse_inertia);
   reserve(particles, discs);
   particles.owned = discs;
   fill_padding(particles);
@@ -149,9 +170,12 @@ void reserve(ParticleSoA& particles, int discs) {
     update_disc_rows(particles, 0, particles.owned);
     return;
   }
-  Field<std::uint32_t> const larger("mirror", DiscMirror::row * size);
-  if (kept_discs > 0) copy_first(particles.mirror.rows, larger, DiscMirror::row * kept_discs);
-  set_mirror(particles, larger);
+  auto const larger = [&](char const* name, MirrorTable const& table) {
+    MirrorTable const rows(std::string(name), DiscMirror::row * size);
+    if (kept_discs > 0) copy_first(table, rows, DiscMirror::row * kept_discs);
+    return rows;
+  };
+  set_mirror(particles, larger("mirror.places", particles.mirror.places), larger("mirror.motion", particles.mirror.motion));
 }
 
 void fill_padding(ParticleSoA const& particles) {
@@ -191,6 +215,20 @@ void scale_positions(ParticleSoA const& particles, Real factor, Coord fixed_x, C
   update_mirror(particles, 0, particles.owned);
 }
 
+void count_turns_on(ParticleSoA const& particles) {
+  if (particles.precision == Precision::full) return;
+  Kokkos::parallel_for("count_turns_on", Kokkos::RangePolicy<ExecutionSpace>(0, particles.all()), CountTurnsOn{particles});
+}
+
+std::vector<double> rotations(ParticleSoA const& particles) {
+  auto const size = static_cast<std::size_t>(particles.owned);
+  std::vector<double> angle = on_host(particles.angle, size);
+  if (particles.precision == Precision::full) return angle;
+  std::vector<double> const turn = on_host(particles.turn, size);
+  for (std::size_t i = 0; i < size; ++i) angle[i] += turn[i];
+  return angle;
+}
+
 void stop_motion(ParticleSoA const& particles) {
   for (RealField const& field : {particles.vx, particles.vy, particles.omega}) fill(field, 0);
   update_disc_rows(particles, 0, particles.all());
@@ -201,7 +239,7 @@ std::size_t bytes(ParticleSoA const& particles) {
   auto const count = [&](DiscField const&, auto const& field) { total += field_bytes(field); };
   for_each_field(particles, count);
   for_each_derived_field(particles, count);
-  return total + field_bytes(particles.mirror.rows) + particles.disc_rows.bytes();
+  return total + field_bytes(particles.mirror.places) + field_bytes(particles.mirror.motion) + particles.disc_rows.bytes();
 }
 
 }  // namespace clathra

@@ -1,6 +1,7 @@
 #pragma once
 /// The discs as a structure of arrays: the storage of record.
 #include <variant>
+#include <vector>
 
 #include "kernels/disc_mirror.hpp"
 #include "kernels/disc_rows.hpp"
@@ -20,12 +21,13 @@ struct ParticleSoA {
   int ghosts = 0;
   Field<int> id;
   Field<Coord> x, y;          ///< centre [m]
-  Field<Coord> angle;         ///< accumulated rotation [rad], never wrapped
+  Field<Coord> angle;         ///< accumulated rotation [rad], never wrapped; in mixed precision without `turn`
   RealField vx, vy;           ///< velocity half a step behind the position [m/s]
   RealField omega;            ///< angular velocity, likewise [rad/s]
   Field<Real> radius;         ///< [m]
   RealField inverse_mass;     ///< 1 / (pi r^2 rho) [m/kg]
   RealField inverse_inertia;  ///< 2 / (m r^2) [1/(kg m)]
+  RealField turn;             ///< mixed precision: the rotation since its pairs were last anchored anew for it [rad] (anchor.hpp)
   // Derived, not part of the state:
   RealField force_x, force_y;                ///< [N/m]
   RealField torque;                          ///< [N m/m]
@@ -67,7 +69,9 @@ KOKKOS_INLINE_FUNCTION void for_each_field(Particles&& p, Visit&& visit) {
   visit(DiscField{"omega", 0, true, DiscMirror::omega_at}, p.omega);
   visit(DiscField{"radius"}, p.radius);
   visit(DiscField{"inverse_mass", 0, false, DiscMirror::inverse_mass_at}, p.inverse_mass);
-  visit(DiscField{"inverse_inertia", 0, false, DiscMirror::inverse_inertia_at}, p.inverse_inertia);
+  visit(DiscField{"inverse_inertia"}, p.inverse_inertia);
+  if (p.precision == Precision::full) return;
+  visit(DiscField{"turn", 0, true, DiscMirror::turn_at}, p.turn);
 }
 
 /// Likewise what is computed from the state: the forces
@@ -151,6 +155,13 @@ AField permuted(AField const& field, Field<int> const& order, std::size_t size, 
   gather_field(field, to, order);
   return to;
 }
+
+/// In mixed precision: discs that have turned far count on from zero. Their pairs have been anchored for that by the forces; a
+/// step does it by itself.
+void count_turns_on(ParticleSoA const& particles);
+
+/// Accumulated rotations of the owned discs [rad], on the host.
+std::vector<double> rotations(ParticleSoA const& particles);
 
 /// Sets all velocities to zero.
 void stop_motion(ParticleSoA const& particles);

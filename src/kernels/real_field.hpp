@@ -10,18 +10,14 @@
 
 namespace clathra {
 
-enum class Storage : std::int8_t { as_double, as_float, as_fixed };
+enum class Storage : std::int8_t { as_double, as_float, as_int };
 
-/// How a number is kept, and what one of it is worth in fixed point.
+/// How a number is kept.
 struct NumberFormat {
   Storage storage = Storage::as_double;
-  double unit = 1;  ///< of fixed point: a power of two [the field's]
   bool operator==(NumberFormat const&) const = default;
   KOKKOS_INLINE_FUNCTION int bytes() const { return storage == Storage::as_double ? 8 : 4; }
 };
-
-/// Histories in fixed point stay within this many units, so that a step's part can be added without a wrap.
-inline constexpr double most_units = 1073741824;  // 2^30
 
 /// A field of reals, read and written in double precision whatever it is kept in.
 class RealField {
@@ -59,7 +55,7 @@ class RealField {
       case Storage::as_float:
         return from_single(data<float>()[place(i)]);
       default:
-        return data<std::int32_t>()[i] * format_.unit;
+        return data<std::int32_t>()[i];
     }
   }
   KOKKOS_INLINE_FUNCTION double operator()(int i) const { return (*this)(static_cast<std::size_t>(i)); }
@@ -67,7 +63,7 @@ class RealField {
   KOKKOS_FORCEINLINE_FUNCTION double of_single(int i) const {
     return from_single(data<float>()[place(static_cast<std::size_t>(i))]);
   }
-  /// A number beyond single precision is kept as infinite, one beyond fixed point as the largest; no_bond as its own mark.
+  /// A number beyond single precision is kept as infinite, no_bond as its own mark.
   KOKKOS_INLINE_FUNCTION void set(std::size_t i, double value) const {
     switch (format_.storage) {
       case Storage::as_double:
@@ -76,10 +72,8 @@ class RealField {
       case Storage::as_float:
         data<float>()[place(i)] = to_single(value);
         break;
-      default: {
-        double const units = lane_max(-most_units, lane_min(most_units, value / format_.unit));
-        data<std::int32_t>()[i] = static_cast<std::int32_t>(units + (units < 0 ? -0.5 : 0.5));
-      }
+      default:
+        data<std::int32_t>()[i] = static_cast<std::int32_t>(value);
     }
   }
   KOKKOS_INLINE_FUNCTION void set(int i, double value) const { set(static_cast<std::size_t>(i), value); }

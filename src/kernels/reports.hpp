@@ -63,8 +63,8 @@ inline std::size_t bytes(BreakLog const& log) {
 }
 
 /// What can go wrong inside a kernel. Each holds the largest id of a disc that met it, or -1.
-enum class Fault { not_finite = 0, deep_overlap = 1, row_overflow = 2, out_of_range = 3 };
-inline constexpr int fault_count = 4;
+enum class Fault { not_finite = 0, deep_overlap = 1, row_overflow = 2 };
+inline constexpr int fault_count = 3;
 
 struct Faults {
   Field<int> disc;  ///< [fault_count]

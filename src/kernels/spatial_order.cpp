@@ -20,7 +20,7 @@ struct WorkOfSlots {
     for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k) {
       std::size_t const e = (static_cast<std::size_t>(k) << shift) | static_cast<std::size_t>(begin & ((1 << shift) - 1));
       Mask marked(false);
-      if (shear) marked = load(rows.shear, e) != Lanes(0);
+      if (shear) marked = load(rows.shear, e) != Lanes(no_force(rows.features.format));
       if (bonds) marked = marked || is_bonded(load(rows.formation_overlap, e));
       carrying += select(marked, Lanes(1), Lanes(0));
     }

@@ -50,7 +50,7 @@ struct StepOrders {
   bool host_goes_along = true;  ///< the host has a part in each step: other ranks, images of discs, a search
 };
 
-inline constexpr int numbers_of_survey = 16;
+inline constexpr int numbers_of_survey = 15;
 
 /// The longest of all discs.
 struct Ways {

@@ -54,7 +54,7 @@ struct WallForces : ReactionSums {
     int const i = contacts.disc(c + discs_ahead < contacts.size ? c + discs_ahead : contacts.size - 1);
     for (auto const& field : {&p.x, &p.y, &p.radius}) prefetch(&(*field)(i));
     if (p.precision == Precision::mixed) {
-      if (needs_motion()) prefetch(p.mirror.numbers() + static_cast<std::size_t>(i) * DiscMirror::row);
+      if (needs_motion()) prefetch(DiscMirror::numbers(p.mirror.motion) + static_cast<std::size_t>(i) * DiscMirror::row);
       for (auto const& field : {&p.force_x, &p.force_y}) prefetch(field->data<float>() + i);
     } else {
       for (auto const& field : {&p.vx, &p.vy, &p.omega, &p.force_x, &p.force_y}) prefetch(field->data<Real>() + i);

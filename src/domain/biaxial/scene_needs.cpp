@@ -25,7 +25,7 @@ void add_discs(Scene const& scene, Precision precision, std::vector<NeededField>
     fields.push_back({about.name, bytes_of(field, precision), FieldOf::disc, every_scene});
   };
   if (precision == Precision::mixed)
-    fields.push_back({"mirror", static_cast<int>(DiscMirror::row * sizeof(float)), FieldOf::disc, "run.precision"});
+    fields.push_back({"mirror", static_cast<int>(2 * DiscMirror::row * sizeof(float)), FieldOf::disc, "run.precision"});
   if (for_gpu && precision == Precision::full)
     fields.push_back({"disc_rows", static_cast<int>(sizeof(DiscRow)), FieldOf::disc, "run.precision on a GPU"});
   for_each_field(particles, state);
@@ -54,7 +54,8 @@ void add_entries(SimulationLaws const& laws, std::vector<NeededField>& fields) {
                                                 {"moment", laws.features().rolling ? "grains.shape_factor" : hydrate},
                                                 {"formation_overlap", hydrate},
                                                 {"bond_shear", "bond.composite"},
-                                                {"bond_moment", "bond.composite"}};
+                                                {"bond_moment", "bond.composite"},
+                                                {"anchor", "run.precision"}};
   ContactRows rows;
   HistoryFormat format;
   format.precision = laws.precision;

@@ -38,7 +38,8 @@ void copy_discs(Snapshot& s, Simulation const& simulation) {
   s.x = listed<double>(p.x, n);
   s.y = listed<double>(p.y, n);
   s.radius = listed<float>(p.radius, n);
-  s.angle = listed<float>(p.angle, n);
+  std::vector<double> const rotation = rotations(p);
+  s.angle.assign(rotation.begin(), rotation.end());
   s.vx = listed<float>(p.vx, n);
   s.vy = listed<float>(p.vy, n);
   s.omega = listed<float>(p.omega, n);

@@ -91,8 +91,9 @@ struct UnpackCompanion {
 };
 
 /// How many numbers a record has for the state of its disc, the id among them.
-int state_columns() {
-  ParticleSoA const none;
+int state_columns(Precision precision) {
+  ParticleSoA none;
+  none.precision = precision;
   int count = 0;
   for_each_field(none, [&](DiscField const&, auto const&) { ++count; });
   return count;
@@ -121,7 +122,8 @@ std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) 
 
 RecordColumns record_columns(AuxiliaryFields const& auxiliary, ContactFeatures const& features) {
   RecordColumns columns;
-  ParticleSoA const none;
+  ParticleSoA none;
+  none.precision = features.format.precision;
   for_each_field(none, [&](DiscField const& about, auto const&) { columns.discs.emplace_back(about.name); });
   columns.discs.erase(columns.discs.begin());  // the id stands for itself
   for (AuxiliaryField const& field : auxiliary) columns.discs.emplace_back(field.name);
@@ -134,7 +136,7 @@ RecordColumns record_columns(AuxiliaryFields const& auxiliary, ContactFeatures c
 DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows,
                        std::vector<int> const& which) {
   auto const others = static_cast<int>(auxiliary.size());
-  int const state = state_columns(), entry = 1 + history_columns(rows.features);
+  int const state = state_columns(particles.precision), entry = 1 + history_columns(rows.features);
   auto const n = static_cast<int>(which.size());
   Field<int> const indices = on_device("packed", which), length = uninitialised<int>("packed_lengths", which.size());
   Kokkos::RangePolicy<ExecutionSpace> const each(0, n);
@@ -199,7 +201,7 @@ ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures con
   ContactRows rows;
   rows.features = features;
   auto const others = static_cast<int>(auxiliary.size());
-  int const state = state_columns(), columns = state + others, histories = history_columns(features);
+  int const state = state_columns(particles.precision), columns = state + others, histories = history_columns(features);
   std::vector<std::int64_t> begin;
   auto const slice_width = static_cast<std::size_t>(features.format.slice_width());
   std::vector<int> slice_start{0};

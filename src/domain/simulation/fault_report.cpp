@@ -75,7 +75,6 @@ Deepest deepest_contact(Simulation const& simulation, Discs const& discs, int i)
 
 std::string advice(Fault what, double share) {
   if (what == Fault::row_overflow) return "make the grading's largest disc smaller, or its smallest larger";
-  if (what == Fault::out_of_range) return "take run.precision = \"double\"";
   if (share > 1) return "shorten the step (run.dt_safety)";
   if (what == Fault::not_finite) return "the step is not why: look at what was read or set before";
   return "the step is not why: the grains are too soft for this stress (grains.kn), or it is loaded too fast "
@@ -87,8 +86,7 @@ std::string advice(Fault what, double share) {
 std::string fault_text(Simulation const& simulation, ReportedFault const& fault, double (&place)[2]) {
   static constexpr char const* cause[fault_count] = {
       "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than the smaller radius",
-      "has more neighbours than a row holds (the grading's size ratio is too large)",
-      "has a contact whose force or moment is beyond what mixed precision holds"};
+      "has more neighbours than a row holds (the grading's size ratio is too large)"};
   Ranks const& ranks = simulation.ranks();
   Discs const discs(simulation.particles());
   double found[4] = {nowhere, nowhere, nowhere, nowhere};  // where, overlap, with whom: of the rank that owns the disc

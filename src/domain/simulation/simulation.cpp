@@ -2,12 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "domain/simulation/fault_report.hpp"
+#include "kernels/history_forces.hpp"
 
 namespace clathra {
 
 namespace {
+
+/// Whether histories come to the same forces.
+bool same_stiffness(ContactLaws const& a, ContactLaws const& b) {
+  auto const of_grains = [](GrainLaw const& law) {
+    return std::tuple(law.normal_stiffness, law.shear_stiffness, law.shape_factor);
+  };
+  auto const of_bonds = [](BondLaw const& law) {
+    return std::tuple(law.modulus, law.particle_stiffness, law.critical_thickness, law.thickness_partner, law.thickness_weight,
+                      law.plate_thickness);
+  };
+  return a.bond_kind == b.bond_kind && of_grains(a.grain) == of_grains(b.grain) && of_bonds(a.bond) == of_bonds(b.bond);
+}
 
 constexpr Real calm_leeway = 0.3;  // of its skin that a calm disc may stray before the step is chosen anew
 constexpr int least_steps_of_a_calm_choice = 150;
@@ -25,7 +39,7 @@ void Simulation::set_sums() {
 
 ContactFeatures Simulation::features_of_rows() const {
   ContactFeatures features = laws_.features();
-  features.format = history_format(laws_.precision, laws_.contact, largest_radius_);
+  features.format.precision = laws_.precision;
   return features;
 }
 
@@ -57,12 +71,15 @@ void Simulation::set_laws(SimulationLaws const& laws) {
   bool const ledger = laws_.contact.ledger;
   if (laws.precision != laws_.precision) throw std::invalid_argument("a simulation keeps its precision");
   graph_.drop();
+  ContactLaws const before = laws_.contact;
   laws_ = laws;
   laws_.contact.ledger = ledger;
   ContactFeatures const features = features_of_rows();
-  bool const same_history = features == rows_.features;
+  bool const same_history = features == rows_.features, anchors = !same_history || !same_stiffness(before, laws_.contact);
+  if (anchors) rows_ = with_forces(particles_, rows_, before);
   if (!same_history) change_features(rows_, features);
   if (!same_history || rows_.features.bonds) prepare_rows(particles_, rows_, laws_.contact.bond);
+  if (anchors) anchor_rows(particles_, rows_, laws_.contact);
   if (ledger) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
 }
 

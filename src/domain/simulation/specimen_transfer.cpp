@@ -9,6 +9,7 @@
 #include "domain/parallel/directory.hpp"
 #include "domain/parallel/id_index.hpp"
 #include "domain/simulation/simulation.hpp"
+#include "kernels/history_forces.hpp"
 
 namespace clathra {
 
@@ -41,18 +42,26 @@ void for_each_column_of_specimen(ParticleSoA const& particles, Visit&& visit) {
   });
 }
 
-/// The history of all entries on the host, as double whatever it is in the rows.
+/// The history of all entries on the host, with the forces themselves, as double whatever it is in the rows.
 class HistoryOnHost {
  public:
+  /// @param rows  with_forces(), or new ones
   explicit HistoryOnHost(ContactRows const& rows) {
     for_each_history(rows, [&](HistoryField const& about, RealField const& field) {
+      if (about.quantity == HistoryField::Quantity::branch) return;
       columns_.push_back({about, number_of(about.name), on_host(field, field.extent(0))});
+      if (about.quantity == HistoryField::Quantity::length) return;
+      columns_.back().about.empty = 0;
+      std::vector<double>& forces = columns_.back().values;
+      std::replace(forces.begin(), forces.end(), no_bond, 0.0);
     });
   }
 
   void upload_to(ContactRows const& rows) const {
     auto column = columns_.begin();
-    for_each_history(rows, [&](HistoryField const&, RealField const& field) { upload(field, (column++)->values); });
+    for_each_history(rows, [&](HistoryField const& about, RealField const& field) {
+      if (about.quantity != HistoryField::Quantity::branch) upload(field, (column++)->values);
+    });
   }
 
   bool empty(std::size_t entry) const {
@@ -230,6 +239,7 @@ void Simulation::restore_history(Specimen const& s) {
   std::for_each(others.begin(), others.end(), write);
   history.upload_to(rows_);
   prepare_rows(particles_, rows_, laws_.contact.bond);
+  anchor_rows(particles_, rows_, laws_.contact);
   broken_bonds_.drop_log();  // that of the search before it has room for no bond
   make_room_for_breaks();
 }
@@ -250,7 +260,8 @@ Specimen Simulation::specimen() const {
   IdIndex const places(host_copy(particles_.id), particles_.owned);
   for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
   for_each_column_of_specimen(particles_, [&](auto const& field, ParticleColumn const& column) {
-    std::vector<double> const host = numbers_on_host(field, n);
+    bool const turned = std::string_view(column.name) == "angle";
+    std::vector<double> const host = turned ? rotations(particles_) : numbers_on_host(field, n);
     std::vector<double>& values = s.*column.of;
     values.reserve(n);
     for (auto const& [id, index] : places.sorted()) values.push_back(host[static_cast<std::size_t>(index)]);
@@ -263,7 +274,7 @@ Specimen Simulation::specimen() const {
 std::vector<SpecimenContact> Simulation::contacts_by_id() const {
   auto const id = host_copy(particles_.id), slice_start = host_copy(rows_.slice_start), neighbour = host_copy(rows_.neighbour);
   auto const length = host_copy(rows_.length);
-  HistoryOnHost const history(rows_);
+  HistoryOnHost const history(with_forces(particles_, rows_, laws_.contact));
   std::vector<SpecimenContact> contacts;
   for (int i = 0; i < particles_.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {

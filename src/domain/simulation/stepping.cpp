@@ -170,6 +170,7 @@ void Simulation::stretch_homogeneously() {
 void Simulation::evaluate_forces() {
   if (rebuild_pending_) rebuild(survey_discs());
   hand_over(true);
+  count_turns_on(particles_);
   compute_forces(particles_, rows_, laws_.contact, 0, now_.step, broken_bonds_.log_of(steps_.state), losses_, faults_);
   if (periodic()) return;
   add_wall_forces(particles_, wall_contacts_, laws_.wall, 0, losses_, faults_, sums_.unit, steps_);

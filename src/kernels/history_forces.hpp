@@ -1,0 +1,81 @@
+#pragma once
+/// The forces and moments that pairs remember, off the hot path: whatever the precision, rows hold what gives them (history.hpp).
+#include "kernels/forces.hpp"
+#include "kernels/history.hpp"
+
+namespace clathra {
+
+struct HistoryForces {
+  Real shear = 0, moment = 0;            ///< of the grain contact, or of the bond in its place [N/m, N m/m]
+  Real bond_shear = 0, bond_moment = 0;  ///< of a separate bond
+};
+
+/// A pair in mixed precision as the contact kernel sees it.
+struct AnchoredPair {
+  WaySinceAnchor<float> way;
+  std::int32_t anchor;                ///< that of now
+  float overlap;                      ///< [m]
+  ContactStiffness<float> of_grains;  ///< of the grain contact, or of the bond in its place
+  ContactStiffness<float> bond;       ///< 0 without one
+};
+
+// These are no part of their callers, so that fused products show by the names of who asks for them (tests/no_fma_test.cmake).
+/// @param anew  whether the way counts from the anchor of now
+CLATHRA_COLD_FUNCTION inline AnchoredPair anchored_pair(ParticleSoA const& p, ContactRows const& rows, ContactLaws const& laws,
+                                                        int i, std::size_t e, bool anew = false) {
+  auto const row_of = [&](int disc) {
+    return DiscMirror::numbers(p.mirror.places) + DiscMirror::row * static_cast<std::size_t>(disc);
+  };
+  float const *const a = row_of(i), *const b = row_of(rows.neighbour(e));
+  std::int32_t const dx = difference(bits_of(b[0]), bits_of(a[0])), dy = difference(bits_of(b[1]), bits_of(a[1]));
+  auto const tick = static_cast<float>(p.mirror.tick);
+  float const x = to_float(dx), y = to_float(dy), distance2 = times_plus(x, x, times_plus(y, y, 1e-12F));
+  float const distance = lane_sqrt(distance2), overlap = minus_times(distance, tick, a[2] + b[2]);
+  AnchoredPair pair;
+  pair.anchor = anchor_at(x, y);
+  pair.overlap = overlap;
+  bool const keeps = rows.anchor.extent(0) > 0;
+  std::int32_t const anchor = anew || !keeps ? pair.anchor : rows.anchor.data<std::int32_t>()[e];
+  pair.way = way_since(anchor, dx, dy, x, y, 1 / distance2, minus_times(0.5F, overlap, a[2]), minus_times(0.5F, overlap, b[2]),
+                       counted_on(a[3]), counted_on(b[3]));
+  pair.of_grains = grain_stiffness(in_numbers<float>(laws.grain), overlap, common_radius(a[2], b[2]));
+  pair.bond = {0, 0, 0};
+  if (laws.bond_kind == BondKind::none || !is_bonded(rows.formation_overlap(e))) return pair;
+  BondLawOf<float> const law = in_numbers<float>(laws.bond);
+  pair.bond = law.stiffness(rows.width.data<float>()[e], law.bond_thickness(rows.formation_overlap.data<float>()[e]));
+  if (laws.bond_kind == BondKind::replace) pair.of_grains = pair.bond;
+  return pair;
+}
+
+/// history_forces() in mixed precision.
+/// @param held  what rows hold
+CLATHRA_COLD_FUNCTION inline HistoryForces anchored_forces(ParticleSoA const& p, ContactRows const& rows, ContactLaws const& laws,
+                                                           int i, std::size_t e, HistoryForces const& held) {
+  AnchoredPair const pair = anchored_pair(p, rows, laws, i, e);
+  auto const force = [](Real at_anchor, float stiffness, float way) {
+    return at_anchor == no_bond ? Real(0) : Real(times_plus(stiffness, way, static_cast<float>(at_anchor)));
+  };
+  ContactStiffness<float> const& k = pair.of_grains;
+  return {force(held.shear, k.shear, pair.way.slip), force(held.moment, k.rolling, pair.way.rotation),
+          force(held.bond_shear, pair.bond.shear, pair.way.slip), force(held.bond_moment, pair.bond.rolling, pair.way.rotation)};
+}
+
+/// What the histories of entry `e` of disc `i` come to where the discs are; 0 where there is none.
+KOKKOS_INLINE_FUNCTION HistoryForces history_forces(ParticleSoA const& p, ContactRows const& rows, ContactLaws const& laws, int i,
+                                                    std::size_t e) {
+  auto const kept = [e](RealField const& field, Real none) { return field.extent(0) > 0 ? Real(field(e)) : none; };
+  Real const none = no_force(rows.features.format);
+  HistoryForces const held{kept(rows.shear, none), kept(rows.moment, none), kept(rows.bond_shear, none),
+                           kept(rows.bond_moment, none)};
+  return p.precision == Precision::full ? held : anchored_forces(p, rows, laws, i, e, held);
+}
+
+/// Rows whose fields hold the forces and moments themselves, for the host and until laws have changed. In double precision they
+/// are the rows that were given.
+ContactRows with_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws);
+
+/// The way back: from the forces and moments in the fields to what the contact kernel keeps, with all pairs anchored where they
+/// are. To be called when the rows are prepared (prepare_rows()). In double precision nothing is to be done.
+void anchor_rows(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws);
+
+}  // namespace clathra

@@ -1,0 +1,187 @@
+/// What histories of mixed precision are made of: anchors, the way since them, and forces that follow from it
+/// (kernels/anchor.hpp).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/anchor.hpp"
+#include "scenes.hpp"
+
+namespace clathra {
+namespace {
+
+constexpr double r1 = 1.1e-4, r2 = 0.7e-4, overlap = 5e-7, touch = r1 + r2 - overlap;
+double tick() { return DiscMirror::tick_for(2 * r1); }
+
+/// Where disc 2 is seen from disc 1, and how far both have turned.
+struct Posture {
+  double x, y, turn1 = 0, turn2 = 0;
+};
+struct InTicks {
+  std::int32_t x, y;
+  float dx, dy;
+  explicit InTicks(Posture const& p)
+      : x(DiscMirror::ticks(p.x, 1 / tick())), y(DiscMirror::ticks(p.y, 1 / tick())), dx(to_float(x)), dy(to_float(y)) {}
+  std::int32_t anchor() const { return anchor_at(dx, dy); }
+};
+WaySinceAnchor<float> way(std::int32_t anchor, Posture const& p) {
+  InTicks const at(p);
+  auto const distance = static_cast<float>(std::hypot(p.x, p.y)), u = static_cast<float>(r1 + r2) - distance;
+  return way_since(anchor, at.x, at.y, at.dx, at.dy, 1 / (at.dx * at.dx + at.dy * at.dy), static_cast<float>(r1) - u / 2,
+                   static_cast<float>(r2) - u / 2, static_cast<float>(p.turn1), static_cast<float>(p.turn2));
+}
+/// The slip between two postures, from the anchor of the first.
+double slip_between(Posture const& from, Posture const& to) {
+  std::int32_t const anchor = InTicks(from).anchor();
+  return static_cast<double>(way(anchor, to).slip) - static_cast<double>(way(anchor, from).slip);
+}
+
+TEST(Anchor, IsOddAndWithinHalfAUnitOfTheBranch) {
+  for (double angle = 0; angle < 6.2832; angle += 0.037) {
+    InTicks const there({touch * std::cos(angle), touch * std::sin(angle)}),
+        back({-touch * std::cos(angle), -touch * std::sin(angle)});
+    EXPECT_LE(std::abs(difference(there.x, anchor_x(there.anchor()))), 1 << 15);
+    EXPECT_LE(std::abs(difference(there.y, anchor_y(there.anchor()))), 1 << 15);
+    EXPECT_EQ(anchor_x(back.anchor()), -anchor_x(there.anchor()));
+    EXPECT_EQ(anchor_y(back.anchor()), -anchor_y(there.anchor()));
+  }
+}
+
+TEST(WaySinceAnchor, OfARigidTurnIsNothing) {
+  for (double const alpha : {1e-5, 1e-3, -7e-3, 1.0 / 64}) {
+    for (double const angle : {0.0, 0.7, 2.2, 4.0}) {
+      auto const at = [&](double turned) {
+        return Posture{touch * std::cos(angle + turned), touch * std::sin(angle + turned), turned, turned};
+      };
+      EXPECT_NEAR(slip_between(at(0), at(alpha)), 0, 1.5 * tick()) << alpha << ", " << angle;
+      EXPECT_EQ(way(InTicks(at(0)).anchor(), at(alpha)).rotation, 0);
+    }
+  }
+}
+
+TEST(WaySinceAnchor, IsTheArcOfTheBranchLessThoseOfTheDiscs) {
+  double const a1 = r1 - overlap / 2, a2 = r2 - overlap / 2;
+  for (double const alpha : {1e-4, -1.0 / 64}) {
+    Posture const before{touch, 0, 0, 0}, round{touch * std::cos(alpha), touch * std::sin(alpha), 0, 0};
+    EXPECT_NEAR(slip_between(before, round), touch * alpha, 1.5 * tick() + 1e-5 * std::abs(touch * alpha)) << alpha;
+    EXPECT_NEAR(slip_between(before, {touch, 0, alpha, 0}), -a1 * alpha, 1e-4 * std::abs(a1 * alpha)) << alpha;
+    EXPECT_NEAR(slip_between(before, {touch, 0, 0, alpha}), -a2 * alpha, 1e-4 * std::abs(a2 * alpha)) << alpha;
+    EXPECT_NEAR(way(InTicks(before).anchor(), {touch, 0, alpha, 3 * alpha}).rotation, 2 * alpha, 1e-9);
+  }
+}
+
+/// While the distance changes along: d and the arms count with their means, so what is left is of third order.
+TEST(WaySinceAnchor, OfAStraightWayIsItsIntegralToThirdOrder) {
+  auto const at = [](double t) { return Posture{touch + t * touch / 128, t * touch / 80, t / 150, -t / 90}; };
+  auto const exact = [&](double end) {
+    constexpr int steps = 4000;
+    double sum = 0;
+    for (int n = 0; n < steps; ++n) {
+      Posture const a = at(end * n / steps), b = at(end * (n + 1) / steps), middle = at(end * (n + 0.5) / steps);
+      double const d = std::hypot(middle.x, middle.y), u = r1 + r2 - d;
+      sum += d * (std::atan2(b.y, b.x) - std::atan2(a.y, a.x)) - (r1 - u / 2) * (b.turn1 - a.turn1) -
+             (r2 - u / 2) * (b.turn2 - a.turn2);
+    }
+    return sum;
+  };
+  double const whole = slip_between(at(0), at(1)) - exact(1), half = slip_between(at(0), at(0.5)) - exact(0.5);
+  EXPECT_LT(std::abs(whole), 3e-4 * std::abs(exact(1)));
+  EXPECT_LT(std::abs(half), 0.4 * std::abs(whole));  // of second order at most by what the anchor is off
+}
+
+TEST(WaySinceAnchor, IsTheSameFromBothSides) {
+  for (int n = 0; n < 2000; ++n) {
+    auto const draw = [&](std::uint64_t k) { return uniform_random(11, k, static_cast<std::uint64_t>(n)) - 0.5; };
+    double const angle = 6.2832 * draw(1);
+    InTicks const start({touch * std::cos(angle), touch * std::sin(angle)});
+    InTicks const now({touch * (std::cos(angle) + 0.03 * draw(2)), touch * (std::sin(angle) + 0.03 * draw(3))});
+    auto const turn1 = static_cast<float>(0.03 * draw(4)), turn2 = static_cast<float>(0.03 * draw(5));
+    auto const a1 = static_cast<float>(r1), a2 = static_cast<float>(r2);
+    float const inverse2 = 1 / (now.dx * now.dx + now.dy * now.dy);
+    auto const here = way_since(start.anchor(), now.x, now.y, now.dx, now.dy, inverse2, a1, a2, turn1, turn2);
+    auto const there =
+        way_since(anchor_at(-start.dx, -start.dy), -now.x, -now.y, -now.dx, -now.dy, inverse2, a2, a1, turn2, turn1);
+    ASSERT_EQ(here.slip, there.slip) << n;
+    ASSERT_EQ(here.rotation, -there.rotation) << n;
+    ASSERT_EQ(here.turned2, there.turned2) << n;
+  }
+}
+
+/// Two discs in mixed precision that only move as they are driven.
+Simulation driven_discs() {
+  SimulationLaws laws = sand_laws();
+  laws.precision = Precision::mixed;
+  Simulation sim(two_discs(2e-6), laws, 1e-5);
+  hold_all(sim);
+  sim.time_step = 1e-7;
+  return sim;
+}
+
+/// A sum of rounded parts would have walked away.
+TEST(HistoryAtTheAnchor, IsTheSameToTheBitHoweverOftenDiscsTremble) {
+  Simulation sim = driven_discs();
+  drive(sim, 0, 0, 1e-3, 3);
+  drive(sim, 1, 0, -2e-3, 7);
+  sim.step(100);
+  drive(sim, 0, 0, 0, 0);
+  SpecimenContact const before = pair_history(sim);
+  ASSERT_GT(std::abs(before.shear), 1);
+  for (int n = 0; n < 20000; ++n) {
+    double const speed = 1e-5 * uniform_random(3, 1, static_cast<std::uint64_t>(n)),
+                 spin = 1e-2 * uniform_random(3, 2, static_cast<std::uint64_t>(n));
+    for (double const way : {1.0, -1.0}) {
+      drive(sim, 1, 0, way * speed, way * spin);
+      sim.step();
+    }
+  }
+  SpecimenContact const after = pair_history(sim);
+  EXPECT_NEAR(after.shear, before.shear, sand_ks * 2 * sim.particles().mirror.tick);  // places are sums in double precision
+  EXPECT_NEAR(after.moment, before.moment, 1e-6 * std::abs(before.moment));
+}
+
+/// A sum in single precision stands still at a thousandth of its ulp a step.
+TEST(HistoryAtTheAnchor, FollowsHoweverSlowlyDiscsMove) {
+  Simulation sim = driven_discs();
+  double const tick = sim.particles().mirror.tick;
+  drive(sim, 1, 0, 0.1 / sim.time_step * 1e-6, 0);
+  sim.step();
+  drive(sim, 1, 0, 0, 0);
+  double const before = pair_history(sim).shear;
+  ASSERT_GT(std::abs(before), 10);
+  constexpr int steps = 100000;
+  double const way_of_step = 1e-3 * tick;
+  ASSERT_LT(sand_ks * way_of_step, 0.5 * before * 0x1p-24);
+  drive(sim, 1, 0, way_of_step / sim.time_step, 0);
+  sim.step(steps);
+  EXPECT_NEAR(pair_history(sim).shear - before, sand_ks * way_of_step * steps, sand_ks * 1.5 * tick);
+}
+
+/// What slides keeps its force at the limit, and what then sticks starts from there.
+TEST(HistoryAtTheAnchor, StartsFromTheLimitAfterSliding) {
+  Simulation sim = driven_discs();
+  double const limit = 0.5 * sand_kn * 2e-6;
+  drive(sim, 1, 0, 1, 0);  // 0.1 um a step
+  sim.step(100);
+  EXPECT_NEAR(std::abs(pair_history(sim).shear) / limit, 1, 0.35);  // the discs have parted a little on the way
+  SpecimenContact const slid = pair_history(sim);
+  drive(sim, 1, 0, -1e-2, 0);
+  sim.step(50);
+  EXPECT_NEAR(pair_history(sim).shear - slid.shear, -sand_ks * 5e-8, 5e-3 * sand_ks * 5e-8);  // the branch has turned
+}
+
+/// A disc that turns for long begins to count anew, again and again, and its rotation is their sum.
+TEST(HistoryAtTheAnchor, ADiscThatTurnsForLongKeepsItsRotation) {
+  Simulation sim = driven_discs();
+  drive(sim, 1, 0, 0, 1e4);  // 1 mrad a step
+  sim.step(5000);
+  Specimen const s = sim.specimen();
+  std::size_t const one = s.id[0] == 1 ? 0 : 1;
+  EXPECT_NEAR(s.angle[one], 5, 1e-6);
+  EXPECT_EQ(s.angle[1 - one], 0);
+  EXPECT_LE(std::abs(on_host(sim.particles().turn, 2)[0]) + std::abs(on_host(sim.particles().turn, 2)[1]), 1.2 / 64);
+  EXPECT_NEAR(std::abs(pair_history(sim).shear) / (0.5 * sand_kn * 2e-6), 1, 1e-4);  // it slides
+}
+
+}  // namespace
+}  // namespace clathra
