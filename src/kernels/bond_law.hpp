@@ -56,7 +56,7 @@ using BondLaw = BondLawOf<Real>;
 
 /// The same law in the numbers of a kernel.
 template <class R>
-BondLawOf<R> in_numbers(BondLaw const& law) {
+KOKKOS_INLINE_FUNCTION BondLawOf<R> in_numbers(BondLaw const& law) {
   return {in_numbers<R>(law.strength),  R(law.modulus),           R(law.particle_stiffness),
           R(law.critical_thickness),    R(law.thickness_partner), R(law.thickness_weight),
           R(law.plate_thickness),       R(law.preload_stiffness), R(law.least_shape_of_shear),
