@@ -48,7 +48,7 @@ Simulation driven_pair(Composite composite) {
   s.void_ratio = 1;
   s.contacts.push_back({0, 1, 20, 1e-3});
   bond_all(s, scene);
-  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 1e-3);
+  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 3e-4);
   sim.time_step = 1e-7;
   hold_all(sim);
   return sim;

@@ -38,7 +38,7 @@ BreakEvents broken(Composite composite, double angle, Motion const& motion, int 
   s.id = {1, 0};
   s.void_ratio = 1;
   bond_all(s, scene);
-  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 1e-3);
+  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 3e-4);
   sim.time_step = dt;
   hold_all(sim);
   sim.loading().y = AxisDrive::at_rate(wall_rate);

@@ -18,7 +18,7 @@ Simulation held_pair(Composite composite, double overlap, double shear = 0, doub
   s.void_ratio = 1;
   if (shear != 0) s.contacts.push_back({0, 1, shear, moment});
   bond_all(s, scene);
-  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 1e-3);
+  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 3e-4);
   sim.time_step = dt;
   hold_all(sim);
   return sim;

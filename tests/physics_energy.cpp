@@ -44,7 +44,7 @@ TEST(EnergyLedger, CountsWhatBreakingStiffens) {
   Specimen s = two_discs(0);
   s.void_ratio = 1;
   bond_all(s, scene);
-  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 1e-3);
+  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 3e-4);
   sim.time_step = 1e-7;
   hold_all(sim);
   drive(sim, 1, -2e-6 / 100 / 1e-7, 0, 0);

@@ -15,7 +15,7 @@ Simulation resting_disc(double angle, double speed, double dt) {
   laws.wall.friction = friction;
   laws.motion.gravity_x = g * std::sin(angle);
   laws.motion.gravity_y = -press;
-  Simulation sim(s, laws, 1e-3);
+  Simulation sim(s, laws, 3e-4);
   sim.time_step = dt;
   return sim;
 }

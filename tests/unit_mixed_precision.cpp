@@ -147,6 +147,17 @@ TEST(MixedPrecision, SurvivesTheWayThroughASpecimen) {
   EXPECT_LT(change_of_moment, 1e-6 * most_moment);
 }
 
+/// Ticks repeat themselves after four to eight diameters.
+TEST(MixedPrecision, RefusesToSearchFurtherThanPlacesAreToldApart) {
+  EXPECT_NO_THROW(pair_at(two_discs(-1e-5), 2 * grain_radius));
+  try {
+    pair_at(two_discs(-1e-5), 20 * grain_radius);
+    FAIL() << "not refused";
+  } catch (std::invalid_argument const& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("further than mixed precision tells places apart"), std::string::npos);
+  }
+}
+
 /// The contact of two discs after a step, which begins with this shear force and moment, far beyond the limits or within.
 SpecimenContact after_a_step(Specimen s, GrainLaw const& grain, Precision precision, double shear, double moment) {
   s.contacts.push_back({0, 1, shear, moment});

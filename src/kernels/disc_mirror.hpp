@@ -35,7 +35,7 @@ struct DiscMirror {
 
   /// The low 32 bits of a place in ticks, rounded to the nearest. Fused or not, the product is exact: a tick is a power of two.
   /// Behind the sum they are those of its own representation: 1.5 2^52 has the ulp 1. Exact below 2^51 ticks, 16 km where a tick
-  /// has 7 pm.
+  /// has 7 pm, 2 km where it has 0.9.
   KOKKOS_FORCEINLINE_FUNCTION static std::int32_t ticks(Coord place, Real per_tick) {
     double const sum = place * per_tick + shift;
     std::uint64_t bits;

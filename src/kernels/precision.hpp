@@ -5,7 +5,8 @@
 namespace clathra {
 
 /// `full`: all in double precision. `mixed`: the forces of contacts and bonds, and velocities, in single precision, from
-/// differences of places that are exact to some picometres, with histories in fixed point; places and sums in double precision.
+/// differences of places that are exact to some picometres, with histories that are no sums (anchor.hpp); places and sums in
+/// double precision.
 enum class Precision : std::int8_t { full, mixed };
 inline constexpr char const* precision_names[] = {"double", "mixed"};
 

@@ -222,6 +222,7 @@ class Simulation {
   [[noreturn]] void throw_out_of_range(SumOutOfRange const& problem) const;
   std::vector<double> records_of_own_discs(DiscRecords discs);
   void find_listed_neighbours();
+  void require_places_told_apart() const;
   template <class Visit>
   void for_each_number(Visit&& visit);
   template <class Visit>

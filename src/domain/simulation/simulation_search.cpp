@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "domain/parallel/migration.hpp"
@@ -41,6 +43,7 @@ void Simulation::rebuild(Survey const& all, bool skin_by_speed, AuxiliaryFields 
   for_each_auxiliary_field(with_discs, [&](auto& field) { field = permuted(field, order, particles_.x.extent(0), scratch_); });
   SearchReach reach{largest_radius_, largest_skin, all.largest[Survey::bonded_gap], bounds};
   reach_ = 2 * largest_radius_ + std::max(2 * largest_skin + rounding_slack(particles_, largest_radius_), reach.bonded_gap);
+  require_places_told_apart();
   if (periodic()) images_.rebuild(particles_, now_.box.cell, reach_);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_);
   assign_verlet_skins(particles_, frame(), skins, all.mean_speed);
@@ -57,6 +60,13 @@ void Simulation::rebuild(Survey const& all, bool skin_by_speed, AuxiliaryFields 
   searched_at_ = now_.step;
   scratch_.tidy();
   rebuild_seconds_ += clock.seconds();
+}
+
+/// Mixed precision knows differences of places modulo 2^32 ticks.
+void Simulation::require_places_told_apart() const {
+  if (particles_.precision == Precision::full || particles_.mirror.reaches(reach_)) return;
+  throw std::invalid_argument("neighbours are searched for up to " + std::to_string(1e3 * reach_) +
+                              " mm away, further than mixed precision tells places apart: give a smaller skin, or take double");
 }
 
 void Simulation::find_rows_and_walls(SearchReach const& reach, OldRows& old, Field<int> const& slot,
