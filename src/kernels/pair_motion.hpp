@@ -9,8 +9,7 @@ template <class V>
 struct Inverses {
   V of_distance, of_distance2, of_reach;
 };
-/// In mixed precision by one quotient, which need not wait for the root: the divider is busy for as long as a quarter of all else
-/// takes.
+/// In mixed precision by one quotient, which need not wait for the root.
 /// @tparam Reach  whether 1 / reach is needed, in mixed precision
 template <bool Mixed, bool Reach, class V>
 KOKKOS_FORCEINLINE_FUNCTION Inverses<V> inverses(V const& distance, [[maybe_unused]] V const& distance2,

@@ -41,13 +41,19 @@ std::int64_t total(Simulation const& simulation, std::size_t of_this_rank) {
 double moved_bytes(Simulation const& simulation) {
   double const entries = static_cast<double>(total(simulation, simulation.contact_entries())) / simulation.discs();
   ContactRows rows = simulation.rows();
-  double written = 0;
-  for_each_history(rows, [&](HistoryField const&, auto const& field) { written += &field == &rows.formation_overlap ? 0 : 1; });
   bool const mixed = rows.features.format.precision == Precision::mixed;
-  double const row = sizeof(int) + (mixed ? sizeof(float) : sizeof(double)) * (2 * written + (rows.features.bonds ? 2 : 0));
+  double read = rows.features.bonds ? 1 : 0, written = 0;  // histories, and the width of bonds
+  for_each_history(rows, [&](HistoryField const&, auto const& field) {
+    bool const kept = &field == &rows.formation_overlap || &field == &rows.anchor;
+    bool const slips = &field == &rows.shear || &field == &rows.moment;  // in mixed precision nothing else changes
+    read += 1;
+    written += !kept && (slips || !mixed) ? 1 : 0;
+  });
+  double const row = sizeof(int) + (mixed ? sizeof(float) : sizeof(double)) * (read + written);
   constexpr double contact_pass = 6 + 3, copies = for_gpu ? 1 + 6 : 0, drift = 11 + 6 + copies;  // numbers of a disc
-  constexpr double mirror = sizeof(float) * DiscMirror::row, places = 2 * 3 * sizeof(double), forces = 3 * sizeof(float);
-  return entries * row + (mixed ? 3 * mirror + places + 2 * forces : sizeof(double) * (contact_pass + drift));
+  constexpr double table = sizeof(float) * DiscMirror::row, places = 2 * 2 * sizeof(double), forces = 3 * sizeof(float),
+                   inertia = sizeof(float);
+  return entries * row + (mixed ? (1 + 4) * table + places + inertia + 2 * forces : sizeof(double) * (contact_pass + drift));
 }
 
 /// Double precision operations of the laws, counted in their machine code: a pair in touch or bonded, once from either side, and
