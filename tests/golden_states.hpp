@@ -77,8 +77,8 @@ struct Golden {
 inline constexpr Golden golden[] = {{Composite::replace, Precision::full, 0xb32266e6acdafbebULL, 213},
                                     {Composite::parallel, Precision::full, 0xc2baf36149f36ff8ULL, 469},
                                     {Composite::memory, Precision::full, 0x92e06ba7ed616b25ULL, 308},
-                                    {Composite::replace, Precision::mixed, 0x644d00190fcfbf5bULL, 196},
-                                    {Composite::parallel, Precision::mixed, 0x032784a5a26edbc2ULL, 473},
-                                    {Composite::memory, Precision::mixed, 0x65290d75e61813cdULL, 184}};
+                                    {Composite::replace, Precision::mixed, 0xa311bc3931ab307bULL, 200},
+                                    {Composite::parallel, Precision::mixed, 0x94108ce6e3b12124ULL, 452},
+                                    {Composite::memory, Precision::mixed, 0x11df95212d47d02cULL, 252}};
 
 }  // namespace clathra

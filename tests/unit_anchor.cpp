@@ -23,18 +23,39 @@ struct InTicks {
   float dx, dy;
   explicit InTicks(Posture const& p)
       : x(DiscMirror::ticks(p.x, 1 / tick())), y(DiscMirror::ticks(p.y, 1 / tick())), dx(to_float(x)), dy(to_float(y)) {}
+  InTicks from_the_other_side() const {
+    InTicks back = *this;
+    back.x = -x, back.y = -y, back.dx = -dx, back.dy = -dy;
+    return back;
+  }
   std::int32_t anchor() const { return anchor_at(dx, dy); }
 };
+BranchSinceAnchor<float> branch(std::int32_t anchor, InTicks const& at) {
+  return branch_since(anchor, at.x, at.y, at.dx, at.dy, 1 / (at.dx * at.dx + at.dy * at.dy));
+}
 WaySinceAnchor<float> way(std::int32_t anchor, Posture const& p) {
   InTicks const at(p);
   auto const distance = static_cast<float>(std::hypot(p.x, p.y)), u = static_cast<float>(r1 + r2) - distance;
-  return way_since(anchor, at.x, at.y, at.dx, at.dy, 1 / (at.dx * at.dx + at.dy * at.dy), static_cast<float>(r1) - u / 2,
-                   static_cast<float>(r2) - u / 2, static_cast<float>(p.turn1), static_cast<float>(p.turn2));
+  return way_since(branch(anchor, at), static_cast<float>(r1) - u / 2, static_cast<float>(r2) - u / 2,
+                   static_cast<float>(p.turn1), static_cast<float>(p.turn2));
 }
 /// The slip between two postures, from the anchor of the first.
 double slip_between(Posture const& from, Posture const& to) {
   std::int32_t const anchor = InTicks(from).anchor();
   return static_cast<double>(way(anchor, to).slip) - static_cast<double>(way(anchor, from).slip);
+}
+
+/// The overlap by the anchor, and what it is short of the exact one of the same ticks [ticks].
+float overlap_by(std::int32_t anchor, InTicks const& at) {
+  float const distance2 = at.dx * at.dx + at.dy * at.dy;
+  return overlap_since(anchor, branch(anchor, at), std::sqrt(distance2), 1 / distance2,
+                       static_cast<float>(r1) + static_cast<float>(r2), static_cast<float>(tick()), /*none=*/false);
+}
+double missing(std::int32_t anchor, Posture const& p) {
+  InTicks const at(p);
+  double const exact = static_cast<double>(static_cast<float>(r1) + static_cast<float>(r2)) / tick() -
+                       std::hypot(static_cast<double>(at.x), static_cast<double>(at.y));
+  return exact - static_cast<double>(overlap_by(anchor, at)) / tick();
 }
 
 TEST(Anchor, IsOddAndWithinHalfAUnitOfTheBranch) {
@@ -98,14 +119,44 @@ TEST(WaySinceAnchor, IsTheSameFromBothSides) {
     InTicks const now({touch * (std::cos(angle) + 0.03 * draw(2)), touch * (std::sin(angle) + 0.03 * draw(3))});
     auto const turn1 = static_cast<float>(0.03 * draw(4)), turn2 = static_cast<float>(0.03 * draw(5));
     auto const a1 = static_cast<float>(r1), a2 = static_cast<float>(r2);
-    float const inverse2 = 1 / (now.dx * now.dx + now.dy * now.dy);
-    auto const here = way_since(start.anchor(), now.x, now.y, now.dx, now.dy, inverse2, a1, a2, turn1, turn2);
-    auto const there =
-        way_since(anchor_at(-start.dx, -start.dy), -now.x, -now.y, -now.dx, -now.dy, inverse2, a2, a1, turn2, turn1);
+    InTicks const back = now.from_the_other_side();
+    std::int32_t const back_anchor = start.from_the_other_side().anchor();
+    auto const branch_here = branch(start.anchor(), now), branch_there = branch(back_anchor, back);
+    auto const here = way_since(branch_here, a1, a2, turn1, turn2), there = way_since(branch_there, a2, a1, turn2, turn1);
     ASSERT_EQ(here.slip, there.slip) << n;
     ASSERT_EQ(here.rotation, -there.rotation) << n;
-    ASSERT_EQ(here.turned2, there.turned2) << n;
+    ASSERT_EQ(branch_here.turned2, branch_there.turned2) << n;
+    ASSERT_EQ(overlap_by(start.anchor(), now), overlap_by(back_anchor, back)) << n;
   }
+}
+
+TEST(OverlapSinceAnchor, IsOffByTheSameAmountWhereverDiscsGoFromThere) {
+  for (double angle = 0.01; angle < 6.2832; angle += 0.37) {
+    auto const at = [&](double along, double across) {
+      double const d = touch + along;
+      return Posture{d * std::cos(angle) - across * std::sin(angle), d * std::sin(angle) + across * std::cos(angle)};
+    };
+    std::int32_t const anchor = InTicks(at(0, 0)).anchor();
+    double const off = missing(anchor, at(0, 0));
+    EXPECT_LE(std::abs(off), 16);
+    for (double const way : {tick(), 1e-9, -1e-9, 1e-8, 1e-7}) {
+      EXPECT_NEAR(missing(anchor, at(way, 0)), off, 0.2) << angle << ", " << way;
+      EXPECT_NEAR(missing(anchor, at(0, way)), off, 0.2) << angle << ", " << way;
+      EXPECT_NEAR(missing(anchor, at(way, way)), off, 0.2) << angle << ", " << way;
+    }
+    for (double const across : {touch / 64, -touch / 64}) EXPECT_NEAR(missing(anchor, at(1e-6, across)), off, 1) << angle;
+  }
+}
+
+TEST(OverlapSinceAnchor, IsThatOfTheBranchHoweverFarItHasTurnedOrGrown) {
+  std::int32_t const anchor = InTicks({touch, 0}).anchor();
+  double const off = missing(anchor, {touch, 0}), in_ticks = touch / tick();
+  for (double const share : {1e-3, 1e-2, -1e-2, 0.1})
+    for (double const alpha : {0.0, 1e-3, 1.0 / 64, -1.0 / 64}) {
+      double const d = touch * (1 + share);
+      EXPECT_NEAR(missing(anchor, {d * std::cos(alpha), d * std::sin(alpha)}), off, 1 + 3e-7 * std::abs(share) * in_ticks)
+          << share << ", " << alpha;
+    }
 }
 
 /// Two discs in mixed precision that only move as they are driven.
@@ -138,6 +189,22 @@ TEST(HistoryAtTheAnchor, IsTheSameToTheBitHoweverOftenDiscsTremble) {
   SpecimenContact const after = pair_history(sim);
   EXPECT_NEAR(after.shear, before.shear, sand_ks * 2 * sim.particles().mirror.tick);  // places are sums in double precision
   EXPECT_NEAR(after.moment, before.moment, 1e-6 * std::abs(before.moment));
+}
+
+/// The distance of discs in single precision would be rounded to some sixteen ticks.
+TEST(HistoryAtTheAnchor, ForcesTellSingleTicksApart) {
+  Simulation sim = driven_discs();
+  double const tick = sim.particles().mirror.tick;
+  sim.step();
+  auto const force = [&] { return value(sim.particles().force_x, index_of(sim, 0)); };
+  drive(sim, 1, 3 * tick / sim.time_step, 0, 0);
+  double before = force();
+  for (int n = 0; n < 50; ++n) {
+    sim.step();
+    double const now = force();
+    EXPECT_NEAR(std::abs(now - before), sand_kn * 3 * tick, sand_kn * 1.01 * tick + 2e-7 * std::abs(now)) << n;
+    before = now;
+  }
 }
 
 /// A sum in single precision stands still at a thousandth of its ulp a step.

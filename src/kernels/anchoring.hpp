@@ -35,7 +35,8 @@ struct Anchoring {
       std::int32_t* const anchors = rows.anchor.data<std::int32_t>() + at.entry;
       IntLanes const anchor = select_ints(where, anchor_at(at.dx, at.dy), load_ints(anchors));
       store_ints(anchors, anchor);
-      slip = way_since(anchor, at.ticks_x, at.ticks_y, at.dx, at.dy, at.inverse2, at.arm, at.other_arm, turn, other_turn).slip;
+      auto const branch = branch_since(anchor, at.ticks_x, at.ticks_y, at.dx, at.dy, at.inverse2);
+      slip = way_since(branch, at.arm, at.other_arm, turn, other_turn).slip;
     }
     auto const of_grains = Separate ? at.touching : at.touching || at.intact;
     auto const set = [&](RealField const& field, auto const& force, FloatLanes const& way, MaskOf<FloatLanes> const& carries) {

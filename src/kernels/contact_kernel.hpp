@@ -7,6 +7,7 @@
 #include "kernels/bond_failures.hpp"
 #include "kernels/contact_constants.hpp"
 #include "kernels/pair_motion.hpp"
+#include "kernels/row_history.hpp"
 
 namespace clathra {
 
@@ -32,6 +33,7 @@ struct ContactKernel {
   static constexpr bool slips = shears || separate,
                         turns = moments && (Rolling || !separate);  // of `shear` or `bond_shear`; of `moment`
   using Anchorings = Anchoring<shears, turns, separate>;
+  using History = RowHistory<P, shears, moments, bonded_code, separate>;
 
   ParticleSoA p;
   ContactRows rows;
@@ -53,10 +55,6 @@ struct ContactKernel {
     V sliding, rolling, dashpot, breakage;
   };
 
-  /// History of one block of entries.
-  struct History {
-    V shear, moment, formation_overlap, width, bond_shear, bond_moment;
-  };
   /// What its histories come to.
   struct Forces {
     Force shear, moment, bond_shear, bond_moment;
@@ -96,7 +94,7 @@ struct ContactKernel {
   /// @param active  false if none of them holds a history;  @return whether one does afterwards
   KOKKOS_FORCEINLINE_FUNCTION bool add_block(Constants const& law, std::size_t first, std::size_t e, bool active,
                                              Own& own) const {
-    int const* const j = &rows.neighbour(e);
+    int const* const j = History::neighbours(rows, e);
     typename Discs::Own const& disc = own.disc;
     typename Discs::Other const other = Discs::other(p, j, disc);
     V const &dx = other.dx, &dy = other.dy, &other_radius = other.radius;
@@ -104,7 +102,9 @@ struct ContactKernel {
             reach2 = Discs::squared_reach(reach, law.per_tick);
     auto const touching = distance2 < reach2;
     if (!active && !any(touching)) return false;
-    History h = read(e);
+    History::fetch_ahead(rows, e);
+    History h = History::read(rows, e);
+    auto const none = remembers_nothing(h), begins = none && touching;
 
     V const distance = Discs::distance_of(distance2);
     Inverses<V> const inverse = inverses<mixed, moments>(distance, distance2, reach);
@@ -127,9 +127,11 @@ struct ContactKernel {
       own.most_overlap = lane_max(motion.overlap, own.most_overlap);
       motion.relative_rotation = other.turn - disc.turn;
       if constexpr (slips) {
-        auto const way = way_since(load_ints(rows.anchor.data<std::int32_t>() + e), other.ticks_x, other.ticks_y, dx, dy,
-                                   inverse.of_distance2, arm, other_arm, disc.turn, other.turn);
-        motion.shear_increment = way.slip, turned2 = way.turned2;
+        IntLanes const anchor = load_ints(rows.anchor.data<std::int32_t>() + e);
+        auto const branch = branch_since(anchor, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2);
+        motion.shear_increment = way_since(branch, arm, other_arm, disc.turn, other.turn).slip, turned2 = branch.turned2;
+        motion.overlap = overlap_since(anchor, branch, distance, inverse.of_distance2, reach, law.tick,
+                                       separate ? none && !is_bonded(h.formation_overlap) : none);
       }
     } else {
       motion.common_radius = common_radius(disc.radius, other_radius);
@@ -140,7 +142,6 @@ struct ContactKernel {
     Viscosity dashpot;
     if constexpr (Dashpot) dashpot = dashpot_coefficient(law.grain, disc.motion.inverse_mass, moving.inverse_mass);
     Forces now;
-    auto const none = remembers_nothing(h), begins = none && touching;
     ContactMotion<V> of_grains = motion;
     if constexpr (mixed && (shears || turns)) {
       if (any(begins)) {  // with the slip of this step
@@ -226,21 +227,6 @@ struct ContactKernel {
   }
 
   using Viscosity = std::conditional_t<Dashpot, V, Undamped>;
-
-  KOKKOS_FORCEINLINE_FUNCTION History read(std::size_t e) const {
-    History h{V(0), V(0), V(no_bond_of<R>), V(0), V(0), V(0)};
-    if constexpr (shears) h.shear = Kept::read(rows.shear, e);
-    if constexpr (moments) h.moment = Kept::read(rows.moment, e);
-    if constexpr (bonded_code) {
-      h.formation_overlap = load(rows.formation_overlap.data<R>() + e);
-      h.width = load(rows.width.data<R>() + e);
-    }
-    if constexpr (Bond == BondKind::parallel) {
-      h.bond_shear = Kept::read(rows.bond_shear, e);
-      h.bond_moment = Kept::read(rows.bond_moment, e);
-    }
-    return h;
-  }
 
   /// Pairs without a history of the grain contact (or of the bond in its place), in mixed precision.
   KOKKOS_FORCEINLINE_FUNCTION static VMask remembers_nothing(History const& h) {

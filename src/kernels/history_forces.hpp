@@ -36,8 +36,8 @@ CLATHRA_COLD_FUNCTION inline AnchoredPair anchored_pair(ParticleSoA const& p, Co
   pair.overlap = overlap;
   bool const keeps = rows.anchor.extent(0) > 0;
   std::int32_t const anchor = anew || !keeps ? pair.anchor : rows.anchor.data<std::int32_t>()[e];
-  pair.way = way_since(anchor, dx, dy, x, y, 1 / distance2, minus_times(0.5F, overlap, a[2]), minus_times(0.5F, overlap, b[2]),
-                       counted_on(a[3]), counted_on(b[3]));
+  pair.way = way_since(branch_since(anchor, dx, dy, x, y, 1 / distance2), minus_times(0.5F, overlap, a[2]),
+                       minus_times(0.5F, overlap, b[2]), counted_on(a[3]), counted_on(b[3]));
   pair.of_grains = grain_stiffness(in_numbers<float>(laws.grain), overlap, common_radius(a[2], b[2]));
   pair.bond = {0, 0, 0};
   if (laws.bond_kind == BondKind::none || !is_bonded(rows.formation_overlap(e))) return pair;

@@ -25,6 +25,11 @@ KOKKOS_FORCEINLINE_FUNCTION float to_float(std::int32_t value) { return static_c
 /// To the nearest whole number, of two the even one; below 2^31.
 KOKKOS_FORCEINLINE_FUNCTION std::int32_t rounded(float value) { return static_cast<std::int32_t>(::lrintf(value)); }
 KOKKOS_FORCEINLINE_FUNCTION std::int32_t select_ints(bool mask, std::int32_t yes, std::int32_t no) { return mask ? yes : no; }
+/// The sum of the squares of both halves, numbers of 16 bits.
+KOKKOS_FORCEINLINE_FUNCTION std::int32_t squares_of_halves(std::int32_t a) {
+  std::int32_t const low = shifted_up(a, 16) >> 16, high = a >> 16;
+  return low * low + high * high;
+}
 
 #ifdef CLATHRA_SIMD
 struct PlainInts {
@@ -55,6 +60,16 @@ KOKKOS_FORCEINLINE_FUNCTION IntLanes rounded(FloatLanes const& value) {
   IntLanes whole;
   for (int l = 0; l < lane_count_of<float>; ++l) whole[l] = rounded(float(v[l]));
   return whole;
+#endif
+}
+KOKKOS_FORCEINLINE_FUNCTION IntLanes squares_of_halves(IntLanes const& a) {
+#if defined(__AVX512BW__)
+  return reinterpret_cast<IntLanes>(_mm512_madd_epi16(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(a)));
+#elif defined(__AVX2__) && !defined(__AVX512F__)
+  return reinterpret_cast<IntLanes>(_mm256_madd_epi16(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(a)));
+#else
+  IntLanes const low = shifted_up(a, 16) >> 16, high = a >> 16;
+  return low * low + high * high;
 #endif
 }
 KOKKOS_FORCEINLINE_FUNCTION IntLanes select_ints(MaskOf<FloatLanes> const& mask, IntLanes const& yes, IntLanes const& no) {

@@ -183,7 +183,8 @@ struct AbsoluteProduct {
   AbsoluteStiffness k;
   Motion u, w;
   Real factor;
-  bool further;  ///< w = v sqrt(v / u), else w = v: the first product is not normalised yet
+  static constexpr int entries_ahead = 256;  ///< that are fetched before they are read
+  bool further;                              ///< w = v sqrt(v / u), else w = v: the first product is not normalised yet
   std::size_t ahead = discs_ahead(net.particles.owned);
 
   KOKKOS_FUNCTION void operator()(int group, Real& greatest) const {
@@ -201,6 +202,8 @@ struct AbsoluteProduct {
       if ((blocks & 1) == 0) continue;
       std::size_t const e = (static_cast<std::size_t>(block) << shift) | (first & ((std::size_t(1) << shift) - 1));
       int const* const j = &net.rows.neighbour(e);
+      prefetch(j + entries_ahead);
+      for (int n = 0; n < 9; ++n) prefetch(k.between[n].data() + e + entries_ahead);
       Lanes const vx = gather(u.x.data(), j), vy = gather(u.y.data(), j), vt = gather(u.rotation.data(), j);
       x += load_float(&k.between[0](e)) * vx + load_float(&k.between[1](e)) * vy + load_float(&k.between[2](e)) * vt;
       y += load_float(&k.between[3](e)) * vx + load_float(&k.between[4](e)) * vy + load_float(&k.between[5](e)) * vt;
