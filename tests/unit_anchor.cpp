@@ -237,6 +237,25 @@ TEST(HistoryAtTheAnchor, StartsFromTheLimitAfterSliding) {
   EXPECT_NEAR(pair_history(sim).shear - slid.shear, -sand_ks * 5e-8, 5e-3 * sand_ks * 5e-8);  // the branch has turned
 }
 
+/// As in a generation, which changes friction and shape every ten steps.
+TEST(HistoryAtTheAnchor, ForcesStayWhereTheRollingStiffnessChanges) {
+  Simulation sim = driven_discs();
+  drive(sim, 1, 0, 1e-3, 2);
+  sim.step(100);
+  SpecimenContact const first = pair_history(sim);
+  sim.step(10);
+  SpecimenContact const before = pair_history(sim);
+  SimulationLaws laws = sim.laws();
+  laws.contact.grain.shape_factor *= 0.5;
+  sim.set_laws(laws);
+  SpecimenContact const kept = pair_history(sim);
+  EXPECT_NEAR(kept.moment, before.moment, 1e-6 * std::abs(before.moment));
+  EXPECT_EQ(kept.shear, before.shear);
+  sim.step(10);
+  EXPECT_NEAR((pair_history(sim).moment - kept.moment) / (before.moment - first.moment), 0.25, 1e-3);
+  EXPECT_NEAR((pair_history(sim).shear - kept.shear) / (before.shear - first.shear), 1, 0.05);
+}
+
 /// A disc that turns for long begins to count anew, again and again, and its rotation is their sum.
 TEST(HistoryAtTheAnchor, ADiscThatTurnsForLongKeepsItsRotation) {
   Simulation sim = driven_discs();

@@ -62,6 +62,33 @@ struct AnchorRows {
   }
 };
 
+/// M = M_0 + k_m (phi_j - phi_i) stays when k_m changes. One group of discs a call.
+struct KeepMomentsSinceAnchor {
+  ParticleSoA p;
+  ContactRows rows;
+  float less;  ///< k_m / common_radius^2 before, less that of now
+  bool not_of_bonds;
+
+  KOKKOS_FUNCTION void operator()(int group) const {
+    constexpr int lanes = lane_count_of<float>, slice_width = slice_width_of<float>;
+    auto const first = static_cast<std::size_t>(group) * lanes;
+    PlacesOfDiscs const own = p.mirror.load_places(first);
+    int const slice = group / (slice_width / lanes);
+    std::uint64_t active = rows.active(group);
+    for (int k = rows.slice_start(slice); k < rows.slice_start(slice + 1); ++k, active >>= 1) {
+      if ((active & 1) == 0) continue;
+      std::size_t const e = static_cast<std::size_t>(k) * slice_width + first % slice_width;
+      PlacesOfDiscs const other = p.mirror.gather_places(&rows.neighbour(e));
+      float* const moments = rows.moment.data<float>() + e;
+      FloatLanes const common = common_radius(own.radius, other.radius), at_anchor = load(moments),
+                       kept = times_plus(less * common * common, counted_on(other.turn) - counted_on(own.turn), at_anchor);
+      auto stays = at_anchor == FloatLanes(no_bond_single);
+      if (not_of_bonds) stays = stays || is_bonded(load(rows.formation_overlap.data<float>() + e));
+      store(moments, select(stays, at_anchor, kept));
+    }
+  }
+};
+
 }  // namespace
 
 ContactRows with_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws) {
@@ -82,6 +109,13 @@ void anchor_rows(ParticleSoA const& particles, ContactRows const& rows, ContactL
   HistoryFormat const& format = rows.features.format;
   int const slots = format.slice_count(particles.owned) * format.slice_width();
   Kokkos::parallel_for("anchor_rows", Kokkos::RangePolicy<ExecutionSpace>(0, slots), AnchorRows{particles, rows, laws});
+}
+
+void keep_moments(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& before, ContactLaws const& now) {
+  if (particles.precision == Precision::full || !rows.features.rolling) return;
+  float const less = in_numbers<float>(before.grain).rolling_factor() - in_numbers<float>(now.grain).rolling_factor();
+  Kokkos::parallel_for("keep_moments", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned, lane_count_of<float>)),
+                       KeepMomentsSinceAnchor{particles, rows, less, now.bond_kind == BondKind::replace});
 }
 
 }  // namespace clathra

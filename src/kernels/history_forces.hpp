@@ -78,4 +78,8 @@ ContactRows with_forces(ParticleSoA const& particles, ContactRows const& rows, C
 /// are. To be called when the rows are prepared (prepare_rows()). In double precision nothing is to be done.
 void anchor_rows(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws);
 
+/// The same where nothing but the rolling stiffness of grain contacts has changed: their moments stay as they are, and anchors
+/// too. A generation does it every ten steps.
+void keep_moments(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& before, ContactLaws const& now);
+
 }  // namespace clathra

@@ -11,11 +11,9 @@ namespace clathra {
 
 namespace {
 
-/// Whether histories come to the same forces.
+/// Whether histories come to the same forces, but for the rolling of grain contacts.
 bool same_stiffness(ContactLaws const& a, ContactLaws const& b) {
-  auto const of_grains = [](GrainLaw const& law) {
-    return std::tuple(law.normal_stiffness, law.shear_stiffness, law.shape_factor);
-  };
+  auto const of_grains = [](GrainLaw const& law) { return std::tuple(law.normal_stiffness, law.shear_stiffness); };
   auto const of_bonds = [](BondLaw const& law) {
     return std::tuple(law.modulus, law.particle_stiffness, law.critical_thickness, law.thickness_partner, law.thickness_weight,
                       law.plate_thickness);
@@ -79,7 +77,10 @@ void Simulation::set_laws(SimulationLaws const& laws) {
   if (anchors) rows_ = with_forces(particles_, rows_, before);
   if (!same_history) change_features(rows_, features);
   if (!same_history || rows_.features.bonds) prepare_rows(particles_, rows_, laws_.contact.bond);
-  if (anchors) anchor_rows(particles_, rows_, laws_.contact);
+  if (anchors)
+    anchor_rows(particles_, rows_, laws_.contact);
+  else if (before.grain.shape_factor != laws_.contact.grain.shape_factor)
+    keep_moments(particles_, rows_, before, laws_.contact);
   if (ledger) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
 }
 
