@@ -10,7 +10,7 @@ target_compile_features(clathra_flags INTERFACE cxx_std_20)
 # exception flags, which we do not read and which keep loops with sqrt and with selects from being vectorised.
 target_compile_options(clathra_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # GCC (12 at least) contracts neighbouring statements like x = a * b - c, y = d * e + f all the same: its vectoriser of
-# straight code makes one vfmaddsub of them and does not ask -ffp-contract. The test no_fma watches the machine code.
+# straight code makes one vfmaddsub of them and does not ask -ffp-contract. The tests no_fma watch the machine code.
 target_compile_options(clathra_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
 target_compile_options(
@@ -24,29 +24,30 @@ if(CLATHRA_DEVICE STREQUAL "CUDA")
   target_compile_options(clathra_flags INTERFACE -fmad=false -Werror=cross-execution-space-call -Wno-parentheses)
 endif()
 
-if(CLATHRA_NATIVE AND NOT CLATHRA_DEVICE) # on a GPU's host nothing is vectorised, and nvcc does not read all that a processor has
+# Which instruction set: that of this machine; or any machine of its kind, where x86 processors have had AVX2 and fused operations
+# since 2013 and 2015, and without the latter mixed precision, the default, calls a function for each; or what CMAKE_CXX_FLAGS say.
+# Not for a GPU's host, where nothing is vectorised and nvcc does not read all that a processor has.
+if(NOT CLATHRA_DEVICE)
   include(CheckCXXCompilerFlag)
   include(CheckCXXSourceCompiles)
-  check_cxx_compiler_flag(-march=native CLATHRA_HAS_MARCH_NATIVE)
-  if(CLATHRA_HAS_MARCH_NATIVE)
-    target_compile_options(clathra_flags INTERFACE -march=native)
-    set(CMAKE_REQUIRED_FLAGS -march=native)
-    check_cxx_source_compiles("#ifndef __AVX512F__\n#error\n#endif\nint main() {}" CLATHRA_HAS_AVX512)
-    unset(CMAKE_REQUIRED_FLAGS)
-    if(CLATHRA_HAS_AVX512)
-      target_compile_options(clathra_flags INTERFACE -mprefer-vector-width=512)
+  set(instruction_set "")
+  if(CLATHRA_NATIVE)
+    set(instruction_set -march=native)
+  elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CMAKE_CXX_FLAGS MATCHES "-march=")
+    set(instruction_set -march=x86-64-v3)
+  endif()
+  if(instruction_set)
+    string(MAKE_C_IDENTIFIER CLATHRA_HAS${instruction_set} has_instruction_set)
+    check_cxx_compiler_flag(${instruction_set} ${has_instruction_set})
+    if(${has_instruction_set})
+      target_compile_options(clathra_flags INTERFACE ${instruction_set})
+      set(CMAKE_REQUIRED_FLAGS ${instruction_set})
     endif()
   endif()
-endif()
-
-# For any machine of its kind: x86 processors have had AVX2 and fused operations since 2013 and 2015, and without the latter
-# mixed precision, the default, calls a function for each.
-if(NOT CLATHRA_NATIVE AND NOT CLATHRA_DEVICE AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CMAKE_CXX_FLAGS MATCHES
-                                                                                                   "-march=")
-  include(CheckCXXCompilerFlag)
-  check_cxx_compiler_flag(-march=x86-64-v3 CLATHRA_HAS_MARCH_V3)
-  if(CLATHRA_HAS_MARCH_V3)
-    target_compile_options(clathra_flags INTERFACE -march=x86-64-v3)
+  check_cxx_source_compiles("#ifndef __AVX512F__\n#error\n#endif\nint main() {}" CLATHRA_HAS_AVX512)
+  unset(CMAKE_REQUIRED_FLAGS)
+  if(CLATHRA_HAS_AVX512)
+    target_compile_options(clathra_flags INTERFACE -mprefer-vector-width=512)
   endif()
 endif()
 

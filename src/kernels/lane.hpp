@@ -1,7 +1,8 @@
 #pragma once
 /// The lane type: laws and kernels are written once on `Lanes` and become SIMD vectors on a CPU (one disc a lane) and plain
 /// numbers on a GPU (one disc a thread). Every operation is exact IEEE arithmetic lane by lane: the width never changes a bit.
-/// Products and sums are fused where times_plus() says so, and nowhere else.
+/// Products and sums are fused where times_plus() says so, and nowhere else. With CLATHRA_UNFUSED nothing asks for a fused operation:
+/// the test no_fma compiles the kernels so, and whatever fused instruction is left is one that the compiler made up.
 #include <Kokkos_Core.hpp>
 #include <cmath>
 #include <cstdint>
@@ -28,6 +29,12 @@
 #endif
 
 namespace clathra {
+
+#ifdef CLATHRA_UNFUSED
+inline constexpr bool may_fuse = false;
+#else
+inline constexpr bool may_fuse = true;
+#endif
 
 /// The vector of numbers R that the machine works on side by side, or one number.
 #ifdef CLATHRA_SIMD
@@ -105,16 +112,18 @@ KOKKOS_FORCEINLINE_FUNCTION float lane_min(float a, float b) { return a < b ? a 
 /// all that a processor is busy with. A processor without it (x86 before 2013, cheap ones later) calls the library's, number by
 /// number.
 KOKKOS_FORCEINLINE_FUNCTION double times_plus(double a, double b, double c) { return a * b + c; }
-KOKKOS_FORCEINLINE_FUNCTION float times_plus(float a, float b, float c) { return ::fmaf(a, b, c); }
+KOKKOS_FORCEINLINE_FUNCTION float times_plus(float a, float b, float c) { return may_fuse ? ::fmaf(a, b, c) : a * b + c; }
 /// times_plus() where the mask is set, else 0.
 KOKKOS_FORCEINLINE_FUNCTION float times_plus_where(bool mask, float a, float b, float c) {
   return mask ? times_plus(a, b, c) : 0;
 }
 /// a b + c rounded once, of double precision too: in what mixed precision alone computes.
-KOKKOS_FORCEINLINE_FUNCTION double fused_times_plus(double a, double b, double c) { return ::fma(a, b, c); }
+KOKKOS_FORCEINLINE_FUNCTION double fused_times_plus(double a, double b, double c) {
+  return may_fuse ? ::fma(a, b, c) : a * b + c;
+}
 /// c - a b, as times_plus().
 KOKKOS_FORCEINLINE_FUNCTION double minus_times(double a, double b, double c) { return c - a * b; }
-KOKKOS_FORCEINLINE_FUNCTION float minus_times(float a, float b, float c) { return ::fmaf(-a, b, c); }
+KOKKOS_FORCEINLINE_FUNCTION float minus_times(float a, float b, float c) { return may_fuse ? ::fmaf(-a, b, c) : c - a * b; }
 
 #ifdef CLATHRA_SIMD
 template <class R, class Abi>
@@ -198,8 +207,10 @@ KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> lane_min(Simd<R, Abi> const& a, Simd<R,
 template <bool Minus, class R, class Abi>
 KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> fused(Simd<R, Abi> const& a, Simd<R, Abi> const& b, Simd<R, Abi> const& c) {
   auto const x = static_cast<PlainVector<R>>(a), y = static_cast<PlainVector<R>>(b), z = static_cast<PlainVector<R>>(c);
-  constexpr bool single = std::is_same_v<R, float>;
-#if defined(__AVX512F__)
+  [[maybe_unused]] constexpr bool single = std::is_same_v<R, float>;
+#if defined(CLATHRA_UNFUSED)
+  return Simd<R, Abi>(PlainVector<R>(Minus ? z - x * y : x * y + z));
+#elif defined(__AVX512F__)
   if constexpr (single)
     return Simd<R, Abi>(PlainVector<R>(Minus ? _mm512_fnmadd_ps(x, y, z) : _mm512_fmadd_ps(x, y, z)));
   else
@@ -235,7 +246,7 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes minus_times(FloatLanes const& a, FloatLan
 /// times_plus() where the mask is set, else 0.
 KOKKOS_FORCEINLINE_FUNCTION FloatLanes times_plus_where(MaskOf<FloatLanes> const& mask, FloatLanes const& a, FloatLanes const& b,
                                                         FloatLanes const& c) {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(CLATHRA_UNFUSED)
   auto const x = static_cast<PlainVector<float>>(a), y = static_cast<PlainVector<float>>(b),
              z = static_cast<PlainVector<float>>(c);
   return FloatLanes(PlainVector<float>(_mm512_maskz_fmadd_ps(static_cast<__mmask16>(stdx::__data(mask)), x, y, z)));
