@@ -13,8 +13,14 @@ if(hash)
     COMMAND ${git} status --porcelain --untracked-files=no
     WORKING_DIRECTORY ${SOURCE}
     OUTPUT_VARIABLE changes ERROR_QUIET)
-  if(changes)
-    string(APPEND hash "-dirty")
+  if(changes) # two programs with other changes are two programs
+    execute_process(
+      COMMAND ${git} diff HEAD
+      WORKING_DIRECTORY ${SOURCE}
+      OUTPUT_VARIABLE difference ERROR_QUIET)
+    string(SHA256 digest "${difference}")
+    string(SUBSTRING "${digest}" 0 8 digest)
+    string(APPEND hash "-dirty-${digest}")
   endif()
 else()
   set(hash "unknown")

@@ -11,6 +11,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "clathra_version.hpp"
+#include "io/results/run_record.hpp"
+
 namespace clathra {
 namespace {
 
@@ -53,6 +56,8 @@ int wait_for(pid_t child) {
 }
 
 }  // namespace
+
+std::string own_version() { return version_text(CLATHRA_VERSION, CLATHRA_GIT_HASH); }
 
 std::string output_of_own_program(std::vector<std::string> const& arguments) {
   int ends[2];

@@ -5,6 +5,10 @@
 
 namespace clathra {
 
+/// "0.1.0 (4f3a2b1c9d8e)": version and git revision, with a digest of what was changed since where the sources were not
+/// committed.
+std::string own_version();
+
 /// Runs this program with other arguments and returns what it prints to stdout; its stderr is ours.
 /// @throws std::runtime_error where it cannot be started or does not end with exit code 0
 std::string output_of_own_program(std::vector<std::string> const& arguments);

@@ -56,6 +56,7 @@ Study reproduction_study(PaperDesign const& design, ReproductionSize const& size
   study.folder = folder;
   study.scene = folder / "scene.toml";
   study.file = study.scene;
+  study.seeds_stated = true;
   for (int k = 0; k < size.seeds; ++k) study.seeds.push_back(size.first_seed + static_cast<std::uint64_t>(k));
   for (int const stress : design.stresses) study.groups.push_back(group_of(0, stress));
   for (int const saturation : design.saturations)

@@ -39,39 +39,53 @@ double largest_memory(StudyPlan const& plan) {
 
 void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs) {
   if (plan.study.until) throw Refused("--slurm needs members that are known before: leave out 'until' and give 'seeds'");
-  std::string study = fmt::format("clathra study {}", shell_word(fs::absolute(jobs.study).lexically_normal().string()));
-  for (std::string const& text : jobs.overrides) study += " --set " + shell_word(text);
-  if (!jobs.checkpoint_every.empty()) study += " --checkpoint-every " + jobs.checkpoint_every;
-  if (!jobs.output.empty()) study += " --output " + shell_word(jobs.output);
+  fs::path const study = jobs.script.string() + ".toml";
+  replace_text_file(study, resolved_study(plan.study));
+  std::vector<std::string> words = {own_path(), "study", fs::absolute(study).lexically_normal().string(), "--checkpoint-every",
+                                    jobs.checkpoint_every};
+  if (!jobs.most_time.empty()) words.insert(words.end(), {"--max-walltime", jobs.most_time});
+  if (jobs.threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", jobs.threads)});
+  if (jobs.allow_mixed) words.push_back("--allow-mixed");
+  std::string command;
+  for (std::string const& word : words) command += (command.empty() ? "" : " ") + shell_word(word);
   constexpr double usual_time = 24 * 3600;
   double const time = jobs.most_time.empty() ? usual_time : duration_of(jobs.most_time);
-  std::string const launcher = jobs.launcher.empty() ? "srun" : jobs.launcher;
-  std::string text =
-      "#!/bin/bash\n# Written by `clathra study --slurm`. Run it: it submits the arrays. Options of sbatch may follow: bash ";
-  text += fmt::format("{} --partition=short\n", jobs.script.filename().string());
-  text += "set -euo pipefail\n";
-  text += fmt::format("cd {}\nexport PATH={}:$PATH\n", shell_word(fs::current_path().string()),
-                      shell_word(fs::path(own_path()).parent_path().string()));
-  text += fmt::format("folder={}\nmkdir -p \"$folder/logs\"\n", shell_word(plan.study.folder.string()));
-  text += fmt::format("study={}\n", shell_word(study));
-  text +=
-      "# USR1 comes two minutes before the time is over; a job that ends with 75 has a checkpoint and goes back into the queue.\n"
-      "job() { sbatch --parsable --requeue --open-mode=append --signal=USR1@120 " +
-      fmt::format("--time={} --cpus-per-task={} --mem={}M \\\n  --output=\"$folder/logs/slurm-%x-%a.log\" \"$@\"; }}\n",
-                  slurm_time(time), std::max(1, jobs.threads), static_cast<long>(std::ceil(largest_memory(plan) * 1.2e-6 + 50)));
+  std::string text = fmt::format(
+      "#!/bin/bash\n# Written by `clathra study --slurm`. Run it: it submits itself as arrays of jobs. Options of sbatch may "
+      "follow:\n"
+      "# bash {} --partition=short\nset -euo pipefail\ncd {}\n",
+      jobs.script.filename().string(), shell_word(fs::current_path().string()));
+  text += fmt::format("study=({})\nlauncher={}\nfolder={}\n", command, shell_word(jobs.launcher.empty() ? "srun" : jobs.launcher),
+                      shell_word(fs::absolute(plan.study.folder).lexically_normal().string()));
+  text += R"(
+# In a job.
+case ${1-} in
+  --job=specimen | --job=member)
+    code=0
+    "${study[@]}" "--${1#--job=}" "$SLURM_ARRAY_TASK_ID" --launcher "$launcher" || code=$?
+    # It has a checkpoint and goes back into the queue.
+    [ $code != 75 ] || scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
+    exit $code
+    ;;
+  --job=collect) exec "${study[@]}" --collect ;;
+esac
+
+mkdir -p "$folder/logs"
+# USR1 comes two minutes before the time is over.
+)";
   text += fmt::format(
-      "again='code=$?; [ $code != 75 ] || scontrol requeue ${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID; exit $code'\n");
-  std::string const number = "$SLURM_ARRAY_TASK_ID", with = fmt::format(" --launcher {}", shell_word(launcher));
+      "job() {{\n  sbatch --parsable --requeue --open-mode=append --signal=USR1@120 --time={} --cpus-per-task={} --mem={}M \\\n",
+      slurm_time(time), std::max(1, jobs.threads), static_cast<long>(std::ceil(largest_memory(plan) * 1.2e-6 + 50)));
+  text += "    --output=\"$folder/logs/slurm-%x-%a.log\" \"$@\"\n}\n";
   std::string after;
   if (!plan.specimens.empty()) {
-    text += fmt::format("specimens=$(job \"$@\" --job-name=specimen --array=1-{} --wrap \"$study --specimen \\{}{}; $again\")\n",
-                        plan.specimens.size(), number, with);
+    text +=
+        fmt::format("specimens=$(job \"$@\" --job-name=specimen --array=1-{} \"$0\" --job=specimen)\n", plan.specimens.size());
     after = " --dependency=afterok:$specimens";
   }
-  text += fmt::format("members=$(job \"$@\" --job-name=member --array=1-{}{} --wrap \"$study --member \\{}{}; $again\")\n",
-                      plan.runs.size(), after, number, with);
-  text += "collect=$(job \"$@\" --job-name=collect --dependency=afterany:$members --wrap \"$study --collect\")\n";
-  text += fmt::format("echo \"members $members, collected by $collect into $folder/study.csv\"\n");
+  text += fmt::format("members=$(job \"$@\" --job-name=member --array=1-{}{} \"$0\" --job=member)\n", plan.runs.size(), after);
+  text += "collect=$(job \"$@\" --job-name=collect --dependency=afterany:$members \"$0\" --job=collect)\n";
+  text += "echo \"members $members, collected by $collect into $folder/study.csv\"\n";
   replace_text_file(jobs.script, text);
 }
 

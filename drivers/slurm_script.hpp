@@ -11,19 +11,17 @@ namespace clathra {
 /// What the jobs of the arrays are told.
 struct SlurmJobs {
   std::filesystem::path script;  ///< to be written
-  std::string study;             ///< file, as given
   std::string launcher;          ///< of each member, inside its job; empty = srun
-  std::vector<std::string> overrides;
-  std::string output;            ///< folder, as given; empty = that of the study
-  int threads = 0;               ///< cores of a job; 0 = 1
+  int threads = 0;               ///< cores of a job and threads of a rank; 0 = 1 core, and as many threads as the launcher gives
   std::string most_time;         ///< of a job, "3h50m"; empty = 24 hours
   std::string checkpoint_every;  ///< "10m"
+  bool allow_mixed = false;      ///< jobs take what another program made
 };
 
-/// Writes a script for bash that submits an array of specimens, an array of members that begins when they are there, and a job
-/// that collects them. A job that is told to stop (USR1, two minutes before its time is over) or whose node is set down is queued
-/// again and goes on from its checkpoint. @throws FileProblem;  Refused for a study with a goal, whose members nobody knows
-/// before
+/// Writes the resolved study (SCRIPT.toml), and a script for bash that submits an array of specimens, an array of members that
+/// begins when they are there, and a job that collects them. A job that is told to stop (USR1, two minutes before its time is
+/// over) or whose node is set down is queued again and goes on from its checkpoint. @throws FileProblem;  Refused for a study
+/// with a goal, whose members nobody knows before
 void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs);
 
 }  // namespace clathra

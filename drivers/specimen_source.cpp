@@ -24,7 +24,10 @@ std::string provenance_text(RunRecord const& record, SceneTexts const& label) {
   json["program"] = "clathra " + record.version;
   json["git_hash"] = record.git_hash;
   json["scene_digest_xxh3_128"] = text_digest(record.input.source);
-  json["overrides"] = record.input.overrides;
+  std::vector<std::string> overrides = record.input.overrides;
+  std::erase_if(overrides,
+                [](std::string const& text) { return text.starts_with("run.threads="); });  // the same file for any number
+  json["overrides"] = overrides;
   json["made_of"] = label;
   if (!record.specimen_digest.empty()) json["specimen_digest_xxh3_128"] = record.specimen_digest;
   if (auto const stage = record.stages.find("generate"); stage != record.stages.end()) json["generate"] = stage->second;

@@ -32,7 +32,7 @@ std::string study_forecast(StudyPlan const& plan, int parallel, int threads) {
   double runs = 0, specimens = 0, disk = 0;
   for (StudyTask const& task : plan.runs) runs += task.disc_steps, disk += task.disk;
   for (StudyTask const& task : plan.specimens) specimens += task.disc_steps;
-  Scene scene = member_scene(plan.study, plan.study.groups.back(), plan.study.seeds.front(), plan.overrides).scene;
+  Scene scene = member_scene(plan.study, plan.study.groups.back(), plan.study.seeds.front()).scene;
   scene.run.threads = threads;
   MachineSpeed const speed = machine_speed(scene, 1, true);
   double const rate = speed.disc_steps_per_second * parallel;

@@ -7,11 +7,15 @@
 #include <set>
 
 #include "domain/biaxial/scene_cost.hpp"
+#include "forecast.hpp"
 #include "io/errors/problems.hpp"
 #include "io/formats/digest.hpp"
 #include "io/results/earlier_run.hpp"
+#include "io/results/output_folder.hpp"
 #include "io/results/specimen_file.hpp"
+#include "io/results/specimen_label.hpp"
 #include "io/scene/scene_comparison.hpp"
+#include "own_program.hpp"
 #include "scene_options.hpp"
 
 namespace clathra {
@@ -32,11 +36,13 @@ bool is_of_generation(std::string const& key) {
   return !key.starts_with("hydrate.") && !key.starts_with("test.") && !key.starts_with("output.");
 }
 
-/// The name of the specimen of a scene: the same for all scenes that make the same one.
+/// The name of the specimen of a scene: the same for all scenes that make the same one. What the grading's file holds counts,
+/// not only what it is called.
 std::string specimen_name(Scene const& scene, fs::path const& folder) {
   std::string text;
   for (auto const& [key, value] : scene_texts(scene, folder))
     if (is_of_generation(key)) text += key + "=" + value + "\n";
+  if (!scene.grading.file.empty()) text += "grading_digest=" + file_digest(scene.grading.file) + "\n";
   return fmt::format("{}-seed{}", text_digest(text).substr(0, 10), scene.run.seed);
 }
 
@@ -50,26 +56,28 @@ bool is_of_size(std::string const& text) {
                      [&](std::string_view key) { return text.starts_with(std::string(key) + "="); });
 }
 
-/// The overrides of a member, without those that its specimen decides.
-std::vector<std::string> overrides_of(StudyPlan const& plan, std::size_t group, std::uint64_t seed) {
-  std::vector<std::string> all = plan.overrides;
-  for (auto const& [key, value] : plan.study.groups[group].settings) all.push_back(key + "=" + value);
-  all.push_back(fmt::format("run.seed={}", seed));
-  return all;
+/// What a specimen in a file says of the cost of testing it.
+SpecimenSize const& size_of(StudyPlan& plan, std::string const& file) {
+  auto found = plan.sizes.find(file);
+  if (found != plan.sizes.end()) return found->second;
+  Specimen const specimen = read_specimen(file);
+  SpecimenSize size{{}, static_cast<std::int64_t>(specimen.size()), {}};
+  size.outline.left = specimen.left, size.outline.right = specimen.right;
+  size.outline.bottom = specimen.bottom, size.outline.top = specimen.top;
+  size.outline.void_ratio = specimen.void_ratio;
+  Forecast narrow;
+  check_size(narrow, specimen);
+  size.refusals = std::move(narrow.refusals);
+  return plan.sizes.emplace(file, std::move(size)).first->second;
 }
 
-/// The scene with the size of the specimen that it reads.
-Scene sized(StudyPlan& plan, Scene const& scene) {
-  auto found = plan.sizes.find(scene.sample.file);
-  if (found == plan.sizes.end()) {
-    Specimen const specimen = read_specimen(scene.sample.file);
-    SpecimenSize size{{}, static_cast<std::int64_t>(specimen.size())};
-    size.outline.left = specimen.left, size.outline.right = specimen.right;
-    size.outline.bottom = specimen.bottom, size.outline.top = specimen.top;
-    size.outline.void_ratio = specimen.void_ratio;
-    found = plan.sizes.emplace(scene.sample.file, std::move(size)).first;
-  }
-  return sized_by(scene, found->second.outline, found->second.discs);
+/// What a member will cost and what its guards say. @throws FileProblem where it reads a specimen that cannot be read
+Forecast forecast_of(StudyPlan& plan, Scene const& scene) {
+  if (scene.sample.generator != Generator::file) return forecast(scene, 1);
+  SpecimenSize const& size = size_of(plan, scene.sample.file);
+  Forecast result = forecast(sized_by(scene, size.outline, size.discs), 1);
+  result.refusals.insert(result.refusals.end(), size.refusals.begin(), size.refusals.end());
+  return result;
 }
 
 std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::string> const& overrides) {
@@ -84,7 +92,8 @@ std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::
   task.log = plan.study.folder / "logs" / (name + ".log");
   std::vector<std::string> making;
   for (std::string const& text : overrides)
-    if (is_of_generation(text.substr(0, text.find('=')))) making.push_back(text);
+    if (std::string const key = text.substr(0, text.find('=')); is_of_generation(key) || key == "run.force")
+      making.push_back(text);
   task.arguments = with_set({"generate", plan.study.scene.string(), "-o", task.result.string()}, making);
   StageRecord const cost = predict(scene);
   task.disc_steps = cost.at("generation_disc_steps");
@@ -103,16 +112,18 @@ LoadedScene StudyPlan::scene_of_run(std::size_t member) const {
   return load_scene(study.scene, texts);
 }
 
-StudyPlan plan_study(Study study, std::vector<std::string> overrides) {
-  StudyPlan plan{std::move(study), std::move(overrides), {}, {}, {}, {}};
+StudyPlan plan_study(Study study) {
+  StudyPlan plan{std::move(study), {}, {}, {}, {}};
   std::map<SceneTexts, std::string> seen;
   std::vector<Problem> problems;
   std::set<std::string> said;
+  std::vector<std::string> read_files;
   for (StudyGroup const& group : plan.study.groups) {
     try {
-      Scene const scene = member_scene(plan.study, group, plan.study.seeds.front(), plan.overrides).scene;
+      Scene const scene = member_scene(plan.study, group, plan.study.seeds.front()).scene;
       SceneTexts texts = scene_texts(scene, ".");
       texts["sample.file"] = scene.sample.file;
+      if (scene.sample.generator == Generator::file) read_files.push_back(group.name);
       auto const [other, is_new] = seen.emplace(std::move(texts), group.name);
       if (!is_new)
         problems.push_back(
@@ -123,21 +134,31 @@ StudyPlan plan_study(Study study, std::vector<std::string> overrides) {
           problems.push_back(problem);
     }
   }
+  if (problems.empty() && !plan.study.seeds_stated && !plan.study.until && read_files.size() == plan.study.groups.size())
+    plan.study.seeds.resize(1);
+  if (!read_files.empty() && (plan.study.seeds.size() > 1 || plan.study.until))
+    problems.push_back(
+        {plan.study.file.string(), 0, 0,
+         fmt::format("seeds change nothing in the group {}, whose specimen comes from a file: all would be the same "
+                     "test. Write seeds = 1, or let specimens be made (sample.generator)",
+                     read_files.front())});
   if (!problems.empty()) throw SceneProblems(std::move(problems));
   return plan;
 }
 
 void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
-  Scene const scene = member_scene(plan.study, plan.study.groups[group], seed, plan.overrides).scene;
-  std::vector<std::string> overrides = overrides_of(plan, group, seed);
+  StudyGroup const& of = plan.study.groups[group];
+  Scene const scene = member_scene(plan.study, of, seed).scene;
+  std::vector<std::string> overrides = member_overrides(of, seed);
   StudyTask task;
-  task.name = member_name(plan.study.groups[group], seed);
+  task.name = member_name(of, seed);
   task.result = plan.study.folder / "members" / task.name;
   task.log = plan.study.folder / "logs" / (task.name + ".log");
-  StageRecord const cost = predict(scene.sample.generator == Generator::file ? sized(plan, scene) : scene);
-  task.disc_steps = cost.at("disc_steps");
-  task.memory = cost.at("memory_bytes");
-  task.disk = cost.at("disk_bytes");
+  Forecast const cost = forecast_of(plan, scene);
+  task.disc_steps = cost.numbers.at("disc_steps");
+  task.memory = cost.numbers.at("memory_bytes");
+  task.disk = cost.numbers.at("disk_bytes");
+  if (!scene.run.force) task.refusals = cost.refusals;
   if (scene.sample.generator != Generator::file) {
     task.specimen = specimen_task(plan, scene, overrides);
     std::erase_if(overrides, is_of_size);
@@ -149,6 +170,58 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   member.seed = seed;
   plan.members.push_back(std::move(member));
   plan.runs.push_back(std::move(task));
+}
+
+void add_members(StudyPlan& plan) {
+  for (std::size_t group = 0; group < plan.study.groups.size(); ++group)
+    for (std::uint64_t const seed : plan.study.seeds) add_member(plan, group, seed);
+}
+
+void heed_guards(StudyPlan& plan, bool skip) {
+  std::vector<Problem> problems;
+  std::set<std::size_t> groups;
+  auto const add = [&](std::string text) {
+    problems.push_back({plan.study.file.string(), 0, 0, std::move(text), Severity::refusal});
+  };
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    MemberResult& member = plan.members[i];
+    std::string why;
+    for (std::string const& refusal : plan.runs[i].refusals) why += (why.empty() ? "" : "; ") + refusal;
+    if (why.empty()) continue;
+    if (groups.insert(member.group).second)
+      add(fmt::format("the group {} would be refused: {}", plan.study.groups[member.group].name, why));
+    member.state = MemberState::refused;
+    member.message = why;
+  }
+  if (groups.empty() || (skip && groups.size() < plan.study.groups.size())) return;
+  add(
+      fmt::format("{} of {} groups would be refused, so nothing was started: --skip-refused goes on without them, --force "
+                  "overrides the guards",
+                  groups.size(), plan.study.groups.size()));
+  throw SceneProblems(std::move(problems));
+}
+
+void require_one_program(StudyPlan const& plan) {
+  std::set<std::string> programs;
+  std::string first;
+  std::size_t count = 0;
+  auto const look_at = [&](std::string const& program, fs::path const& made) {
+    if (program.empty() || program == own_version()) return;
+    programs.insert(program);
+    if (++count == 1) first = made.string();
+  };
+  std::error_code ignored;
+  for (StudyTask const& task : plan.specimens)
+    if (fs::exists(task.result, ignored)) look_at(program_of_specimen(task.result), task.result);
+  for (StudyTask const& task : plan.runs)
+    if (holds_results(task.result)) look_at(program_of_run(task.result), task.result);
+  if (count == 0) return;
+  std::string others;
+  for (std::string const& program : programs) others += (others.empty() ? "" : ", ") + program;
+  throw Refused(
+      fmt::format("{}{} made by another program ({}; this is {}): --output names another folder, --allow-mixed takes "
+                  "what is there and says in study.csv which program each is of",
+                  first, count == 1 ? " was" : fmt::format(" and {} more were", count - 1), others, own_version()));
 }
 
 void find_finished(StudyPlan& plan, std::size_t member) {

@@ -8,7 +8,7 @@
 
 #include "domain/scene/specimen.hpp"
 #include "io/results/study_results.hpp"
-#include "io/scene/study_file.hpp"
+#include "io/scene/study_members.hpp"
 
 namespace clathra {
 
@@ -20,6 +20,7 @@ struct StudyTask {
   std::filesystem::path log;            ///< where its messages go
   double disc_steps = 0;                ///< predicted
   double memory = 0, disk = 0;          ///< predicted [bytes]
+  std::vector<std::string> refusals;    ///< of its guards; none where it is forced
   std::optional<std::size_t> specimen;  ///< place of the task that makes what this one reads
 };
 
@@ -27,12 +28,12 @@ struct StudyTask {
 struct SpecimenSize {
   Specimen outline;  ///< without discs
   std::int64_t discs = 0;
+  std::vector<std::string> refusals;  ///< of guards that know the discs
 };
 
 /// Members by group and seed, and the tasks of each.
 struct StudyPlan {
   Study study;
-  std::vector<std::string> overrides;  ///< of all members, below those of the study
   std::vector<MemberResult> members;
   std::vector<StudyTask> runs;                ///< of members[i]
   std::vector<StudyTask> specimens;           ///< each for all members of the same scene of generation and seed
@@ -42,11 +43,23 @@ struct StudyPlan {
   LoadedScene scene_of_run(std::size_t member) const;
 };
 
-/// A plan without members. Makes sure that groups differ and that their scenes are right. @throws SceneProblems
-StudyPlan plan_study(Study study, std::vector<std::string> overrides);
+/// A plan without members. Makes sure that groups differ, that their scenes are right and that seeds make a difference: where all
+/// specimens come from files and the study states no seeds, there is one. @throws SceneProblems
+StudyPlan plan_study(Study study);
 
 /// Adds a member. @throws SceneProblems
 void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed);
+
+/// Adds all seeds of all groups.
+void add_members(StudyPlan& plan);
+
+/// What the guards of the members say, before any is started. @param skip  members that they refuse are marked so and left out
+/// @throws SceneProblems (refused) with all groups that would be, unless they are skipped and others are left
+void heed_guards(StudyPlan& plan, bool skip);
+
+/// Specimens and members that are there already must be of this program, or results of two programs would be averaged.
+/// @throws Refused
+void require_one_program(StudyPlan const& plan);
 
 /// Reads what is there already: members that are finished, by their scene and specimen, have their numbers then.
 /// @throws FileProblem refused where the folder of a member holds a finished run of another scene

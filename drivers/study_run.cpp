@@ -10,13 +10,14 @@
 
 #include "interrupt.hpp"
 #include "io/formats/text_file.hpp"
-#include "io/results/output_folder.hpp"
 #include "study_forecast.hpp"
 
 namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr auto pause = std::chrono::milliseconds(20);
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -62,6 +63,7 @@ double fraction_in(std::string const& log) {
 StudyLimits usual_limits(StudyPlan const& plan, int parallel, int threads, std::vector<std::string> launcher) {
   StudyLimits limits;
   limits.launcher = std::move(launcher);
+  limits.threads_stated = threads > 0;
   int const cores = static_cast<int>(own_cores().size()), members = static_cast<int>(plan.members.size());
   limits.threads = threads > 0 ? threads : std::max(1, cores / std::max(1, members));
   int const most = limits.launcher.empty() ? std::max(1, cores / limits.threads) : 1;
@@ -69,10 +71,11 @@ StudyLimits usual_limits(StudyPlan const& plan, int parallel, int threads, std::
   return limits;
 }
 
-StudyRun::StudyRun(StudyPlan& plan, StudyLimits limits)
+StudyRun::StudyRun(StudyPlan& plan, StudyLimits limits, OutputFolder const& folder)
     : plan_(plan), limits_(std::move(limits)), slot_taken_(static_cast<std::size_t>(limits_.parallel)), cores_(own_cores()) {
   std::error_code ignored;
-  for (char const* const folder : {"specimens", "members", "logs"}) fs::create_directories(plan_.study.folder / folder, ignored);
+  for (char const* const part : {"specimens", "members", "logs"}) fs::create_directories(folder / part, ignored);
+  if (std::string const warning = folder.lock_warning(); !warning.empty()) line_.warn(warning);
 }
 
 void StudyRun::look_at_what_is_there() {
@@ -90,9 +93,9 @@ void StudyRun::look_at_what_is_there() {
         fail_member(i, problems.what());
       }
     MemberState const state = plan_.members[i].state;
-    run_states_[i] = state == MemberState::finished ? TaskState::done
+    run_states_[i] = state == MemberState::waiting  ? TaskState::waiting
                      : state == MemberState::failed ? TaskState::failed
-                                                    : TaskState::waiting;
+                                                    : TaskState::done;
     work_ += plan_.runs[i].disc_steps;
     if (run_states_[i] != TaskState::waiting) done_ += plan_.runs[i].disc_steps;
     if (run_states_[i] == TaskState::waiting && plan_.runs[i].specimen) needed[*plan_.runs[i].specimen] = true;
@@ -106,20 +109,34 @@ void StudyRun::look_at_what_is_there() {
 }
 
 ExitCode StudyRun::run() {
+  if (!limits_.allow_mixed) require_one_program(plan_);
+  try {
+    return run_until_done();
+  } catch (...) {
+    stop_members();
+    while (!running_.empty()) {  // their checkpoints are what the study goes on from
+      while (std::optional<ProcessEnd> const end = ended_process()) running_.erase(end->process);
+      std::this_thread::sleep_for(pause);
+    }
+    throw;
+  }
+}
+
+void StudyRun::stop_members() {
+  stopping_ = true;
+  for (auto const& [process, running] : running_) ::kill(process, stop_signal);
+  line_.note(fmt::format("clathra: stopping {} member{} with a checkpoint", running_.size(), running_.size() == 1 ? "" : "s"));
+}
+
+ExitCode StudyRun::run_until_done() {
   double const begin = now();
   if (first_begin_ == 0) first_begin_ = begin;
   begin_ = begin;
   look_at_what_is_there();
   write_table();
-  constexpr auto pause = std::chrono::milliseconds(20);
   while (true) {
     while (std::optional<ProcessEnd> const end = ended_process()) take(*end);
-    if (!stopping_ && (interrupted() || time_is_over())) {
-      stopping_ = true;
-      for (auto const& [process, running] : running_) ::kill(process, stop_signal);
-      line_.note(
-          fmt::format("clathra: stopping {} member{} with a checkpoint", running_.size(), running_.size() == 1 ? "" : "s"));
-    }
+    if (!stopping_ && (interrupted() || time_is_over())) stop_members();
     while (!stopping_ && start_next()) {
     }
     bool const waits = std::count(run_states_.begin(), run_states_.end(), TaskState::waiting) > 0;  // for a folder in use
@@ -174,8 +191,9 @@ bool StudyRun::start(bool specimen, std::size_t task) {
   command.push_back(own_path());
   command.insert(command.end(), what.arguments.begin(), what.arguments.end());
   std::vector<int> cores;
-  if (limits_.launcher.empty()) {
+  if (limits_.launcher.empty() || limits_.threads_stated)
     command.insert(command.end(), {"--threads", fmt::format("{}", limits_.threads)});
+  if (limits_.launcher.empty()) {
     auto const threads = static_cast<std::size_t>(limits_.threads), first = running.slot * threads;
     if (first + threads <= cores_.size())
       cores.assign(cores_.begin() + static_cast<std::ptrdiff_t>(first),

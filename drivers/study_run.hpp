@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/errors/problems.hpp"
+#include "io/results/output_folder.hpp"
 #include "member_processes.hpp"
 #include "progress_line.hpp"
 #include "study_plan.hpp"
@@ -15,9 +16,11 @@ namespace clathra {
 struct StudyLimits {
   int parallel = 1;                   ///< programs at a time
   int threads = 1;                    ///< of each
+  bool threads_stated = false;        ///< else what is behind a launcher has as many as the launcher gives it
   std::vector<std::string> launcher;  ///< "mpirun", "-n", "4": before each program; the cores are its affair then
   std::vector<std::string> options;   ///< of `clathra run` for all members
   double most_seconds = 0;            ///< stop then, members with a checkpoint; 0 = never
+  bool allow_mixed = false;           ///< take what another program made
 };
 
 /// Programs at a time and threads of each: by default one thread for each member, which is the most work that cores can do, and
@@ -26,11 +29,13 @@ StudyLimits usual_limits(StudyPlan const& plan, int parallel, int threads, std::
 
 class StudyRun {
  public:
-  StudyRun(StudyPlan& plan, StudyLimits limits);
+  /// @param folder  of the study, which it holds
+  StudyRun(StudyPlan& plan, StudyLimits limits, OutputFolder const& folder);
   /// Runs all tasks that have not been done, as far as that is possible. A member that fails is named and left, the others go on;
   /// one that a signal killed is tried once more, from its checkpoint. Writes study.csv after each.
   /// @return done, also where members failed; to_be_resumed where a signal or the wall time stopped it
-  /// @throws FileProblem where study.csv cannot be written
+  /// @throws Refused where there is something of another program; FileProblem where study.csv cannot be written. Whatever it
+  /// throws, the members are stopped with a checkpoint before.
   ExitCode run();
   /// Lines on stderr.
   ProgressLine& line() { return line_; }
@@ -48,6 +53,8 @@ class StudyRun {
     return running.specimen ? plan_.specimens[running.task] : plan_.runs[running.task];
   }
   void look_at_what_is_there();
+  ExitCode run_until_done();
+  void stop_members();
   bool start_next();
   bool start(bool specimen, std::size_t task);
   std::optional<std::size_t> next_specimen() const;

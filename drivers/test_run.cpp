@@ -55,19 +55,20 @@ class TestRun::Running {
     record_.threads = thread_count(scene_.run.threads);
     record_.ranks = ranks.count();
     on_root(ranks_, [&] {
-      lock_.emplace(scene_.output.folder);
-      if (!lock_->held())
-        warn(fmt::format("{}: its file system knows no locks, nothing keeps a second run from writing into it",
-                         scene_.output.folder));
+      lock_.emplace(scene_.output.folder, "run");
+      if (std::string const warning = lock_->lock_warning(); !warning.empty()) warn(warning);
       if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
     });
     folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");
     if (limits_.resume) look_for_an_earlier_part();
     if (finished_ || resumes()) return;
     on_root(ranks_, [&] {
-      if (!limits_.resume && !limits_.overwrite) require_no_unfinished_run();
-      lock_->clear(scene_.sample.file);
+      if (!limits_.resume && !limits_.overwrite) require_no_kept_run();
+      replaces_ = holds_results(folder_);
+      std::error_code none;
+      std::filesystem::remove(folder_ / next_specimen, none);  // of a run that was killed
     });
+    replaces_ = ranks_.any(replaces_);
     checkpoints_.emplace(folder_, ranks_, std::nullopt);
     if (limits_.resume) line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
   }
@@ -80,7 +81,7 @@ class TestRun::Running {
       if (!keeps_checkpoint()) on_root(ranks_, [&] { remove_checkpoints(folder_); });  // a kill came between
       return print_result(fmt::format("this run is finished: {}\n", folder_.string()));
     }
-    if (!resumes()) begin_record();
+    if (!resumes() && !replaces_) take_folder();
     try {
       shear();
       on_root(ranks_, [&] { record_.result_digests = result_digests(folder_); });
@@ -116,12 +117,23 @@ class TestRun::Running {
     if (!finished_) found_ = find_checkpoints(folder_, ranks_);
   }
 
-  void require_no_unfinished_run() const {
-    if (std::optional<std::string> const reason = unfinished_run(folder_))
+  void require_no_kept_run() const {
+    if (std::optional<std::string> const kept = kept_run(folder_))
       throw FileProblem(ExitCode::refused, folder_,
-                        fmt::format("holds a run that is not finished ({}): --resume goes on with it, --overwrite deletes it, "
-                                    "--output names another folder",
-                                    *reason));
+                        fmt::format("holds {}: --output names another folder, --resume goes on with it, --overwrite puts the new "
+                                    "run in its place",
+                                    *kept));
+  }
+
+  /// What the folder held goes, and the run's own files begin: at once where no result is lost, else when the specimen is ready
+  /// to be sheared, after which no guard of the preparation can refuse it.
+  void take_folder() {
+    on_root(ranks_, [&] {
+      lock_->clear(scene_.sample.file);
+      std::error_code none;
+      if (replaces_) std::filesystem::rename(folder_ / next_specimen, folder_ / "specimen.h5", none);  // if it made one
+    });
+    begin_record();
   }
 
   /// From here on the folder is that of this run. A run that is resumed must first have understood its checkpoint.
@@ -137,7 +149,7 @@ class TestRun::Running {
   void make_specimen() {
     if (specimen_) return;
     specimen_ = generate_recorded(scene_, show_stage(line_, ranks_), record_, ranks_);
-    write_specimen(folder_ / "specimen.h5", *specimen_, ranks_);
+    write_specimen(folder_ / (replaces_ ? next_specimen : "specimen.h5"), *specimen_, ranks_);
   }
 
   std::unique_ptr<BiaxialTest> prepared_test() {
@@ -146,6 +158,7 @@ class TestRun::Running {
     auto test = std::make_unique<BiaxialTest>(scene_, std::move(*specimen_), show_stage(line_, ranks_), ranks_);
     specimen_.reset();
     return_free_memory();
+    if (replaces_) take_folder();
     return test;
   }
 
@@ -308,15 +321,19 @@ class TestRun::Running {
     std::string const where = kept ? fmt::format("stopped {} at an axial strain of {:.3g} %", cause, last_.eps1 * 100) : cause;
     conclude(code, where);
     line_.repeat_warnings();
-    line_.note("clathra: " + record_.exit_reason + "; what was written so far is in " + folder_.string() +
-               (kept ? ", and --resume goes on" : ""));
+    line_.note("clathra: " + where + what_remains() + (kept ? ", and --resume goes on" : ""));
     return code;
+  }
+
+  std::string what_remains() const {
+    if (begun_) return "; what was written so far is in " + folder_.string();
+    return replaces_ ? "; the earlier run in " + folder_.string() + " is as it was" : "";
   }
 
   /// The first failure counts: that the record cannot be written either (full disk) changes neither message nor code.
   ExitCode fail(ExitCode code, std::string const& reason) {
     line_.repeat_warnings();
-    line_.note("clathra: " + reason);
+    line_.note("clathra: " + reason + (begun_ ? "" : what_remains()));
     try {
       conclude(code, reason);
     } catch (FileProblem const& problem) {
@@ -343,9 +360,10 @@ class TestRun::Running {
   std::optional<CheckpointSeries> checkpoints_;
   Speedometer wall_;
   double last_glance_ = 0, last_checkpoint_ = 0;  // [s]
-  bool begun_ = false;
-  bool finished_ = false;   // already, when the run was to resume
-  std::int64_t pace_ = 16;  // steps between two glances at clock and signals
+  bool begun_ = false;                            // the folder is that of this run
+  bool replaces_ = false;                         // it holds results of an earlier one, which go when this one has its own
+  bool finished_ = false;                         // already, when the run was to resume
+  std::int64_t pace_ = 16;                        // steps between two glances at clock and signals
 };
 
 TestRun::TestRun(LoadedScene input, std::optional<Specimen> specimen, RunLimits const& limits, Ranks const& ranks)

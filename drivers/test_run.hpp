@@ -13,7 +13,7 @@ namespace clathra {
 /// How a run is guarded against its own end. Wall time in seconds.
 struct RunLimits {
   bool resume = false;            ///< go on from the newest checkpoint, if there is one
-  bool overwrite = false;         ///< delete an unfinished run in the folder
+  bool overwrite = false;         ///< take the place of an earlier run in the folder
   double most_seconds = 0;        ///< stop with a checkpoint then; 0 = never
   double checkpoint_every = 600;  ///< 0 = never
 };

@@ -145,6 +145,7 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
   study.file = study.scene = scene;
   study.folder = folder;
   study.seeds = {1};
+  study.seeds_stated = true;
   for (TuneSetting const& setting : plan.settings) {
     std::string const name = group_name(plan.discs, setting);
     study.groups.push_back({name, keys_of_rung(setting), name});
@@ -156,7 +157,8 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
     if (!is_one_of(text, tuned_keys) && !is_one_of(text, own_keys)) shared.push_back(text);
   if (plan.reduced)
     for (std::string& text : sample_of_rung(base, design, plan.discs)) shared.push_back(std::move(text));
-  plan.study = plan_study(std::move(study), std::move(shared));
+  override_study(study, shared);
+  plan.study = plan_study(std::move(study));
   return plan;
 }
 
@@ -173,7 +175,7 @@ std::vector<Trial> TunePlan::trials() const {
 }
 
 double TunePlan::wave_number(std::size_t setting) const {
-  return predict(member_scene(study.study, study.study.groups[setting], 1, study.overrides).scene).at("wave_number");
+  return predict(member_scene(study.study, study.study.groups[setting], 1).scene).at("wave_number");
 }
 
 Scene TunePlan::scene_with(std::size_t setting) const {

@@ -2,7 +2,7 @@
 ///   paper_table OUT...
 /// Reads history.csv, events.csv and run.json of each folder. Three tables: the numbers of each test (test_numbers()); how well
 /// each was controlled, with the share of the bonds broken after the peak that lie in the best band and pair of bands of 25 d50
-/// width; and, where runs of one saturation differ in confining stress, their Mohr-Coulomb envelopes (fitted_envelope()). Below
+/// width; and, where runs of one saturation differ in confining stress, their Mohr-Coulomb envelopes (paired_strength()). Below
 /// them: the records that left sigma_3 by more than 1 %, with the bonds broken since the record before.
 #include <algorithm>
 #include <cmath>
@@ -108,15 +108,19 @@ void print_control(std::vector<RunResults> const& runs, std::string& notes) {
 }
 
 /// c and phi of tests, and how far the line misses them at most.
-std::string envelope_cells(std::vector<FailureStress> const& tests) {
-  std::optional<Envelope> const fit = fitted_envelope(tests);
+std::string envelope_cells(PairedStrength const& strength, std::vector<SeedTest> const& tests) {
+  std::optional<Envelope> const& fit = strength.envelope;
   if (!fit) return "- | - | -";
   double const n = (1 + std::sin(fit->friction_angle)) / (1 - std::sin(fit->friction_angle));
   double miss = 0;
-  for (FailureStress const& t : tests)
-    miss = std::max(miss, std::abs(t.sigma1 - 2 * fit->cohesion * std::sqrt(n) - n * t.sigma3));
+  for (SeedTest const& t : tests)
+    miss = std::max(miss, std::abs(t.at.sigma1 - 2 * fit->cohesion * std::sqrt(n) - n * t.at.sigma3));
   constexpr double degrees = 180 / 3.14159265358979;
-  EnvelopeErrors const errors = fit->errors.value_or(EnvelopeErrors());
+  EnvelopeErrors errors = fit->errors.value_or(EnvelopeErrors());
+  if (strength.cohesion) {
+    errors.cohesion = strength.cohesion->half_width.value_or(0);
+    errors.friction_angle = strength.friction_angle->half_width.value_or(0);
+  }
   char text[96];
   std::snprintf(text, sizeof text, "%.2f ± %.2f | %.1f ± %.1f | %.2f", fit->cohesion / 1e6, errors.cohesion / 1e6,
                 fit->friction_angle * degrees, errors.friction_angle * degrees, miss / 1e6);
@@ -128,7 +132,8 @@ void print_strength(std::vector<RunResults> const& runs) {
   for (StrengthGroup const& group : strength_groups(runs))
     if (group.at_several_stresses())
       rows += "| " + std::to_string(std::lround(group.saturation)) + " % | " + std::to_string(group.members.size()) + " | " +
-              envelope_cells(group.peaks.reached) + " | " + envelope_cells(group.residuals.reached) + " |\n";
+              envelope_cells(group.at_peak, group.peaks.reached) + " | " +
+              envelope_cells(group.residual, group.residuals.reached) + " |\n";
   if (rows.empty()) return;
   std::printf(
       "\n| hydrate | tests | peak: c [MPa] | phi [degrees] | largest misfit of sigma_1 [MPa] | residual: c [MPa] | phi [degrees] "

@@ -33,7 +33,7 @@ TEST(DivergedRun, LeavesTheSurroundingsOfTheDiscForParaView) {
   double const x = std::stod(result.output.substr(at + 10)) * 1e-3;
   for (double const other : around.x) EXPECT_LE(std::abs(other - x), 12.1 * around.d50 + 12 * 1.7e-4);
   // The next run into the folder clears it.
-  EXPECT_EQ(run_clathra(soft).code, 0);
+  EXPECT_EQ(run_clathra(soft + "--overwrite").code, 0);
   EXPECT_FALSE(fs::exists(folder / "diverged"));
   fs::remove_all(folder);
 }

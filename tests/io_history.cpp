@@ -243,7 +243,7 @@ TEST_F(Events, AreOneRowEach) {
 
 /// A folder as a new run takes it.
 struct ClearedFolder : OutputFolder {
-  ClearedFolder(fs::path const& folder, fs::path const& keep) : OutputFolder(folder) { clear(keep); }
+  ClearedFolder(fs::path const& folder, fs::path const& keep) : OutputFolder(folder, "run") { clear(keep); }
 };
 
 TEST_F(Folder, IsMadeLockedAndClearedOfAnEarlierRun) {

@@ -34,7 +34,8 @@ class ProgressOutput : public testing::Test {
 
  private:
   std::string command() const {
-    return std::string(program_in_shell) + " run " + (folder / "small.toml").string() + " --output " + (folder / "out").string();
+    return std::string(program_in_shell) + " run " + (folder / "small.toml").string() + " --overwrite --output " +
+           (folder / "out").string();
   }
   std::string output(std::string const& command) const {
     EXPECT_EQ(std::system((command + " > " + (folder / "all").string() + " 2>&1 </dev/null").c_str()), 0);

@@ -1,5 +1,6 @@
 /// The report: which tests it takes for one material, and what it says of their strength.
 #include "command.hpp"
+#include "domain/measurement/confidence.hpp"
 #include "io/report/strength.hpp"
 #include "report_page.hpp"
 
@@ -187,6 +188,38 @@ TEST_F(ReportLikeness, AReadSpecimenCountsByItsDiscsAndVoidRatioNotByItsPath) {
   EXPECT_NE(page_on(runs).find("Mohr circles"), std::string::npos);
   made_from_file(1, "one.h5", 0.22);
   EXPECT_NE(page_on(runs).find("a-3 (void ratio 0.220)"), std::string::npos);
+}
+
+TEST_F(ReportStrength, OfPairedSeedsIsTheMeanOverThemWithTheIntervalOfAStudy) {
+  std::vector<double> cohesions;
+  std::vector<fs::path> runs;
+  std::string folders;
+  for (int seed = 1; seed <= 3; ++seed)
+    for (double const sigma3 : {1e6, 2e6, 3e6}) {
+      MadeUpTest test;
+      double const cohesion = 0.5e6 + 0.1e6 * seed * seed;
+      if (sigma3 == 1e6) cohesions.push_back(cohesion);
+      test.sigma3 = sigma3;
+      test.overrides = {"run.seed=" + std::to_string(seed)};
+      test.peak_q = failure_stress(cohesion, 0.5, sigma3) - sigma3;
+      test.residual_q = failure_stress(0.1e6, 0.4, sigma3) - sigma3;
+      if (seed == 3 && sigma3 == 3e6) continue;  // a seed that is not complete
+      runs.push_back(made("s" + std::to_string(seed) + "-" + std::to_string(static_cast<int>(sigma3 / 1e6)), test));
+      folders += runs.back().string() + " ";
+    }
+  cohesions.pop_back();
+  MeanInterval const mean = mean_interval(cohesions);
+  std::string const file = (folder / "numbers.json").string();
+  ASSERT_EQ(run_clathra("report " + folders + " --json " + file).code, 0);
+  auto const peak = nlohmann::json::parse(content_of(file))["strength"][0]["peak"];
+  EXPECT_EQ(peak["seeds"], (nlohmann::json{1, 2}));
+  EXPECT_EQ(peak["incomplete_seeds"], (nlohmann::json::array({3})));
+  EXPECT_NEAR(peak["cohesion_Pa"].get<double>(), mean.mean, 1);
+  EXPECT_NEAR(peak["cohesion_half_width_Pa"].get<double>(), *mean.half_width, 1);
+  EXPECT_TRUE(peak["cohesion_fit_error_Pa"].is_null());
+  EXPECT_NE(page_on(runs).find("the mean of the envelopes of 2 seeds (± half of the 95 % interval). Seeds without a test at each "
+                               "confining stress are left out: 1 of 3."),
+            std::string::npos);
 }
 
 TEST_F(ReportStrength, IsNotGivenForTestsWhoseDeviatorStressStillRises) {

@@ -84,7 +84,7 @@ TEST_F(RunFolder, OfAnUnfinishedRunIsNotClearedUnlessAsked) {
   CommandResult const refused = run("copy");
   EXPECT_EQ(refused.code, 77) << refused.output;
   EXPECT_TRUE(says(refused, "copy: holds a run that is not finished (stopped as its wall time is over at an axial strain of "));
-  EXPECT_TRUE(says(refused, "--resume goes on with it, --overwrite deletes it"));
+  EXPECT_TRUE(says(refused, "--resume goes on with it, --overwrite puts the new run in its place"));
   EXPECT_EQ(content(folder / "history.csv"), history);
   EXPECT_EQ(find_checkpoints(folder).usable.size(), 2u);
   // Killed: the record says that it runs; damaged: nobody can go on, but nothing is deleted unasked.
@@ -97,12 +97,12 @@ TEST_F(RunFolder, OfAnUnfinishedRunIsNotClearedUnlessAsked) {
   expect_as_left_alone();
 }
 
-TEST_F(RunFolder, OfAFinishedRunIsClearedAsEver) {
+TEST_F(RunFolder, OfAFinishedRunIsClearedWhenAsked) {
   fs::path const folder = copy_of("alone");
-  EXPECT_EQ(run("copy").code, 0);
+  EXPECT_EQ(run("copy", "--overwrite").code, 0);
   // Killed after run.json said that it is finished, before its checkpoints were gone.
   fs::copy(base() / "stopped" / "ckpt", folder / "ckpt");
-  EXPECT_EQ(run("copy").code, 0);
+  EXPECT_EQ(run("copy", "--overwrite").code, 0);
   expect_as_left_alone();
 }
 

@@ -102,8 +102,8 @@ TEST_F(RunCommand, FullPrecisionIsAKeyOfTheScene) {
 
 TEST_F(RunCommand, AReportThatCannotBeWrittenIsAWarningAndLosesNothing) {
   fs::create_directories(folder / "out" / "report.html" / "in the way");
-  std::ofstream(folder / "out" / ".lock");
-  CommandResult const result = run("out");
+  std::ofstream(folder / "out" / ".lock") << "clathra run\n";
+  CommandResult const result = run("out", "--overwrite");
   EXPECT_EQ(result.code, 0) << result.output;
   EXPECT_NE(result.output.find("there is no report: "), std::string::npos) << result.output;
   auto const json = record("out");
@@ -124,7 +124,7 @@ TEST_F(RunCommand, TheResolvedSceneAndTheKeptSpecimenGiveTheSameBits) {
   EXPECT_FALSE(record("third")["input"]["specimen_digest_xxh3_128"].get<std::string>().empty());
   EXPECT_FALSE(fs::exists(folder / "third" / "specimen.h5"));
   // The specimen of the folder itself may be read; it stays.
-  ASSERT_EQ(run("first", "--set sample.generator=file --set sample.file=" + kept).code, 0);
+  ASSERT_EQ(run("first", "--overwrite --set sample.generator=file --set sample.file=" + kept).code, 0);
   EXPECT_TRUE(fs::exists(kept));
 }
 
@@ -158,7 +158,7 @@ TEST_F(RunCommand, ClosedOrFullStandardStreamsChangeNoByteOfTheResults) {
       std::string(program_in_shell) + " run " + scene.string() + " --output " + (folder / "second").string();
   ASSERT_EQ(std::system((program + " <&- >&- 2>&-").c_str()), 0);
   EXPECT_EQ(content(folder / "second" / "history.csv"), content(folder / "first" / "history.csv"));
-  ASSERT_EQ(std::system((program + " >/dev/full 2>/dev/full").c_str()), 0);
+  ASSERT_EQ(std::system((program + " --overwrite >/dev/full 2>/dev/full").c_str()), 0);
   EXPECT_EQ(record("second")["state_hash"], record("first")["state_hash"]);
 }
 

@@ -124,7 +124,7 @@ TEST(ScenePresets, EachAccuracyRunsAndIsResumedInItsOwnOnly) {
                        (folder / "out").string() + "' " + more);
   };
   for (std::string const accuracy : {"standard", "draft"}) {
-    CommandResult const first = run(accuracy);
+    CommandResult const first = run(accuracy, "--overwrite");
     ASSERT_EQ(first.code, 0) << first.output;
     auto const record = nlohmann::json::parse(std::ifstream(folder / "out" / "run.json"));
     EXPECT_EQ(record["scene"]["run"]["accuracy"], accuracy);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "io/scene/study_file.hpp"
+#include "io/scene/study_members.hpp"
 
 namespace clathra {
 namespace {
@@ -56,7 +57,7 @@ TEST_F(StudyFile, IsAMatrixInTheOrderOfTheFile) {
       << "a single value holds for all and names nothing";
   EXPECT_EQ(study.keys, (Names{"test.confining_stress", "hydrate.saturation", "grains.friction"}));
   EXPECT_EQ(study.seeds, (std::vector<std::uint64_t>{1, 2, 3}));
-  Scene const scene = member_scene(study, study.groups[3], 7, {}).scene;
+  Scene const scene = member_scene(study, study.groups[3], 7).scene;
   EXPECT_EQ(scene.test.confining_stress, 2e6);
   EXPECT_EQ(scene.hydrate.saturation, 0.55);
   EXPECT_EQ(scene.grains.friction, 0.4);
@@ -79,7 +80,7 @@ TEST_F(StudyFile, CrossesNamedGroupsWithTheMatrix) {
                            "[groups.dense]\nsample.void_ratio = 0.2\n[groups.loose]\n\"sample.void_ratio\" = 0.26\n"
                            "[matrix]\n\"hydrate.saturation\" = [\"0 %\", \"55 %\"]\n");
   EXPECT_EQ(names(study), (Names{"dense_0pct", "dense_55pct", "loose_0pct", "loose_55pct"}));
-  EXPECT_EQ(member_scene(study, study.groups[0], 1, {}).scene.sample.void_ratio, 0.2);
+  EXPECT_EQ(member_scene(study, study.groups[0], 1).scene.sample.void_ratio, 0.2);
 }
 
 TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
@@ -90,7 +91,8 @@ TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
   for (char const* const part :
        {":2:9: error: unknown key 'sedes'; did you mean 'seeds'?; a study has", ":3:13: error: seed 1 is there twice",
         "error: unknown key 'test.confinig_stress' of a scene; did you mean 'confining_stress'?",
-        ":6:25: error: 'hydrate.saturation' needs a", ":7:14: error: 'run.seed' cannot be varied here: 'seeds' gives the seeds",
+        ":6:25: error: 'hydrate.saturation' needs a",
+        ":7:14: error: 'run.seed' cannot be varied here: 'seeds' of the study gives the seeds",
         "needs two numbers in the same unit, got '1 %' and '0.2'"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
   EXPECT_NE(problems_of("seeds = 2\n").find("'scene' is missing"), std::string::npos);
@@ -108,12 +110,71 @@ TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
 
 TEST_F(StudyFile, SaysWhichGroupASceneIsWrongIn) {
   Study const study = load(base + "[matrix]\nhydrate.saturation = \"55 %\"\nhydrate.temperature = [\"5 degC\", \"15 degC\"]\n");
-  EXPECT_NO_THROW(member_scene(study, study.groups[0], 1, {}));
+  EXPECT_NO_THROW(member_scene(study, study.groups[0], 1));
   try {
-    member_scene(study, study.groups[1], 1, {});
+    member_scene(study, study.groups[1], 1);
     ADD_FAILURE() << "taken";
   } catch (SceneProblems const& problems) {
     EXPECT_NE(std::string(problems.what()).find("(in the group 15degC of "), std::string::npos) << problems.what();
+  }
+}
+
+std::string refused(Study study, std::vector<std::string> const& overrides) {
+  try {
+    override_study(study, overrides);
+  } catch (SceneProblems const& problems) {
+    return problems.what();
+  }
+  return "taken";
+}
+
+TEST_F(StudyFile, IsOverriddenByTheCommandLineInWhatItsGroupsDoNotDifferIn) {
+  Study study =
+      load(base +
+           "[matrix]\nhydrate.saturation = [\"26 %\", \"55 %\"]\ngrains.friction = 0.4\n"
+           "[groups.a]\nsample.void_ratio = 0.2\n[groups.b]\nsample.void_ratio = \"20 %\"\ntest.confining_stress = \"2 MPa\"\n");
+  EXPECT_NE(refused(study, {"hydrate.saturation=0.41"}).find("is what the groups of"), std::string::npos);
+  EXPECT_NE(refused(study, {"test.confining_stress=3 MPa"}).find("is what the groups of"), std::string::npos)
+      << "only one has it";
+  EXPECT_EQ(refused(study, {"sample.void_ratio=0.21"}), "taken") << "20 % and 0.2 are one value";
+  std::string const all = refused(study, {"run.seed=7", "grains.fricton=1", "grains.friction=1 MPa", "nothing"});
+  for (char const* const part :
+       {"--set run.seed=7: error: 'run.seed' cannot be set for all members", "unknown key 'grains.fricton'; did you mean",
+        "'grains.friction' needs a", "'nothing' needs the form section.key=value"})
+    EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
+  override_study(study, {"grains.friction=0.3", "run.damping=20 %"});
+  for (StudyGroup const& group : study.groups) {
+    Scene const scene = member_scene(study, group, 3).scene;
+    EXPECT_EQ(scene.grains.friction, 0.3);
+    EXPECT_EQ(scene.run.damping, 0.2);
+  }
+  EXPECT_EQ(study.keys.back(), "run.damping");
+  EXPECT_EQ(group_label(study, study.groups[3]), "55 %, 2 MPa") << "in the order in which keys appear";
+  EXPECT_EQ(si_text({"test.confining_stress", "2 MPa"}), "2000000");
+  EXPECT_EQ(si_text({"bond.composite", "replace"}), "replace");
+}
+
+TEST_F(StudyFile, WrittenOutLoadsToTheSameStudyFromAnywhere) {
+  std::ofstream(folder / "sizes.csv") << "d_mm,percent_finer\n0.12,0\n0.17,50\n0.24,100\n";
+  Study study = load(
+      base +
+      "seeds = [4, 9]\nuntil = \"peak_q_Pa=2%\"\nmost_seeds = 12\n[matrix]\n\"test.confining_stress\" = [\"1 MPa\", \"2 MPa\"]\n"
+      "grading.file = \"sizes.csv\"\noutput.snapshots_at = '[\"1 %\"]'\n[groups.a_b]\nmaterial = \"dense \\\"sand\\\"\"\n"
+      "grains.friction = 0.4\n[groups.c]\ngrains.friction = 0.5\n");
+  override_study(study, {"run.damping=20 %"});
+  fs::create_directories(folder / "elsewhere");
+  std::ofstream(folder / "elsewhere" / "written.toml") << resolved_study(study);
+  Study const again = load_study(folder / "elsewhere" / "written.toml");
+  EXPECT_EQ(again.seeds, study.seeds);
+  EXPECT_EQ(again.most_seeds, 12);
+  EXPECT_EQ(again.until->width, study.until->width);
+  EXPECT_EQ(again.folder, fs::absolute(study.folder));
+  EXPECT_EQ(again.keys, study.keys);
+  ASSERT_EQ(names(again), names(study));
+  EXPECT_EQ(again.groups[0].material, "dense \"sand\"");
+  for (std::size_t g = 0; g < study.groups.size(); ++g) {
+    EXPECT_EQ(again.groups[g].material, study.groups[g].material);
+    EXPECT_EQ(again.groups[g].settings, study.groups[g].settings);
   }
 }
 
@@ -121,7 +182,7 @@ TEST(StudyFiles, OfTheExamplesAreRight) {
   int count = 0;
   for (auto const& entry : fs::directory_iterator(CLATHRA_EXAMPLES "/studies")) {
     Study const study = load_study(entry.path());
-    for (StudyGroup const& group : study.groups) EXPECT_NO_THROW(member_scene(study, group, 1, {})) << group.name;
+    for (StudyGroup const& group : study.groups) EXPECT_NO_THROW(member_scene(study, group, 1)) << group.name;
     ++count;
   }
   EXPECT_GT(count, 0);

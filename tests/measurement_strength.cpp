@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "domain/measurement/paired_strength.hpp"
 #include "domain/measurement/shear_band.hpp"
 #include "domain/measurement/strength_fit.hpp"
 
@@ -93,6 +94,47 @@ TEST(ShearBand, IsFoundWhereItWasPlanted) {
   EXPECT_GT(shares.two, shares.one + 0.05);
   EXPECT_LT(shares.two, shares.one + 0.2) << "what is left fills the square evenly";
   EXPECT_EQ(band_shares({}, {}, width).two, 0);
+}
+
+/// A test of a seed whose envelope has this cohesion and friction angle.
+SeedTest test_of(std::uint64_t seed, double sigma3, double cohesion, double angle) {
+  double const n = (1 + std::sin(angle)) / (1 - std::sin(angle));
+  return {seed, sigma3, {2 * cohesion * std::sqrt(n) + n * sigma3, sigma3}};
+}
+
+TEST(PairedStrength, IsTheMeanOfTheEnvelopesOfCompleteSeeds) {
+  std::vector<SeedTest> tests;
+  std::vector<double> cohesions, angles;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    double const cohesion = 1e6 + 1e5 * static_cast<double>(seed), angle = 0.4 + 0.01 * static_cast<double>(seed * seed);
+    cohesions.push_back(cohesion), angles.push_back(angle);
+    for (double const sigma3 : {1e6, 2e6, 3e6}) tests.push_back(test_of(seed, sigma3, cohesion, angle));
+  }
+  // Two tests of a fifth seed: its envelope is of other stresses, and far off.
+  for (double const sigma3 : {1e6, 2e6}) tests.push_back(test_of(5, sigma3, 5e6, 0.8));
+  PairedStrength const strength = paired_strength(tests);
+  EXPECT_EQ(strength.seeds, (std::vector<std::uint64_t>{1, 2, 3, 4}));
+  EXPECT_EQ(strength.incomplete, (std::vector<std::uint64_t>{5}));
+  MeanInterval const c = mean_interval(cohesions), phi = mean_interval(angles);
+  EXPECT_EQ(strength.cohesion->count, 4);
+  EXPECT_NEAR(strength.envelope->cohesion, c.mean, 1);
+  EXPECT_NEAR(*strength.cohesion->half_width, *c.half_width, 1);
+  EXPECT_NEAR(strength.envelope->friction_angle, phi.mean, 1e-9);
+  EXPECT_NEAR(*strength.friction_angle->half_width, *phi.half_width, 1e-9);
+}
+
+TEST(PairedStrength, OfOneSeedOrOfTestsWithoutPairsIsOneFitWithItsErrors) {
+  std::vector<SeedTest> tests = {test_of(1, 1e6, 1e6, 0.5), test_of(1, 2e6, 1.1e6, 0.5), test_of(1, 3e6, 1e6, 0.5)};
+  for (bool const paired : {true, false}) {
+    PairedStrength const strength = paired_strength(tests);
+    EXPECT_EQ(strength.seeds.size(), paired ? 1u : 0u);
+    EXPECT_FALSE(strength.cohesion);
+    ASSERT_TRUE(strength.envelope && strength.envelope->errors);
+    EXPECT_GT(strength.envelope->errors->cohesion, 0);
+    for (std::size_t i = 0; i < 3; ++i) tests[i].seed = 7 + i;
+  }
+  EXPECT_FALSE(paired_strength({}).envelope);
+  EXPECT_FALSE(paired_strength({tests[0], tests[0]}).envelope) << "one confining stress";
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ namespace {
 struct GenerateOptions {
   SceneOptions scene;
   std::string output = "specimen.h5";
+  bool overwrite = false;
 };
 
 std::string record_text(RunRecord const& record) {
@@ -33,10 +34,21 @@ std::string record_text(RunRecord const& record) {
   return text + fmt::format("\n  {:<26} {:.1f}\n", "wall seconds", record.wall_seconds.at("generate"));
 }
 
-ExitCode generate_on(Ranks const& ranks, std::string const& output, RunRecord& record) {
+/// @throws FileProblem where the file could not be written, or is there and shall stay
+void require_free(std::string const& output, bool overwrite) {
+  std::error_code ignored;
+  if (!overwrite && std::filesystem::is_regular_file(output, ignored))
+    throw FileProblem(
+        ExitCode::cannot_create, output,
+        "exists already and is left as it is; -o names another file, --overwrite puts the new specimen in its place");
+  require_creatable(output);
+}
+
+ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunRecord& record) {
+  std::string const& output = options.output;
   Scene const& scene = record.input.scene;
   require_same_everywhere(ranks, record.input);
-  on_root(ranks, [&] { require_creatable(output); });
+  on_root(ranks, [&] { require_free(output, options.overwrite); });
   StageRecord const cost = predict(scene, launched_ranks());
   std::vector<std::string> refusals;
   if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) refusals.push_back(refusal);
@@ -64,7 +76,7 @@ ExitCode generate(GenerateOptions const& options) {
     throw Refused("the scene reads its specimen from a file: there is nothing to generate");
   set_up_threads(scene.run.threads);
   RankSession const session;
-  return guarded_on_all_ranks(session.ranks(), [&] { return generate_on(session.ranks(), options.output, record); });
+  return guarded_on_all_ranks(session.ranks(), [&] { return generate_on(session.ranks(), options, record); });
 }
 
 }  // namespace
@@ -77,6 +89,7 @@ void add_generate(CLI::App& program, Verb& chosen) {
       ->capture_default_str()
       ->type_name("FILE")
       ->check(CLI::Validator(name_problem, ""));
+  verb->add_flag("--overwrite", options->overwrite, "take the place of a file of that name, once the specimen is made");
   verb->footer(
       "Example: clathra generate examples/quick.toml -o specimen.h5\n"
       "         clathra run examples/quick.toml --set sample.generator=file --set sample.file=specimen.h5");

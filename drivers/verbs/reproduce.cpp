@@ -32,7 +32,7 @@ struct ReproduceOptions {
   std::int64_t discs = 0;
   std::uint64_t first_seed = 1;
   int seeds = 0, parallel = 0, threads = 0;
-  bool quick = false, dry_run = false, collect = false, screening = false;
+  bool quick = false, dry_run = false, collect = false, screening = false, allow_mixed = false;
 };
 
 ReproductionSize size_of(ReproduceOptions const& options) {
@@ -74,7 +74,7 @@ ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::o
   for (StudyTask const& task : plan.runs) folders.push_back(task.result);
   PaperDesign const design = design_of(options);
   std::size_t const last = plan.study.groups.size() - 1;
-  Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front(), plan.overrides).scene;
+  Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front()).scene;
   double const d50 = design_sample(scene).grading.d50();
   Scorecard const card{"The seed paper, claim by claim", facts_of(options, plan),
                        paper_claims(design, numbers_of_members(plan.study, plan.members, folders), d50)};
@@ -104,22 +104,26 @@ ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::o
 ExitCode reproduce(ReproduceOptions const& options) {
   std::optional<LaboratoryData> const data = data_of(options);
   fs::create_directories(options.output);
-  OutputFolder const lock(options.output);
-  StudyPlan plan = plan_study(reproduction_study(design_of(options), size_of(options), options.output), options.overrides);
-  for (std::size_t group = 0; group < plan.study.groups.size(); ++group)
-    for (std::uint64_t const seed : plan.study.seeds) add_member(plan, group, seed);
+  OutputFolder const folder(options.output, "reproduce");
+  Study study = reproduction_study(design_of(options), size_of(options), options.output);
+  override_study(study, options.overrides);
+  StudyPlan plan = plan_study(std::move(study));
+  add_members(plan);
   StudyLimits limits = usual_limits(plan, options.parallel, options.threads, {});
   limits.options = {"--checkpoint-every", "10m"};
+  limits.allow_mixed = options.allow_mixed;
   limits.most_seconds = options.most_time.empty() ? 0 : duration_of(options.most_time);
   if (options.dry_run) return print_result(study_forecast(plan, limits.parallel, limits.threads));
   if (options.collect) {
+    if (!options.allow_mixed) require_one_program(plan);
     ProgressLine line;
     for (std::size_t i = 0; i < plan.members.size(); ++i) find_finished(plan, i);
     return conclude(plan, options, data, line);
   }
+  heed_guards(plan, false);
   print_result(study_forecast(plan, limits.parallel, limits.threads));
   watch_for_interrupt();
-  StudyRun run(plan, limits);
+  StudyRun run(plan, limits, folder);
   ExitCode const code = run.run();
   ExitCode const concluded = conclude(plan, options, data, run.line());
   return code == ExitCode::done ? concluded : code;
@@ -154,6 +158,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
   verb.add_option("--max-walltime", options.most_time, "stop after this time, tests with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
       ->check(CLI::Validator(duration_problem, ""));
+  verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and tests that another program made");
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what it will cost");
   verb.add_flag("--collect", options.collect, "only scorecard and report of what there is")->excludes(dry);
 }

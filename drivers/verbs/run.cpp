@@ -82,7 +82,8 @@ void add_run(CLI::App& program, Verb& chosen) {
   verb->add_flag("--dry-run", options->dry_run, "only say what the run will cost");
   CLI::Option* const resume = verb->add_flag("--resume", options->resume,
                                              "go on from the newest checkpoint in the folder of the results, if there is one");
-  verb->add_flag("--overwrite", options->overwrite, "delete the unfinished run in the folder of the results, if there is one")
+  verb->add_flag("--overwrite", options->overwrite,
+                 "take the place of an earlier run in the folder of the results, once there is a result")
       ->excludes(resume);
   verb->add_option("--max-walltime", options->most_time, "stop after this time with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")

@@ -27,7 +27,7 @@ struct StudyOptions {
   std::string file, output, until, launcher, slurm;
   std::vector<std::string> overrides;
   int seeds = 0, most_seeds = 0, parallel = 0, threads = 0, member = 0, specimen = 0;
-  bool dry_run = false, collect = false, force = false;
+  bool dry_run = false, collect = false, force = false, skip_refused = false, allow_mixed = false;
   std::string most_time, checkpoint_every = "10m";
 };
 
@@ -35,35 +35,34 @@ Study study_of(StudyOptions const& options) {
   Study study = load_study(options.file);
   if (!options.output.empty()) study.folder = options.output;
   if (options.seeds > 0) {
+    study.seeds_stated = true;
     study.seeds.clear();
     for (int seed = 1; seed <= options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
   }
   if (!options.until.empty()) study.until = study_goal(options.until);
   if (options.most_seeds > 0) study.most_seeds = options.most_seeds;
+  override_study(study, options.overrides);
+  if (options.force) force_study(study);
   return study;
 }
 
 StudyLimits limits_of(StudyOptions const& options, StudyPlan const& plan) {
   StudyLimits limits = usual_limits(plan, options.parallel, options.threads, words_of(options.launcher));
   limits.options = {"--checkpoint-every", options.checkpoint_every};
-  if (options.force) limits.options.push_back("--force");
+  limits.allow_mixed = options.allow_mixed;
   limits.most_seconds = options.most_time.empty() ? 0 : duration_of(options.most_time);
   return limits;
-}
-
-void add_members(StudyPlan& plan) {
-  for (std::size_t group = 0; group < plan.study.groups.size(); ++group)
-    for (std::uint64_t const seed : plan.study.seeds) add_member(plan, group, seed);
 }
 
 /// study.csv and the page of what there is. @return done only where every member is finished
 ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   replace_text_file(plan.study.folder / "study.csv", study_csv(plan.study, plan.members));
   std::vector<std::string> failed;
-  std::size_t finished = 0, waiting = 0;
+  std::size_t finished = 0, waiting = 0, refused = 0;
   for (std::size_t i = 0; i < plan.members.size(); ++i) {
     MemberResult const& member = plan.members[i];
     if (member.state == MemberState::failed) failed.push_back(plan.runs[i].name + ": " + member.message);
+    refused += member.state == MemberState::refused ? 1 : 0;
     finished += member.state == MemberState::finished ? 1 : 0;
     waiting += member.state == MemberState::waiting ? 1 : 0;
   }
@@ -74,6 +73,7 @@ ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   std::string text = fmt::format("members   {} finished", finished);
   if (waiting > 0) text += fmt::format(", {} not yet", waiting);
   if (!failed.empty()) text += fmt::format(", {} failed", failed.size());
+  if (refused > 0) text += fmt::format(", {} refused by guards and left out", refused);
   text += "\n" + statistics_text(plan);
   for (std::string const& member : failed) text += "failed    " + member + "\n";
   print_result(text + fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
@@ -99,37 +99,75 @@ ExitCode run_alone(StudyPlan const& plan, StudyOptions const& options) {
   if (options.threads > 0) command.insert(command.end(), {"--threads", fmt::format("{}", options.threads)});
   if (!specimen) command.insert(command.end(), {"--checkpoint-every", options.checkpoint_every});
   if (!specimen && !options.most_time.empty()) command.insert(command.end(), {"--max-walltime", options.most_time});
-  if (options.force) command.push_back("--force");
   become(command);
 }
 
-ExitCode collect(StudyPlan& plan) {
+ExitCode collect(StudyPlan& plan, StudyOptions const& options) {
+  if (!options.allow_mixed) require_one_program(plan);
   ProgressLine line;
-  for (std::size_t i = 0; i < plan.members.size(); ++i) find_finished(plan, i);
+  for (std::size_t i = 0; i < plan.members.size(); ++i) try {
+      find_finished(plan, i);
+    } catch (FileProblem const& problem) {
+      plan.members[i].state = MemberState::failed;
+      plan.members[i].message = problem.what();
+    }
   return conclude(plan, line);
 }
 
+/// A script, and beside it the study that its jobs read: without the groups that guards refuse, which jobs would count.
+ExitCode write_script(StudyPlan const& plan, StudyOptions const& options) {
+  Study study = plan.study;
+  std::vector<StudyGroup> groups;
+  for (std::size_t g = 0; g < study.groups.size(); ++g)
+    if (std::none_of(plan.members.begin(), plan.members.end(),
+                     [g](MemberResult const& m) { return m.group == g && m.state == MemberState::refused; }))
+      groups.push_back(study.groups[g]);
+  study.groups = std::move(groups);
+  StudyPlan script_plan = plan_study(std::move(study));
+  add_members(script_plan);
+  write_slurm_script(script_plan, {options.slurm, options.launcher, options.threads, options.most_time, options.checkpoint_every,
+                                   options.allow_mixed});
+  return print_result(fmt::format("{}: {} specimens, {} members; submit it with: bash {}\n", options.slurm,
+                                  script_plan.specimens.size(), script_plan.runs.size(), options.slurm));
+}
+
+/// Everything, wave by wave. Whatever ends it, there are a table and a page of what was done.
+ExitCode run_all(StudyPlan& plan, StudyLimits const& limits) {
+  OutputFolder const folder(plan.study.folder, "study");
+  watch_for_interrupt();
+  StudyRun run(plan, limits, folder);
+  ExitCode code = ExitCode::done;
+  try {
+    code = run.run();
+    for (GoalSearch goal(plan.study); code == ExitCode::done && goal.add_members(plan, run.line());) code = run.run();
+  } catch (Refused const&) {
+    throw;  // before anything was done
+  } catch (std::exception const& problem) {
+    try {
+      conclude(plan, run.line());
+    } catch (std::exception const& other) {
+      run.line().note(fmt::format("clathra: {}", other.what()));
+    }
+    throw;
+  }
+  ExitCode const concluded = conclude(plan, run.line());
+  return code == ExitCode::done ? concluded : code;
+}
+
 ExitCode study(StudyOptions const& options) {
-  StudyPlan plan = plan_study(study_of(options), options.overrides);
+  StudyPlan plan = plan_study(study_of(options));
   if (plan.study.until) require_known_number(*plan.study.until);
   add_members(plan);
   if (options.member > 0 || options.specimen > 0) return run_alone(plan, options);
-  if (options.collect) return collect(plan);
+  if (options.collect) return collect(plan, options);
   StudyLimits const limits = limits_of(options, plan);
-  if (options.dry_run) return print_result(study_forecast(plan, limits.parallel, limits.threads));
-  if (!options.slurm.empty()) {
-    write_slurm_script(plan, {options.slurm, options.file, options.launcher, options.overrides, options.output, options.threads,
-                              options.most_time, options.checkpoint_every});
-    return print_result(fmt::format("{}: {} specimens, {} members; submit it with: bash {}\n", options.slurm,
-                                    plan.specimens.size(), plan.runs.size(), options.slurm));
-  }
-  OutputFolder const lock(plan.study.folder);
-  watch_for_interrupt();
-  StudyRun run(plan, limits);
-  ExitCode code = run.run();
-  for (GoalSearch goal(plan.study); code == ExitCode::done && goal.add_members(plan, run.line());) code = run.run();
-  ExitCode const concluded = conclude(plan, run.line());
-  return code == ExitCode::done ? concluded : code;
+  if (options.dry_run)
+    if (ExitCode const printed = print_result(study_forecast(plan, limits.parallel, limits.threads)); printed != ExitCode::done)
+      return printed;
+  heed_guards(plan, options.skip_refused);
+  if (options.dry_run) return ExitCode::done;
+  if (!options.slurm.empty()) return write_script(plan, options);
+  return run_all(plan, limits);
 }
 
 /// Options that do only a part of the work, one of them at a time.
@@ -158,7 +196,7 @@ void add_study(CLI::App& program, Verb& chosen) {
       program.add_subcommand("study", "Run a matrix of scenes and seeds; means, intervals and one page on all");
   auto const time = CLI::Validator(duration_problem, "");
   verb->add_option("study", options->file, "study file (TOML)")->required();
-  verb->add_option("--set", options->overrides, "override a key of the scene in all members; may be repeated")
+  verb->add_option("--set", options->overrides, "set a key of the scene in all members, above the study file; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   verb->add_option("--output", options->output, "folder of the results ('folder' of the study)")
@@ -182,6 +220,8 @@ void add_study(CLI::App& program, Verb& chosen) {
       ->type_name("N");
   verb->add_option("--launcher", options->launcher, "starts each member: \"mpirun -n 2\", \"srun -n 4\"")->type_name("COMMAND");
   verb->add_flag("--force", options->force, "members go on where a guard refuses");
+  verb->add_flag("--skip-refused", options->skip_refused, "leave out the groups that a guard refuses");
+  verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and members that another program made");
   verb->add_option("--max-walltime", options->most_time, "stop after this time, members with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
       ->check(time);

@@ -27,6 +27,7 @@ struct TuneOptions {
   std::vector<std::string> overrides;
   std::int64_t discs = 1000;
   int parallel = 0;
+  bool allow_mixed = false;
 };
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -52,12 +53,13 @@ class Tuning {
     limits_ = usual_limits(plan_.study, options.parallel, 0, {});
     limits_.most_seconds = budget_;
     limits_.options = {"--checkpoint-every", "1m"};
+    limits_.allow_mixed = options.allow_mixed;
   }
 
   /// @return done, also where nothing was found; to_be_resumed where a signal stopped it
-  ExitCode run() {
+  ExitCode run(OutputFolder const& folder) {
     if (seconds_of_wish() > budget_) return ExitCode::done;
-    StudyRun runs(plan_.study, limits_);
+    StudyRun runs(plan_.study, limits_, folder);
     while (true) {
       ExitCode const code = runs.run();
       if (code != ExitCode::done && interrupted()) return code;
@@ -165,7 +167,7 @@ class Tuning {
 
   double disc_steps_of(std::size_t trial) const {
     Study const& study = plan_.study.study;
-    return predict(member_scene(study, study.groups[trial], 1, plan_.study.overrides).scene).at("disc_steps");
+    return predict(member_scene(study, study.groups[trial], 1).scene).at("disc_steps");
   }
 
   /// Of what is not run yet.
@@ -225,10 +227,10 @@ ExitCode tune(TuneOptions const& options) {
   fs::path const folder =
       options.folder.empty() ? fs::path("out") / (fs::path(options.scene).stem().string() + "-tune") : fs::path(options.folder);
   TunePlan plan = plan_tune(options.scene, options.overrides, goal, options.discs, folder);
-  OutputFolder const lock(folder);
+  OutputFolder const results(folder, "tune");
   watch_for_interrupt();
   Tuning tuning(std::move(plan), options);
-  ExitCode const code = tuning.run();
+  ExitCode const code = tuning.run(results);
   if (code != ExitCode::done) {
     print_error(fmt::format("clathra: stopped; the same command goes on from {}", folder.string()));
     return code;
@@ -269,6 +271,7 @@ void add_tune(CLI::App& program, Verb& chosen) {
   verb->add_option("--parallel", options->parallel, "runs at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
+  verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and rungs that another program made");
   verb->footer("Example: clathra tune examples/quick.toml --tolerance \"5%\" --budget \"10 min\" -o tuned.toml");
   verb->callback([options, &chosen] { chosen = [options] { return tune(*options); }; });
 }

@@ -46,44 +46,62 @@ Curve circle(FailureStress const& at, std::string name, Stroke const& stroke) {
 }
 
 /// An envelope is drawn a little beyond the middle of the largest circle [MPa].
-double end_of_line(std::vector<FailureStress> const& tests) {
+double end_of_line(std::vector<SeedTest> const& tests) {
   double end = 0;
-  for (FailureStress const& t : tests) end = std::max(end, (0.7 * t.sigma1 + 0.3 * t.sigma3) * mega);
+  for (SeedTest const& t : tests) end = std::max(end, (0.7 * t.at.sigma1 + 0.3 * t.at.sigma3) * mega);
   return end;
 }
 
-/// c and phi with their errors if these are known.
-std::string envelope_numbers(Envelope const& fit) {
+/// c and phi with their intervals over the seeds, or the errors of the fit, if these are known.
+std::string envelope_numbers(PairedStrength const& strength) {
+  Envelope const& fit = *strength.envelope;
   auto const error = [](double value, char const* format) { return " ± " + fmt::format(fmt::runtime(format), value); };
   constexpr double degrees = 180 / half_turn;
   std::string cohesion = with_minus(fmt::format("{:.3g}", fit.cohesion * mega)),
               angle = fmt::format("{:.1f}", fit.friction_angle * degrees);
-  if (fit.errors) {
+  if (strength.cohesion) {
+    cohesion += error(strength.cohesion->half_width.value_or(0) * mega, "{:.2g}");
+    angle += error(strength.friction_angle->half_width.value_or(0) * degrees, "{:.2g}");
+  } else if (fit.errors) {
     cohesion += error(fit.errors->cohesion * mega, "{:.2g}");
     angle += error(fit.errors->friction_angle * degrees, "{:.1f}");
   }
   return fmt::format("c = {} MPa and φ = {}°", cohesion, angle);
 }
 
+/// What an envelope rests on.
+std::string basis_of(PairedStrength const& strength, TestStresses const& tests) {
+  if (strength.cohesion)
+    return fmt::format(", the mean of the envelopes of {} seeds (± half of the 95 % interval).", strength.seeds.size());
+  if (!strength.envelope->errors) return ", which touches two circles.";
+  std::size_t const fitted =
+      strength.seeds.empty()
+          ? tests.reached.size()
+          : static_cast<std::size_t>(std::count_if(tests.reached.begin(), tests.reached.end(),
+                                                   [&](SeedTest const& test) { return test.seed == strength.seeds.front(); }));
+  return fmt::format(", fitted to {} tests (± standard error, R² {:.4f}).", fitted, strength.envelope->errors->r_squared);
+}
+
 /// c and phi, or why there are none.
-std::string envelope_text(std::optional<Envelope> const& fit, TestStresses const& tests) {
+std::string envelope_text(PairedStrength const& strength, TestStresses const& tests) {
   std::string text, why;
   if (!tests.rising.empty())
     why = fmt::format(
         "he deviator stress of {} still rises where the test ends; the largest so far is drawn, which is no strength.",
         listed(tests.rising));
-  if (fit) {
-    text = "Line: Mohr-Coulomb envelope τ = c + σ tan φ with " + envelope_numbers(*fit);
-    text += fit->errors
-                ? fmt::format(", fitted to {} tests (± standard error, R² {:.4f}).", tests.reached.size(), fit->errors->r_squared)
-                : ", which touches two circles.";
+  if (strength.envelope) {
+    text = "Line: Mohr-Coulomb envelope τ = c + σ tan φ with " + envelope_numbers(strength);
+    text += basis_of(strength, tests);
+    if (!strength.seeds.empty() && !strength.incomplete.empty())
+      text += fmt::format(" Seeds without a test at each confining stress are left out: {} of {}.", strength.incomplete.size(),
+                          strength.seeds.size() + strength.incomplete.size());
     return why.empty() ? text : text + " It leaves out what has no peak: t" + why;
   }
   return why.empty() ? "They have no common Mohr-Coulomb envelope." : "c and φ are not given: t" + why;
 }
 
-std::string mohr_figure(std::vector<Curve> circles, TestStresses const& tests, std::string const& heading,
-                        std::string const& which) {
+std::string mohr_figure(std::vector<Curve> circles, TestStresses const& tests, PairedStrength const& strength,
+                        std::string const& heading, std::string const& which) {
   Plot plot;
   Range sigma, tau;
   for (FailureStress const& test : tests.all) {
@@ -93,14 +111,13 @@ std::string mohr_figure(std::vector<Curve> circles, TestStresses const& tests, s
   plot.title = heading + ", " + which;
   plot.curves = std::move(circles);
   plot.x = sigma.axis("normal stress σ [MPa]");
-  std::optional<Envelope> const fit = fitted_envelope(tests.reached);
-  if (fit) {
+  if (std::optional<Envelope> const& fit = strength.envelope) {
     double const slope = std::tan(fit->friction_angle), cohesion = fit->cohesion * mega;
     double const from = std::max(0.0, -cohesion / slope), to = end_of_line(tests.reached);
     plot.curves.push_back({"envelope", {from, to}, {cohesion + slope * from, cohesion + slope * to}, {colours::black, "", 1.8}});
     tau.include(plot.curves.back().y);
   }
-  std::string const caption = "Mohr circles of the stresses " + which + ". " + envelope_text(fit, tests);
+  std::string const caption = "Mohr circles of the stresses " + which + ". " + envelope_text(strength, tests);
   plot.y = tau.axis("shear stress τ [MPa]");
   plot.y.from = 0;
   plot.height = height_for_equal_scales(plot.x, plot.y);
@@ -127,8 +144,9 @@ std::string circle_figures(StrengthGroup const& strength, std::vector<StrengthGr
     if (other.saturation == saturation) same.push_back(other.material);
   std::string heading = saturation > 0 ? fmt::format("Strength at {:g} % hydrate", saturation) : "Strength of clean sand";
   if (std::string const words = in_words(strength.material, differing_keys(same)); !words.empty()) heading += ", " + words;
-  return mohr_figure(circles_of(strength.peaks, strength, runs), strength.peaks, heading, "at the peak") +
-         mohr_figure(circles_of(strength.residuals, strength, runs), strength.residuals, heading, "in the residual state");
+  return mohr_figure(circles_of(strength.peaks, strength, runs), strength.peaks, strength.at_peak, heading, "at the peak") +
+         mohr_figure(circles_of(strength.residuals, strength, runs), strength.residuals, strength.residual, heading,
+                     "in the residual state");
 }
 
 /// Groups that differ in nothing but the saturation, in its order.
@@ -145,10 +163,12 @@ bool is_sand_of(SceneValues const& clean, SceneValues const& bonded) {
   });
 }
 
+bool has_envelope(StrengthGroup const& strength) { return strength.at_peak.envelope || strength.residual.envelope; }
+
 std::vector<Series> series_of(std::vector<StrengthGroup> const& groups) {
   std::vector<Series> all;
   for (StrengthGroup const& strength : groups) {
-    if (strength.saturation == 0 || !(strength.at_peak || strength.residual)) continue;
+    if (strength.saturation == 0 || !has_envelope(strength)) continue;
     SceneValues material = strength.material;
     material.erase(saturation_key);
     auto same = std::find_if(all.begin(), all.end(), [&](Series const& series) { return series.material == material; });
@@ -157,7 +177,7 @@ std::vector<Series> series_of(std::vector<StrengthGroup> const& groups) {
   }
   for (Series& series : all)
     for (StrengthGroup const& strength : groups)
-      if (strength.saturation == 0 && (strength.at_peak || strength.residual) && is_sand_of(strength.material, series.material))
+      if (strength.saturation == 0 && has_envelope(strength) && is_sand_of(strength.material, series.material))
         series.points.insert(series.points.begin(), &strength);
   std::erase_if(all, [](Series const& series) { return series.points.size() < 2; });
   return all;
@@ -180,7 +200,7 @@ std::string saturation_figure(std::vector<Series> const& all, std::string const&
     Curve curve{
         (words.empty() ? "" : words + ", ") + (peak ? "at the peak" : "residual"), {}, {}, {colour, peak ? "" : "8 3"}, true};
     for (StrengthGroup const* const point : series.points) {
-      std::optional<Envelope> const& envelope = peak ? point->at_peak : point->residual;
+      std::optional<Envelope> const& envelope = (peak ? point->at_peak : point->residual).envelope;
       if (!envelope) continue;
       curve.x.push_back(point->saturation);
       curve.y.push_back(number(*envelope));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 #include <span>
 
@@ -67,7 +68,9 @@ std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> c
     rows += fmt::format("<tr><th>{}</th><td data-run=\"seeds\">{}</td>", escaped(group.name), group.seeds.size());
     for (Column const& column : used) {
       auto const found = group.values.find(column.number);
-      std::string const cell = found == group.values.end() ? "–" : with_interval(found->second, column.factor);
+      std::string cell = found == group.values.end() ? "–" : with_interval(found->second, column.factor);
+      if (found != group.values.end() && found->second.size() != group.seeds.size())
+        cell += fmt::format(" <span class=\"unit\">({} seeds)</span>", found->second.size());
       rows += fmt::format("<td data-run=\"{} {}\">{}</td>", column.heading, column.unit, cell);
     }
     rows += "</tr>\n";
@@ -105,12 +108,34 @@ std::string varied_keys(Study const& study) {
   return text.empty() ? "their seed only" : text;
 }
 
+/// Each warning once, with the members that have it.
+std::string warnings(Study const& study, std::vector<MemberResult> const& members) {
+  constexpr std::size_t most_named = 5;
+  std::vector<std::string> texts;
+  std::map<std::string, std::vector<std::string>> by_text;
+  for (MemberResult const& member : members)
+    for (std::string const& text : member.warnings) {
+      std::vector<std::string>& names = by_text[text];
+      if (names.empty()) texts.push_back(text);
+      names.push_back(member_name(study.groups[member.group], member.seed));
+    }
+  std::string items;
+  for (std::string const& text : texts) {
+    std::vector<std::string> const& names = by_text[text];
+    std::string who;
+    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) who += (i == 0 ? "" : ", ") + names[i];
+    if (names.size() > most_named) who += fmt::format(" and {} more", names.size() - most_named);
+    items += "<li>" + escaped(who + ": " + text) + "</li>\n";
+  }
+  return items.empty() ? "" : "<div class=\"warn\"><b>Warnings of members</b><ul>\n" + items + "</ul></div>\n";
+}
+
 std::string problems(Study const& study, std::vector<MemberResult> const& members) {
   std::string items;
   std::size_t waiting = 0;
   for (MemberResult const& member : members) {
     waiting += member.state == MemberState::waiting ? 1 : 0;
-    if (member.state == MemberState::failed)
+    if (member.state == MemberState::failed || member.state == MemberState::refused)
       items += "<li>" + escaped(member_name(study.groups[member.group], member.seed) + ": " + member.message) + "</li>\n";
   }
   if (waiting > 0) items += fmt::format("<li>{} members are not finished</li>\n", waiting);
@@ -142,7 +167,7 @@ void write_study_report(Study const& study, std::vector<MemberResult> const& mem
       "% "
       "confidence interval (Student t).</p>\n",
       finished, groups.size(), escaped(varied_keys(study)));
-  body += problems(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group");
+  body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group");
   std::string overlays, multiples;
   for (ShownBand const& what : shown_bands) overlays += overlay(curves, what);
   body += "<h2>Curves</h2>\n" + side_by_side(overlays) + strength_part(envelopes_by_material(study, members));

@@ -12,16 +12,22 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(std::optional<double> const& value, double factor = 1) { return value ? Json(*value * factor) : Json(); }
 
-Json json_of(std::optional<Envelope> const& fit, TestStresses const& tests) {
+Json json_of(PairedStrength const& strength, TestStresses const& tests) {
   constexpr double degrees = 180 / std::numbers::pi;
+  std::optional<Envelope> const& fit = strength.envelope;
   std::optional<EnvelopeErrors> const errors = fit ? fit->errors : std::nullopt;
   auto const of_errors = [&](double EnvelopeErrors::*number) { return errors ? std::optional((*errors).*number) : std::nullopt; };
+  auto const half_of = [](std::optional<MeanInterval> const& mean) { return mean ? mean->half_width : std::nullopt; };
   return {{"cohesion_Pa", json_of(fit ? std::optional(fit->cohesion) : std::nullopt)},
-          {"cohesion_error_Pa", json_of(of_errors(&EnvelopeErrors::cohesion))},
+          {"cohesion_half_width_Pa", json_of(half_of(strength.cohesion))},
+          {"cohesion_fit_error_Pa", json_of(of_errors(&EnvelopeErrors::cohesion))},
           {"friction_angle_deg", json_of(fit ? std::optional(fit->friction_angle) : std::nullopt, degrees)},
-          {"friction_angle_error_deg", json_of(of_errors(&EnvelopeErrors::friction_angle), degrees)},
+          {"friction_angle_half_width_deg", json_of(half_of(strength.friction_angle), degrees)},
+          {"friction_angle_fit_error_deg", json_of(of_errors(&EnvelopeErrors::friction_angle), degrees)},
           {"r_squared", json_of(of_errors(&EnvelopeErrors::r_squared))},
           {"curvature_per_Pa", json_of(fit ? fit->curvature : std::nullopt)},
+          {"seeds", strength.seeds},
+          {"incomplete_seeds", strength.incomplete},
           {"still_rising", tests.rising}};
 }
 

@@ -8,9 +8,11 @@
 namespace clathra {
 
 /// `runs`: name, folder, hydrate saturation (0 to 1), confining stress [Pa], seed, and `numbers` as in run.json. `strength`, for
-/// each material that was tested at several confining stresses: saturation, its tests, and `peak` and `residual` with c [Pa], phi
-/// [degrees], their standard errors, r_squared and curvature [1/Pa] of the envelope, null where there is none of it, and the
-/// tests whose stress still rose. The same numbers as on the page, by the same code.
+/// each material that was tested at several confining stresses: saturation, its tests, and `peak` and `residual` by
+/// paired_strength(): c [Pa] and phi [degrees], means over the complete seeds with half of their 95 % intervals; of one seed, or
+/// of tests that share no specimen, one fit with its standard errors and r_squared; curvature [1/Pa]; null where there is none of
+/// it; the complete and the other seeds, and the tests whose stress still rose. The same numbers as on the page and in study.csv,
+/// by the same code.
 nlohmann::ordered_json numbers_of(std::vector<RunResults> const& runs);
 
 /// @throws FileProblem cannot_create or io_error

@@ -1,19 +1,23 @@
 #include "io/results/output_folder.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
 #include "io/errors/problems.hpp"
+#include "io/formats/text_file.hpp"
 #include "io/results/checkpoint.hpp"
 
 namespace clathra {
 namespace {
 
 constexpr char lock_name[] = ".lock";
+constexpr std::string_view records[] = {"run.json", "input.toml", "resolved.toml"};
 constexpr std::string_view results[] = {"run.json",    "input.toml",     "resolved.toml", "history.csv", "events.csv",
                                         "specimen.h5", "particles.xdmf", "contacts.xdmf", "report.html", "final.h5"};
 
@@ -26,7 +30,48 @@ void clear_snapshots(std::filesystem::path const& folder) {
   std::filesystem::remove(folder, error);  // only if it is empty now
 }
 
-void make_folder(std::filesystem::path const& folder) {
+bool has_snapshots(std::filesystem::path const& folder) {
+  std::error_code error;
+  auto const entries = std::filesystem::directory_iterator(folder, error);
+  return std::any_of(begin(entries), end(entries), [](auto const& entry) { return entry.path().extension() == ".h5"; });
+}
+
+/// What the marker of a folder says.
+std::string marker_text(std::string_view verb) {
+  return fmt::format("clathra {}\nThis folder holds results of `clathra {}`, which knows it by this file and locks it.\n", verb,
+                     verb);
+}
+
+/// The first line of the marker of a folder, nothing where there is none or it is of somebody else.
+std::string marked_as(std::filesystem::path const& folder) {
+  std::error_code error;
+  std::filesystem::path const marker = folder / lock_name;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(marker, error))) return {};
+  std::string const text = read_text_file(marker, 1000);
+  return text.starts_with("clathra ") ? text.substr(0, text.find('\n')) : "";
+}
+
+/// @throws FileProblem where a folder that is there is no folder of this verb's results
+void require_own(std::filesystem::path const& folder, std::string_view verb) {
+  std::string const marked = marked_as(folder);
+  if (marked == fmt::format("clathra {}", verb)) return;
+  if (!marked.empty())
+    throw FileProblem(ExitCode::refused, folder,
+                      fmt::format("holds results of `{}`, not of `clathra {}`; choose another (--output)", marked, verb));
+  std::error_code error;
+  auto const entries = std::filesystem::directory_iterator(folder, error);
+  if (error) throw FileProblem(ExitCode::cannot_create, folder, "cannot be read: " + error.message());
+  // An empty marker alone was left by a program that was killed at once.
+  auto const is_other = [&](std::filesystem::directory_entry const& entry) {
+    return entry.path().filename() != lock_name || std::filesystem::is_symlink(entry.path()) || !entry.is_regular_file() ||
+           entry.file_size() > 0;
+  };
+  if (std::any_of(begin(entries), end(entries), is_other))
+    throw FileProblem(ExitCode::refused, folder,
+                      fmt::format("is not empty and not of an earlier `clathra {}`; choose another (--output)", verb));
+}
+
+void make_folder(std::filesystem::path const& folder, std::string_view verb) {
   std::error_code error;
   if (std::filesystem::is_symlink(folder, error))
     throw FileProblem(ExitCode::refused, folder, "is a link; name the folder itself");
@@ -35,11 +80,7 @@ void make_folder(std::filesystem::path const& folder) {
     throw FileProblem(ExitCode::cannot_create, folder, "is not a folder");
   if (!exists && !std::filesystem::create_directories(folder, error))
     throw FileProblem(ExitCode::cannot_create, folder, "cannot be created: " + error.message());
-  if (!exists || std::filesystem::exists(folder / lock_name, error)) return;
-  auto const first = std::filesystem::directory_iterator(folder, error);
-  if (error) throw FileProblem(ExitCode::cannot_create, folder, "cannot be read: " + error.message());
-  if (first != std::filesystem::directory_iterator())
-    throw FileProblem(ExitCode::refused, folder, "is not empty and not of an earlier run; choose another (--output)");
+  if (exists) require_own(folder, verb);
 }
 
 /// Tries to hold a file. @return 0, or the error: EWOULDBLOCK where another process holds it
@@ -60,9 +101,9 @@ int hold(int descriptor) {
 
 std::span<std::string_view const> result_files() { return results; }
 
-OutputFolder::OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+OutputFolder::OutputFolder(std::filesystem::path folder, std::string_view verb) : folder_(std::move(folder)) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/": a link would not be seen behind the slash
-  make_folder(folder_);
+  make_folder(folder_, verb);
   lock_ = ::open((folder_ / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (lock_ < 0)
     throw FileProblem(ExitCode::cannot_create, folder_, "cannot be written: " + std::generic_category().message(errno));
@@ -72,6 +113,18 @@ OutputFolder::OutputFolder(std::filesystem::path folder) : folder_(std::move(fol
     throw FileProblem(ExitCode::cannot_create, folder_, "another run is writing into this folder; choose another (--output)");
   }
   held_ = error == 0;
+  std::string const text = marker_text(verb);
+  if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
+    FileProblem const problem(ExitCode::io_error, folder_ / lock_name,
+                              "cannot be written: " + std::generic_category().message(errno));
+    ::close(lock_);
+    throw problem;
+  }
+}
+
+std::string OutputFolder::lock_warning() const {
+  if (held_) return {};
+  return fmt::format("{}: its file system knows no locks, nothing keeps a second program from writing into it", folder_.string());
 }
 
 bool folder_in_use(std::filesystem::path const& folder) {
@@ -91,6 +144,15 @@ void OutputFolder::clear(std::filesystem::path const& keep) const {
   for (char const* const index : {"particles.xdmf", "contacts.xdmf", ""})
     std::filesystem::remove(folder_ / "diverged" / index, error);
   remove_checkpoints(folder_);
+}
+
+bool holds_results(std::filesystem::path const& run_folder) {
+  std::error_code error;
+  for (std::string_view const name : results)
+    if (std::find(std::begin(records), std::end(records), name) == std::end(records) &&
+        std::filesystem::exists(std::filesystem::symlink_status(run_folder / name, error)))
+      return true;
+  return has_snapshots(run_folder / "snap") || has_snapshots(run_folder / "diverged" / "snap") || has_checkpoints(run_folder);
 }
 
 OutputFolder::~OutputFolder() { ::close(lock_); }

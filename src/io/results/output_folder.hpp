@@ -10,12 +10,16 @@ namespace clathra {
 /// Names of the files that a run leaves in its folder, besides its snapshots.
 std::span<std::string_view const> result_files();
 
-/// Makes the folder and locks it against a second run.
+/// The specimen of a run that will take the place of an earlier one, until it does.
+inline constexpr char next_specimen[] = "specimen.h5.next";
+
+/// Makes the folder and locks it against a second run. A file in it, the marker, says which verb's results it holds.
 class OutputFolder {
  public:
+  /// @param verb  "run", "study", ...
   /// @throws FileProblem cannot_create (no right to write, another run is writing), or refused: the folder is a link, or holds
-  /// files but no run of Clathra
-  explicit OutputFolder(std::filesystem::path folder);
+  /// files but no marker of this verb
+  OutputFolder(std::filesystem::path folder, std::string_view verb);
   ~OutputFolder();
   OutputFolder(OutputFolder const&) = delete;
   OutputFolder& operator=(OutputFolder const&) = delete;
@@ -24,8 +28,8 @@ class OutputFolder {
   void clear(std::filesystem::path const& keep) const;
   std::filesystem::path operator/(std::string const& name) const { return folder_ / name; }
   std::filesystem::path const& path() const { return folder_; }
-  /// Whether the lock holds: some file systems of clusters know no locks, and then nothing keeps a second run out.
-  bool held() const { return held_; }
+  /// What to warn of where the lock does not hold: some file systems of clusters know no locks. Nothing where it does.
+  std::string lock_warning() const;
 
  private:
   std::filesystem::path folder_;
@@ -35,5 +39,9 @@ class OutputFolder {
 
 /// Whether a run is writing into a folder now, as far as locks can tell.
 bool folder_in_use(std::filesystem::path const& folder);
+
+/// Whether the folder of a run holds what took it time: rows, events, snapshots, specimens, checkpoints. run.json and the scene
+/// alone are of a run that came to nothing.
+bool holds_results(std::filesystem::path const& run_folder);
 
 }  // namespace clathra

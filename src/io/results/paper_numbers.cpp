@@ -7,7 +7,6 @@
 #include "domain/measurement/fabric.hpp"
 #include "domain/measurement/shear_band.hpp"
 #include "domain/measurement/strain_field.hpp"
-#include "domain/measurement/strength_fit.hpp"
 #include "domain/measurement/test_numbers.hpp"
 #include "io/results/events.hpp"
 #include "io/results/run_results.hpp"
@@ -87,32 +86,17 @@ std::map<std::string, double> numbers_of_snapshots(std::filesystem::path const& 
   return numbers;
 }
 
-/// Tests of one material and seed at their peaks and in their residual state.
-struct SeedTests {
-  std::vector<FailureStress> peaks, residuals;
-};
-
-void add_envelope(std::map<std::string, double>& numbers, std::vector<FailureStress> const& tests, std::string const& state) {
-  std::optional<Envelope> const fit = fitted_envelope(tests);
-  if (!fit) return;
-  numbers[state + "_cohesion_Pa"] = fit->cohesion;
-  numbers[state + "_friction_angle_deg"] = fit->friction_angle * degrees;
-}
-
 void add_envelopes(PaperNumbers& numbers, Study const& study, std::vector<MemberResult> const& members) {
-  std::map<std::pair<std::string, std::uint64_t>, SeedTests> tests;
-  for (MemberResult const& member : members) {
-    if (member.state != MemberState::finished || !member.peak) continue;
-    SeedTests& of = tests[{study.groups[member.group].material, member.seed}];
-    of.peaks.push_back(*member.peak);
-    if (member.residual) of.residuals.push_back(*member.residual);
-  }
-  for (auto const& [key, of] : tests) {
-    std::map<std::string, double> fits;
-    add_envelope(fits, of.peaks, "peak");
-    add_envelope(fits, of.residuals, "residual");
-    numbers.add(key.first, key.second, fits);
-  }
+  for (GroupNumbers const& material : envelopes_by_material(study, members))
+    for (std::size_t i = 0; i < material.seeds.size(); ++i) {
+      std::map<std::string, double> fits;
+      for (char const* const number :
+           {"peak_cohesion_Pa", "peak_friction_angle_deg", "residual_cohesion_Pa", "residual_friction_angle_deg"})
+        if (auto const found = material.values.find(number);
+            found != material.values.end() && found->second.size() == material.seeds.size())
+          fits[number] = found->second[i];
+      numbers.add(material.name, material.seeds[i], fits);
+    }
 }
 
 }  // namespace

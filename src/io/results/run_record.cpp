@@ -77,6 +77,10 @@ Json input_json(RunRecord const& record) {
 
 }  // namespace
 
+std::string version_text(std::string const& version, std::string const& git_hash) {
+  return fmt::format("{} ({})", version, git_hash);
+}
+
 std::string hash_text(std::uint64_t hash) { return fmt::format("0x{:016x}", hash); }
 
 std::string compiler_name() {

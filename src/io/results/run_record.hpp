@@ -43,6 +43,9 @@ nlohmann::json scene_json(Scene const& scene);
 /// a value is none of its key
 Scene scene_of(nlohmann::json const& json);
 
+/// "0.1.0 (4f3a2b1c9d8e)": a program by its version and git revision.
+std::string version_text(std::string const& version, std::string const& git_hash);
+
 /// "0x" and 16 hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 

@@ -9,6 +9,8 @@
 
 #include "domain/scene/hydrate.hpp"
 #include "io/errors/problems.hpp"
+#include "io/formats/hdf5_file.hpp"
+#include "io/results/run_record.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
 
@@ -156,6 +158,21 @@ SceneTexts label_of(Specimen const& specimen) {
   if (auto const seed = json.find("seed"); seed != json.end() && seed->is_number_integer()) label["run.seed"] = seed->dump();
   if (json.contains("generate")) label["bond.stress"] = format_quantity(specimen.stress, Dimension::pressure);
   return label;
+}
+
+std::string program_of_specimen(std::filesystem::path const& file) {
+  constexpr std::string_view name = "clathra ";
+  Json json;
+  try {
+    json = Json::parse(Hdf5File::open(file).read_text("provenance"), nullptr, false);
+  } catch (FileProblem const&) {
+    return {};
+  }
+  if (!json.is_object() || !json.contains("program") || !json["program"].is_string()) return {};
+  std::string const program = json["program"].get<std::string>();
+  Json const hash = json.value("git_hash", Json());
+  if (!program.starts_with(name)) return {};
+  return version_text(program.substr(name.size()), hash.is_string() ? hash.get<std::string>() : "");
 }
 
 SceneTexts label_after(SceneTexts const& before, Scene const& scene, bool bonded) {

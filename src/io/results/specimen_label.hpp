@@ -19,6 +19,10 @@ SceneTexts specimen_label(Scene const& scene, bool bonded);
 /// The label of a specimen; of files of version 1, which had none, what else they tell. Empty where there is nothing.
 SceneTexts label_of(Specimen const& specimen);
 
+/// The version_text() of the program that made a specimen file; nothing where the file does not say or cannot be read: who reads
+/// the specimen will say what is wrong with it.
+std::string program_of_specimen(std::filesystem::path const& file);
+
 /// The label of what a test by this scene made of a specimen with the label `before`.
 SceneTexts label_after(SceneTexts const& before, Scene const& scene, bool bonded);
 

@@ -14,7 +14,8 @@ void add_test(StrengthGroup& group, RunResults const& run) {
   auto const add = [&](TestStresses& tests, FailureStress const& stress) {
     tests.all.push_back(stress);
     if (n.passed_peak)
-      tests.reached.push_back(stress);
+      tests.reached.push_back({static_cast<std::uint64_t>(run.number("/scene/run/seed").value_or(0)),
+                               run.number("/scene/test/confining_stress").value_or(stress.sigma3), stress});
     else
       tests.rising.push_back(run.name);
   };
@@ -42,8 +43,8 @@ std::vector<StrengthGroup> strength_groups(std::vector<RunResults> const& runs) 
     add_test(*same, runs[i]);
   }
   for (StrengthGroup& group : groups) {
-    group.at_peak = fitted_envelope(group.peaks.reached);
-    group.residual = fitted_envelope(group.residuals.reached);
+    group.at_peak = paired_strength(group.peaks.reached);
+    group.residual = paired_strength(group.residuals.reached);
   }
   std::stable_sort(groups.begin(), groups.end(),
                    [](StrengthGroup const& a, StrengthGroup const& b) { return a.saturation < b.saturation; });

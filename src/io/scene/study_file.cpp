@@ -23,9 +23,9 @@ constexpr char stress_key[] = "test.confining_stress";
 
 /// Keys that each member has its own value of, or that say nothing of what is tested; with what to write instead.
 constexpr std::pair<std::string_view, char const*> other_keys[] = {
-    {"run.seed", "'seeds' gives the seeds"},
-    {"output.folder", "'folder' names the folder of all members"},
-    {"run.threads", "`clathra study --threads` gives the threads of a member"}};
+    {"run.seed", "'seeds' of the study gives the seeds, or --seeds"},
+    {"output.folder", "'folder' of the study names the folder of all members, or --output"},
+    {"run.threads", "--threads gives the threads of a member"}};
 
 /// A piece of a file's name: "26 %" -> "26pct".
 std::string slug(std::string_view text) {
@@ -36,6 +36,15 @@ std::string slug(std::string_view text) {
     if (c == '/' || c == '_') name += '-';
   }
   return name;
+}
+
+constexpr std::size_t most_letters = 200;
+
+/// Whether a text can be the name of a file and of a group.
+bool is_name(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '+' || c == '-';
+  });
 }
 
 /// What a value is called in names: with the key where the value is a bare number or truth value.
@@ -113,6 +122,7 @@ class StudyReader {
     }
     if (study_.scene.empty() && problems_.empty())
       problems_.push_back({file_, 0, 0, "'scene' is missing: the scene file that all members share"});
+    study_.seeds_stated = !study_.seeds.empty();
     if (study_.seeds.empty())
       for (int seed = 1; seed <= usual_seeds; ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
   }
@@ -177,8 +187,8 @@ class StudyReader {
 
   /// The key of a scene, where it may stand in a study.
   Key const* known(std::string const& name, TomlNode const& node) {
-    for (auto const& [other, instead] : other_keys)
-      if (name == other) return report(node, fmt::format("'{}' cannot be varied here: {}", name, instead)), nullptr;
+    if (char const* const instead = key_of_each_run(name))
+      return report(node, fmt::format("'{}' cannot be varied here: {}", name, instead)), nullptr;
     Key const* const key = find_key(name);
     if (!key) report(node, fmt::format("unknown key '{}' of a scene{}", name.substr(0, 100), key_suggestion(name)));
     return key;
@@ -259,17 +269,26 @@ class StudyReader {
     auto const* const groups = section.as<TomlTable>();
     if (!groups) return report(section, "'groups' holds sections: write [groups.NAME] and keys of the scene below");
     for (auto const& [name, line, column, node] : in_order(*groups)) {
-      if (name.empty() || slug(name) != name || name.size() > 60) {
-        report(node, fmt::format("'{}' is no name of a group: letters, digits and .+- only, 60 at most", name.substr(0, 60)));
+      if (name.empty() || !is_name(name) || name.size() > most_letters) {
+        report(node, fmt::format("'{}' is no name of a group: letters, digits and ._+- only, {} at most",
+                                 name.substr(0, most_letters), most_letters));
         continue;
       }
       StudyGroup group{name, {}, name};
       for_each_key(node, "groups.NAME", [&](std::string const& key_name, TomlNode const& value_node) {
+        if (key_name == "material") return read_material(value_node, group);
         if (Key const* const key = known(key_name, value_node))
           if (auto value = value_of(*key, value_node)) group.settings.emplace_back(key_name, std::move(*value));
       });
       named_.push_back(std::move(group));
     }
+  }
+
+  void read_material(TomlNode const& node, StudyGroup& group) {
+    auto const* const text = node.as<std::string>();
+    if (!text || text->empty() || text->size() > most_letters)
+      return report(node, fmt::format("'material' needs a name in quotes, {} letters at most", most_letters));
+    group.material = *text;
   }
 
   void make_groups() {
@@ -291,9 +310,7 @@ class StudyReader {
     for (StudyGroup& group : groups) {
       if (group.name.empty()) group.name = "all";
       if (group.material.empty()) group.material = "all";
-      for (Setting const& setting : group.settings)
-        if (std::find(study_.keys.begin(), study_.keys.end(), setting.first) == study_.keys.end())
-          study_.keys.push_back(setting.first);
+      for (Setting const& setting : group.settings) add_key(study_, setting.first);
     }
     std::set<std::string> names;
     for (StudyGroup const& group : groups)
@@ -340,20 +357,14 @@ StudyGoal study_goal(std::string const& text) {
   return goal;
 }
 
-LoadedScene member_scene(Study const& study, StudyGroup const& group, std::uint64_t seed, std::vector<std::string> const& more) {
-  std::vector<std::string> overrides;
-  for (auto const& [key, value] : group.settings) overrides.push_back(key + "=" + value);
-  overrides.push_back(fmt::format("run.seed={}", seed));
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  try {
-    return load_scene(study.scene, overrides);
-  } catch (SceneProblems const& problems) {
-    std::vector<Problem> named = problems.problems;
-    for (Problem& problem : named) problem.text += fmt::format(" (in the group {} of {})", group.name, study.file.string());
-    throw SceneProblems(std::move(named));
-  }
+void add_key(Study& study, std::string const& key) {
+  if (key != "run.force" && std::find(study.keys.begin(), study.keys.end(), key) == study.keys.end()) study.keys.push_back(key);
 }
 
-std::string member_name(StudyGroup const& group, std::uint64_t seed) { return fmt::format("{}-seed{}", group.name, seed); }
+char const* key_of_each_run(std::string_view name) {
+  for (auto const& [other, instead] : other_keys)
+    if (name == other) return instead;
+  return nullptr;
+}
 
 }  // namespace clathra

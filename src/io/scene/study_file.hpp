@@ -7,6 +7,7 @@
 ///     "hydrate.saturation" = ["26 %", "41 %", "55 %"]
 ///     "test.confining_stress" = { from = "1 MPa", to = "3 MPa", count = 3 }
 ///     [groups.dense]             # named sets of keys, each of them with the whole matrix
+///     material = "dense sand"    # groups of one material share an envelope; left out, it is the name of the group
 ///     "sample.void_ratio" = 0.2
 #include <cstdint>
 #include <filesystem>
@@ -39,8 +40,9 @@ struct Study {
   std::filesystem::path file, scene;
   std::filesystem::path folder;  ///< of the results: "out/" and the name of the file, where it does not say
   std::vector<std::uint64_t> seeds;
+  bool seeds_stated = false;       ///< else these are the usual ones
   std::vector<StudyGroup> groups;  ///< one at least
-  std::vector<std::string> keys;   ///< of all settings, in the order in which they first appear
+  std::vector<std::string> keys;   ///< of all settings, in the order in which they first appear (add_key())
   std::optional<StudyGoal> until;
   int most_seeds = 40;  ///< with a goal
 };
@@ -58,11 +60,10 @@ Study parse_study(std::string const& text, std::filesystem::path const& path);
 /// @throws std::invalid_argument with what is wrong with the text
 StudyGoal study_goal(std::string const& text);
 
-/// The scene of a member. @param more  further overrides
-/// @throws SceneProblems, which name the group
-LoadedScene member_scene(Study const& study, StudyGroup const& group, std::uint64_t seed, std::vector<std::string> const& more);
+/// Takes a key into those of the study. Left out is run.force, which changes no result.
+void add_key(Study& study, std::string const& key);
 
-/// "dense_26pct_1MPa-seed3"
-std::string member_name(StudyGroup const& group, std::uint64_t seed);
+/// What to write instead of a key that each run has its own value of: the seed, threads, the folder. Nothing for other keys.
+char const* key_of_each_run(std::string_view name);
 
 }  // namespace clathra

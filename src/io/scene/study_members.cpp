@@ -1,0 +1,163 @@
+#include "io/scene/study_members.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string const* value_in(StudyGroup const& group, std::string const& key) {
+  auto const found =
+      std::find_if(group.settings.begin(), group.settings.end(), [&](Setting const& setting) { return setting.first == key; });
+  return found == group.settings.end() ? nullptr : &found->second;
+}
+
+/// A value as a scene would echo it, so that "50 %" and "0.5" are one.
+std::string echoed(std::string const& key_name, std::string const& text) {
+  Key const* const key = find_key(key_name);
+  Scene scene;
+  try {
+    set_from_text(*key, scene, text);
+  } catch (std::invalid_argument const&) {
+    return text;
+  }
+  return value_text(*key, scene);
+}
+
+/// Whether the groups have different values of a key, or only some of them have one.
+bool varies(Study const& study, std::string const& key) {
+  std::set<std::string> values;
+  for (StudyGroup const& group : study.groups) {
+    std::string const* const value = value_in(group, key);
+    values.insert(value ? echoed(key, *value) : "");
+  }
+  return values.size() > 1;
+}
+
+/// What is wrong with an override of a study, or nothing.
+std::string problem_of(Study const& study, std::string const& text) {
+  auto const equals = text.find('=');
+  std::string const name = text.substr(0, equals);
+  if (equals == std::string::npos) return fmt::format("'{}' needs the form section.key=value", text.substr(0, 100));
+  if (char const* const instead = key_of_each_run(name))
+    return fmt::format("'{}' cannot be set for all members: {}", name, instead);
+  Key const* const key = find_key(name);
+  if (!key) return fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name));
+  if (varies(study, name))
+    return fmt::format("'{}' is what the groups of {} differ in: change it there, or leave it out here", name,
+                       study.file.string());
+  try {
+    Scene scratch;
+    set_from_text(*key, scratch, text.substr(equals + 1));
+  } catch (std::invalid_argument const& problem) {
+    return fmt::format("'{}' {}", name, problem.what());
+  }
+  return {};
+}
+
+std::string quoted(std::string const& text) {
+  std::string result = "\"";
+  for (char const c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      result += c;
+  }
+  return result + "\"";
+}
+
+std::string absolute_text(fs::path const& path) { return fs::absolute(path).lexically_normal().string(); }
+
+}  // namespace
+
+void override_study(Study& study, std::vector<std::string> const& overrides) {
+  std::vector<Problem> problems;
+  for (std::string const& text : overrides)
+    if (std::string problem = problem_of(study, text); !problem.empty())
+      problems.push_back({"--set " + text.substr(0, 100), 0, 0, std::move(problem)});
+  if (!problems.empty()) throw SceneProblems(std::move(problems));
+  for (std::string const& text : overrides) {
+    std::string const name = text.substr(0, text.find('='));
+    std::string value = text.substr(name.size() + 1);
+    if (find_key(name)->kind == Kind::path && !value.empty()) value = absolute_text(value);
+    for (StudyGroup& group : study.groups) {
+      std::erase_if(group.settings, [&](Setting const& setting) { return setting.first == name; });
+      group.settings.emplace_back(name, value);
+    }
+    add_key(study, name);
+  }
+}
+
+void force_study(Study& study) {
+  for (StudyGroup& group : study.groups) group.settings.emplace_back("run.force", "true");
+}
+
+std::vector<std::string> member_overrides(StudyGroup const& group, std::uint64_t seed) {
+  std::vector<std::string> overrides;
+  for (auto const& [key, value] : group.settings) overrides.push_back(key + "=" + value);
+  overrides.push_back(fmt::format("run.seed={}", seed));
+  return overrides;
+}
+
+LoadedScene member_scene(Study const& study, StudyGroup const& group, std::uint64_t seed) {
+  try {
+    return load_scene(study.scene, member_overrides(group, seed));
+  } catch (SceneProblems const& problems) {
+    std::vector<Problem> named = problems.problems;
+    for (Problem& problem : named) problem.text += fmt::format(" (in the group {} of {})", group.name, study.file.string());
+    throw SceneProblems(std::move(named));
+  }
+}
+
+std::string member_name(StudyGroup const& group, std::uint64_t seed) { return fmt::format("{}-seed{}", group.name, seed); }
+
+std::string group_label(Study const& study, StudyGroup const& group) {
+  std::string label;
+  for (std::string const& key : study.keys) {
+    std::string const* const value = value_in(group, key);
+    if (!value || !varies(study, key)) continue;
+    bool const bare = value->find_first_not_of("0123456789.eE+-") == std::string::npos || *value == "true" || *value == "false";
+    std::string leaf = key.substr(key.find('.') + 1);
+    std::replace(leaf.begin(), leaf.end(), '_', ' ');
+    label += (label.empty() ? "" : ", ") + (bare ? leaf + " " : "") + *value;
+  }
+  return label.empty() ? group.name : label;
+}
+
+std::string si_text(Setting const& setting) {
+  Key const* const key = find_key(setting.first);
+  auto const* const number = key ? std::get_if<double& (*)(Scene&)>(&key->field) : nullptr;
+  if (!number) return setting.second;
+  Scene scene;
+  set_from_text(*key, scene, setting.second);
+  return fmt::format("{}", (*number)(scene));
+}
+
+std::string resolved_study(Study const& study) {
+  std::string text = fmt::format("# {} with what the command line said.\n", study.file.filename().string());
+  text +=
+      fmt::format("scene = {}\nfolder = {}\nseeds = [", quoted(absolute_text(study.scene)), quoted(absolute_text(study.folder)));
+  for (std::size_t i = 0; i < study.seeds.size(); ++i) text += fmt::format("{}{}", i == 0 ? "" : ", ", study.seeds[i]);
+  text += "]\n";
+  if (study.until)
+    text += fmt::format("until = \"{}={}\"\nmost_seeds = {}\n", study.until->number, study.until->width, study.most_seeds);
+  for (StudyGroup const& group : study.groups) {
+    text += fmt::format("\n[groups.{}]\nmaterial = {}\n", quoted(group.name), quoted(group.material));
+    for (auto const& [key, value] : group.settings) {
+      bool const path = find_key(key)->kind == Kind::path && !value.empty();
+      text += fmt::format("{} = {}\n", quoted(key), quoted(path ? absolute_text(value) : value));
+    }
+  }
+  return text;
+}
+
+}  // namespace clathra

@@ -1,0 +1,209 @@
+/// What `clathra` does not delete: results of earlier runs, and files of others.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "command.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(fs::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+void put(fs::path const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
+
+/// Every file of a folder with what it holds.
+std::map<std::string, std::string> contents(fs::path const& folder) {
+  std::map<std::string, std::string> files;
+  for (auto const& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path().string()] = content(entry.path());
+  return files;
+}
+
+testing::AssertionResult says(CommandResult const& result, std::string const& wanted) {
+  if (result.output.find(wanted) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "code " << result.code << ", not said: " << wanted << "\n" << result.output;
+}
+
+/// A scene of a hundred discs that are made, and one of discs from a file.
+class KeptResults : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder);
+    put(folder / "made.toml",
+        "[sample]\nparticles = 100\nvoid_ratio = 0.28\n[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.2 %\"\n"
+        "[output]\nrecords = 20\nsnapshots = 1\n");
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  CommandResult run(std::string const& more = "") const {
+    return run_clathra("run '" + (folder / "made.toml").string() + "' --output '" + out.string() + "' " + more);
+  }
+  nlohmann::json record() const { return nlohmann::json::parse(content(out / "run.json")); }
+
+  /// A run that is killed when it has some rows and no checkpoint yet.
+  void kill_one_with_rows() const {
+    pid_t const child = ::fork();
+    if (child == 0) {
+      if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) ::_exit(1);
+      ::execl(CLATHRA_BINARY, CLATHRA_BINARY, "run", (folder / "made.toml").c_str(), "--output", out.c_str(), "--set",
+              "test.inertial_number=1e-6", "--set", "output.records=4000", static_cast<char*>(nullptr));
+      ::_exit(127);
+    }
+    auto const rows = [&] {
+      std::string const text = content(out / "history.csv");
+      return std::count(text.begin(), text.end(), '\n');
+    };
+    for (int i = 0; i < 6000 && rows() < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    ASSERT_GE(rows(), 10);
+    ASSERT_FALSE(fs::exists(out / "ckpt"));
+  }
+
+  fs::path const folder = fs::temp_directory_path() / ("clathra_kept_" + std::to_string(::getpid()));
+  fs::path const out = folder / "out";
+};
+
+TEST_F(KeptResults, OfAFinishedRunGoOnlyWhenAskedAndWhenThereAreNewOnes) {
+  ASSERT_EQ(run().code, 0);
+  auto const before = contents(out);
+  CommandResult const again = run("--set run.damping=0.2");
+  EXPECT_EQ(again.code, 77) << again.output;
+  EXPECT_TRUE(says(again, "out: holds a finished run: --output names another folder"));
+  EXPECT_EQ(contents(out), before);
+  // Refused a moment later: when the folder is taken hold of, and while its specimen is made.
+  for (std::string const refused : {"--set test.inertial_number=0.5", "--set sample.void_ratio=0.1"}) {
+    CommandResult const result = run("--overwrite " + refused);
+    EXPECT_EQ(result.code, 77) << result.output;
+    EXPECT_EQ(contents(out), before) << refused;
+  }
+  EXPECT_TRUE(says(run("--overwrite --set sample.void_ratio=0.1"), "as it was"));
+  CommandResult const other = run("--overwrite --set run.damping=0.2");
+  EXPECT_EQ(other.code, 0) << other.output;
+  EXPECT_EQ(record()["scene"]["run"]["damping"], 0.2);
+  EXPECT_FALSE(fs::exists(out / "specimen.h5.next"));
+  EXPECT_EQ(content(out / "specimen.h5").substr(1, 3), "HDF");
+  EXPECT_EQ(run_clathra("verify '" + out.string() + "'").code, 0);
+}
+
+TEST_F(KeptResults, AreNoneOfARunThatWasRefusedAtOnce) {
+  EXPECT_EQ(run("--set sample.void_ratio=0.1").code, 77);
+  EXPECT_TRUE(fs::exists(out / "run.json")) << "says why";
+  EXPECT_EQ(run().code, 0);
+}
+
+TEST_F(KeptResults, OfARunKilledBeforeItsFirstCheckpoint) {
+  kill_one_with_rows();
+  auto const before = contents(out);
+  CommandResult const again = run();
+  EXPECT_EQ(again.code, 77) << again.output;
+  EXPECT_TRUE(says(again, "holds a run that is not finished (it was killed)"));
+  EXPECT_EQ(contents(out), before);
+  CommandResult const other = run("--resume --set run.damping=0.2");
+  EXPECT_EQ(other.code, 77) << other.output;
+  EXPECT_TRUE(says(other, "run.damping was 0.3, is 0.2"));
+  EXPECT_EQ(contents(out), before);
+  // The same scene begins anew: its rows will be the same.
+  std::string const same = "--set test.inertial_number=1e-6 --set output.records=4000";
+  CommandResult const resumed = run("--resume --max-walltime 0.001s " + same);
+  EXPECT_EQ(resumed.code, 75) << resumed.output;
+  EXPECT_TRUE(says(resumed, "there is no checkpoint yet, so the run starts from the beginning"));
+  std::string const rows = content(out / "history.csv");
+  EXPECT_EQ(before.at((out / "history.csv").string()).substr(0, rows.size()), rows);
+}
+
+TEST_F(KeptResults, OfSomebodyElseAreNeverTouched) {
+  fs::create_directories(out);
+  for (char const* const lock : {"", "clathra", "clathra study\n"}) {
+    put(out / ".lock", lock);
+    put(out / "history.csv", "mine");
+    put(out / "report.html", "mine, too");
+    auto const before = contents(out);
+    for (char const* const option : {"", "--overwrite", "--resume"}) {
+      CommandResult const result = run(option);
+      EXPECT_EQ(result.code, 77) << result.output;
+      EXPECT_EQ(contents(out), before);
+    }
+  }
+  EXPECT_TRUE(says(run(), "holds results of `clathra study`, not of `clathra run`"));
+  // A program that was killed at once leaves an empty marker and nothing else.
+  fs::remove_all(out);
+  fs::create_directories(out);
+  put(out / ".lock", "");
+  EXPECT_EQ(run().code, 0);
+}
+
+TEST_F(KeptResults, WhoseRecordIsDamagedAreNeitherUnfinishedNorBegunAnew) {
+  ASSERT_EQ(run().code, 0);
+  std::string const whole = content(out / "run.json");
+  std::string const too_long = whole.substr(0, whole.size() - 2) + std::string(std::size_t{65} << 20, ' ') + "}\n";
+  for (std::string const& damaged : {whole.substr(0, whole.size() / 2), std::string("{}"), std::string(), too_long}) {
+    put(out / "run.json", damaged);
+    auto const before = contents(out);
+    CommandResult const resumed = run("--resume");
+    EXPECT_EQ(resumed.code, 65) << resumed.output;
+    EXPECT_TRUE(says(resumed, "run.json: is damaged"));
+    CommandResult const plain = run();
+    EXPECT_EQ(plain.code, 77) << plain.output;
+    EXPECT_TRUE(says(plain, "holds results of a run whose run.json is damaged"));
+    EXPECT_EQ(contents(out), before);
+  }
+  fs::remove(out / "run.json");
+  fs::remove_all(out / "ckpt");  // with it the run would go on from its end
+  EXPECT_TRUE(says(run(), "holds results of a run whose run.json is missing"));
+  EXPECT_EQ(run("--resume").code, 77);
+  EXPECT_EQ(run("--overwrite").code, 0);
+}
+
+TEST_F(KeptResults, ASpecimenFileIsReplacedOnlyWhenAsked) {
+  std::string const generate =
+      "generate '" + (folder / "made.toml").string() + "' -o '" + (folder / "sand.h5").string() + "' --set run.seed=";
+  ASSERT_EQ(run_clathra(generate + "1").code, 0);
+  std::string const before = content(folder / "sand.h5");
+  CommandResult const again = run_clathra(generate + "2");
+  EXPECT_EQ(again.code, 73) << again.output;
+  EXPECT_TRUE(says(again, "sand.h5: exists already and is left as it is"));
+  EXPECT_EQ(content(folder / "sand.h5"), before);
+  EXPECT_EQ(run_clathra(generate + "2 --overwrite").code, 0);
+  EXPECT_NE(content(folder / "sand.h5"), before);
+  // The same specimen is the same file, whenever and with however many threads it was made.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_EQ(run_clathra(generate + "1 --overwrite --threads 1").code, 0);
+  EXPECT_EQ(content(folder / "sand.h5"), before);
+}
+
+#ifdef CLATHRA_NO_LOCKS
+TEST_F(KeptResults, WithoutLocksAllWhoWriteIntoAFolderWarn) {
+  put(folder / "study.toml", "scene = \"made.toml\"\nseeds = 1\n");
+  std::string const preload = "--version > /dev/null; LD_PRELOAD='" CLATHRA_NO_LOCKS "' " + std::string(program_in_shell) + " ";
+  std::string const warning = ": its file system knows no locks, nothing keeps a second program from writing into it";
+  std::string const scene = "'" + (folder / "made.toml").string() + "'";
+  for (std::string const& command :
+       {"run " + scene + " --output '" + out.string() + "'",
+        "study '" + (folder / "study.toml").string() + "' --output '" + (folder / "study").string() + "'",
+        "tune " + scene + " --discs 100 --budget 20s --folder '" + (folder / "tune").string() + "' -o '" +
+            (folder / "tuned.toml").string() + "'",
+        "reproduce --particles 100 --seeds 1 --max-walltime 0.1s --output '" + (folder / "reproduce").string() + "'"}) {
+    CommandResult const result = run_clathra(preload + command);
+    EXPECT_TRUE(says(result, warning)) << command;
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace clathra

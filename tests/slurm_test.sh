@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# The script of `clathra study --slurm` run by an sbatch that executes its jobs gives the study.csv of the study run at once:
+# slurm_test.sh CLATHRA
+set -euo pipefail
+clathra=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "slurm: $*"; tail -n 40 ./*.log logs/* 2>/dev/null || true; exit 1; }
+
+# A cluster of one machine: sbatch runs each job of an array at once, in the order in which they come.
+mkdir bin "it's here"
+cat >bin/sbatch <<'END'
+#!/bin/bash
+array=0 name=? out=
+while [ "${1#--}" != "$1" ]; do
+  case $1 in
+    --array=1-*) array=${1#--array=1-} ;;
+    --job-name=*) name=${1#--job-name=} ;;
+    --dependency=*) case $1 in *:) echo "sbatch: no job in $1" >&2; exit 1 ;; esac ;;
+    --time=*) [[ $1 =~ ^--time=[0-9]+:[0-9][0-9]:[0-9][0-9]$ ]] || { echo "sbatch: $1" >&2; exit 1; } ;;
+  esac
+  shift
+done
+cp "$1" job.sh # as Slurm does: the job does not see the script's own name
+shift
+for ((i = 1; i <= (array > 0 ? array : 1); ++i)); do
+  variables=(SLURM_ARRAY_JOB_ID=7)
+  [ "$array" = 0 ] || variables+=(SLURM_ARRAY_TASK_ID=$i)
+  env "${variables[@]}" bash job.sh "$@" >>"$name.log" 2>&1 || echo "$name $i ended with $?" >>ended.log
+done
+echo 7
+END
+# Passes on what it is told to start, and writes down which note it was given.
+cat >bin/srun <<'END'
+#!/bin/bash
+echo "$NOTE" >>notes.log
+exec "$@"
+END
+printf '#!/bin/bash\nexit 0\n' >bin/scontrol
+chmod +x bin/*
+export PATH=$PWD/bin:$PATH OMP_NUM_THREADS=1
+
+cat >base.toml <<'END'
+[sample]
+particles = 100
+void_ratio = 0.28
+layers = 1
+[hydrate]
+saturation = "55 %"
+[test]
+axial_strain = "0.3 %"
+inertial_number = 0.012
+[output]
+records = 10
+snapshots = 0
+END
+cat >study.toml <<'END'
+scene = "base.toml"
+seeds = 7
+[matrix]
+test.confining_stress = ["1 MPa", "2 MPa", "3 MPa"]
+END
+options=(--seeds 3 --force --set grains.friction=0.4 --set "run.damping=25 %" --checkpoint-every "10 min")
+"$clathra" study study.toml "${options[@]}" --output at-once >at-once.log 2>&1 || fail "the study at once failed"
+launcher="env \"NOTE=a 'quoted' \$note\" srun"
+"$clathra" study study.toml "${options[@]}" --output "it's here" --max-walltime "1 h" --threads 1 --launcher "$launcher" \
+  --slurm "my script.sh" >script.log 2>&1 || fail "no script"
+bash "my script.sh" --partition=short >submitted.log 2>&1 || fail "the script failed"
+[ ! -e ended.log ] || fail "jobs failed: $(cat ended.log)"
+[ "$(sort -u notes.log)" = "a 'quoted' \$note" ] || fail "the launcher was not taken as it was given: $(sort -u notes.log)"
+[ "$(wc -l <notes.log)" = 12 ] || fail "not 3 specimens and 9 members: $(wc -l <notes.log)"
+# The rows without the times, which are the last two columns.
+rows() { sed 's/,[^,]*,[^,]*$//' "$1/study.csv"; }
+[ "$(rows at-once | grep -c '^member,.*,finished,')" = 9 ] || fail "not all members are finished"
+rows at-once >a.rows
+rows "it's here" >b.rows
+cmp a.rows b.rows || fail "another study.csv: $(diff a.rows b.rows | head -n 4)"
+[ -s "it's here/study.html" ] || fail "no page"
