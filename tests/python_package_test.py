@@ -17,17 +17,20 @@ SCENE = {"sample": {"generator": "file", "file": os.path.join(PROJECT, "tests", 
 
 
 class Package(unittest.TestCase):
+    said = []
+
     @classmethod
     def setUpClass(cls):
         os.chdir(FOLDER)
-        for folder in ("run", "study"):  # of a program before this one
+        for folder in ("run", "study", "failing", "stopped"):  # of a program before this one
             shutil.rmtree(folder, ignore_errors=True)
         cls.run_of_scene = clathra.run(SCENE, "run", threads=1)
         base = {key: value for key, value in SCENE.items() if key != "output"}
+        base["sample"] = {"particles": np.int64(100), "void_ratio": np.float64(0.28), "layers": 1}
         with open("base.toml", "w", encoding="utf-8") as file:
             file.write(clathra.program._toml(base))
         cls.study = clathra.study({"scene": "base.toml", "seeds": 2, "matrix": {"output.records": 10, "test.confining_stress": {
-            "from": "1 MPa", "to": "2 MPa", "count": 2}}}, "study")
+            "from": "1 MPa", "to": "2 MPa", "count": 2}}}, "study", progress=cls.said.append)
 
     def test_history_is_a_table_with_units(self):
         run = self.run_of_scene
@@ -84,6 +87,9 @@ class Package(unittest.TestCase):
         self.assertAlmostEqual(peaks["mean"][0], np.mean(own))
         self.assertTrue((peaks["low"] <= peaks["mean"]).all())
         self.assertEqual(study.means["n"][0], 2)
+        self.assertEqual(list(study.members["test.confining_stress"]), [1e6, 1e6, 2e6, 2e6], "numbers in SI units")
+        self.assertEqual(list(study.members["label"]), ["1 MPa", "1 MPa", "2 MPa", "2 MPa"])
+        self.assertTrue(any("study" in line and "%" in line for line in self.said), "progress")
         self.assertEqual(study.run("2MPa", 2).scene["test"]["confining_stress"], 2e6)
         for wrong in (lambda: study.interval("nothing"), lambda: study.runs("3MPa")):
             with self.assertRaises(KeyError):
@@ -95,9 +101,42 @@ class Package(unittest.TestCase):
         self.assertEqual(caught.exception.code, 65)
         with self.assertRaises(TypeError):
             clathra.run({"sample": {"particles": None}}, "wrong")
-        for function in (clathra.open, clathra.open_study):
+        with self.assertRaises(ValueError):
+            clathra.run({"sample": {"particles": float("nan")}}, "wrong")
+        for function in (clathra.open_run, clathra.open_study):
             with self.assertRaises(FileNotFoundError):
                 function("nowhere")
+
+
+    def test_numbers_of_numpy_are_numbers(self):
+        scene = {"sample": {"particles": np.int32(20), "void_ratio": np.float32(0.25)}, "output": {"energy": np.bool_(True), "snapshots_at": np.array([0.01, 0.02])}}
+        text = clathra.program._toml(scene)
+        for line in ('"particles" = 20', '"void_ratio" = 0.25', '"energy" = true', '"snapshots_at" = [0.01, 0.02]'):
+            self.assertIn(line + "\n", text)
+
+    def test_runs_of_a_group_that_failed_are_none(self):
+        with self.assertRaises(clathra.ClathraError) as caught:
+            clathra.study({"scene": "base.toml", "seeds": 1, "matrix": {"sample.void_ratio": [np.float64(0.1), 0.28]}}, "failing", progress=False)
+        self.assertEqual(caught.exception.code, 77)
+        study = clathra.open_study("failing")
+        self.assertEqual([len(study.runs(group)) for group in study.members["group"]], [0, 1])
+
+    def test_an_interrupt_leaves_a_checkpoint(self):
+        def interrupt(line):
+            if line.startswith("shear"):
+                raise KeyboardInterrupt
+
+        long = {**SCENE, "test": {"axial_strain": 0.02, "inertial_number": 1e-6}}
+        with self.assertRaises(KeyboardInterrupt):
+            clathra.run(long, "stopped", progress=interrupt, threads=1)
+        self.assertTrue(os.path.exists(os.path.join("stopped", "ckpt", "0.json")))
+        self.assertFalse(clathra.open_run("stopped").finished)
+
+    def test_the_builtin_open_is_not_hidden(self):
+        names = {}
+        exec("from clathra import *", names)
+        self.assertNotIn("open", names)
+        self.assertFalse(hasattr(clathra, "open"))
 
 
 unittest.main(argv=sys.argv[:1])

@@ -21,7 +21,7 @@ def main():
     figure, axes = plt.subplots(3, 1, figsize=(3.5, 7), sharex=True, constrained_layout=True)
     styles = ["-", "--", "-.", ":"]
     for k, folder in enumerate(options.folders):
-        run = clathra.open(folder)
+        run = clathra.open_run(folder)
         history = run.history
         strain = 100 * history["eps1"]
         style = {"linestyle": styles[k % len(styles)], "color": f"C{k % 10}", "linewidth": 1}

@@ -106,7 +106,7 @@ def draw_specimen(figure, left_edge, moment, draw):
 
 
 def draw_curves(q_axis, v_axis, folder, **style):
-    history = clathra.open(folder).history
+    history = clathra.open_run(folder).history
     strain = 100 * history["eps1"]
     q_axis.plot(strain, history["q_Pa"] / 1e6, **style)
     v_axis.plot(strain, 100 * history["eps_v"], **style)
@@ -135,7 +135,7 @@ def main():
     parser.add_argument("--strain", type=float, default=0.05, help="axial strain of the picture on the left")
     parser.add_argument("--beside", nargs="*", default=[], metavar="OUT", help="other runs, in grey")
     options = parser.parse_args()
-    run = clathra.open(options.folder)
+    run = clathra.open_run(options.folder)
     early, last = Moment(run.snapshot_at(options.strain)), Moment(run.snapshots[-1])
     figure = plt.figure(figsize=(8, 4.4), dpi=90)
     draw_specimen(figure, 0.01, early, draw_lost if early.bonded else draw_shear)

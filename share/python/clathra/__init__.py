@@ -1,7 +1,7 @@
 """Runs and studies of Clathra in Python.
 
     import clathra
-    run = clathra.open("out")                  # a folder of `clathra run`
+    run = clathra.open_run("out")              # a folder of `clathra run`
     run.history["q_Pa"].max()                  # a pandas DataFrame; run.history.attrs["units"] has the units
     run.snapshots[-1].particles["position"]    # NumPy arrays, SI units
     study = clathra.open_study("out/study")    # a folder of `clathra study`
@@ -15,6 +15,4 @@ from .program import ClathraError, run, study
 from .results import Run, Study, open_run, open_study, units_of
 from .states import Columns, Snapshot, Specimen
 
-open = open_run
-
-__all__ = ["ClathraError", "Columns", "Run", "Snapshot", "Specimen", "Study", "open", "open_run", "open_study", "run", "study", "units_of"]
+__all__ = ["ClathraError", "Columns", "Run", "Snapshot", "Specimen", "Study", "open_run", "open_study", "run", "study", "units_of"]

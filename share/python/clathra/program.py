@@ -1,9 +1,15 @@
 """Starting the program `clathra`."""
 import json
+import math
+import numbers
 import os
 import shutil
+import signal
 import subprocess
+import sys
 import tempfile
+
+import numpy as np
 
 from .results import open_run, open_study
 
@@ -26,10 +32,16 @@ def program():
 
 
 def _toml_value(value):
-    if isinstance(value, bool):
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        if not math.isfinite(value):
+            raise ValueError(f"a scene's value is a finite number, not {value}")
+        return repr(float(value))
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml_value(item) for item in value) + "]"
     if isinstance(value, (str, os.PathLike)):
@@ -60,46 +72,79 @@ def _toml(sections):
     return text
 
 
-def _call(verb, what, output, options):
+def _show(line):
+    print(line, file=sys.stderr, flush=True)
+
+
+def _watch(arguments, progress):
+    """Runs the program and hands each line that it says to `progress`. Ctrl-C stops it with a checkpoint before it is raised here."""
+    # In a session of its own: a terminal's Ctrl-C comes to us alone, and once, which the program takes as a wish to stop.
+    child = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
+    said = []
+
+    def follow():
+        for line in child.stdout:
+            said.append(line)
+            if progress:
+                progress(line.rstrip("\n"))
+
+    try:
+        with child.stdout:
+            follow()
+        code = child.wait()
+    except BaseException:
+        child.send_signal(signal.SIGINT)
+        child.wait()
+        raise
+    if code != 0:
+        raise ClathraError(code, "".join(said))
+
+
+def _call(verb, what, output, progress, options):
     """Calls the program with a file, or with a dictionary that becomes one in the current folder, so that paths in it hold."""
     arguments = [program(), verb]
     made = None
     try:
         if isinstance(what, dict):
+            text = _toml(what)
             descriptor, made = tempfile.mkstemp(suffix=".toml", prefix=".clathra-", dir=".")
             with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-                file.write(_toml(what))
+                file.write(text)
         arguments += [made or os.fspath(what), "--output", os.fspath(output)]
         for name, value in options.items():
             option = "--" + name.replace("_", "-")
-            if value is True:
-                arguments.append(option)
-            elif value is not False and value is not None:
+            if isinstance(value, (bool, np.bool_)):
+                arguments += [option] if value else []
+            elif isinstance(value, (list, tuple)):  # an option that may be repeated
+                for item in value:
+                    arguments += [option, str(item)]
+            elif value is not None:
                 arguments += [option, str(value)]
-        done = subprocess.run(arguments, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise ClathraError(done.returncode, done.stderr or done.stdout)
+        _watch(arguments, _show if progress is True else progress)
     finally:
         if made:
             os.unlink(made)
 
 
-def run(scene, output, **options):
+def run(scene, output, progress=True, **options):
     """Runs a scene and opens its results.
 
     scene: a dictionary of sections, {"sample": {"particles": 2000}, "hydrate": {"saturation": "55 %"}}, values as in a scene
-    file; or the name of a scene file. output: folder of the results. options: those of `clathra run`, with _ for -:
-    threads=2, resume=True, max_walltime="1h". Raises ClathraError with what the program said.
+    file, NumPy's numbers and arrays among them; or the name of a scene file. output: folder of the results. progress: what the
+    program says goes line by line to stderr (True), to a function of yours, or nowhere (False). options: those of `clathra run`,
+    with _ for -: threads=2, resume=True, max_walltime="1h", set=["run.seed=2", "grains.friction=0.4"]. Raises ClathraError with
+    what the program said. Ctrl-C stops the run with a checkpoint; resume=True goes on.
     """
-    _call("run", scene, output, options)
+    _call("run", scene, output, progress, options)
     return open_run(output)
 
 
-def study(plan, output, **options):
+def study(plan, output, progress=True, **options):
     """Runs a study and opens its results.
 
     plan: a dictionary, {"scene": "quick.toml", "seeds": 5, "matrix": {"hydrate.saturation": ["26 %", "55 %"]}}, or the name of a
-    study file. output, options and errors: as for run(), with the options of `clathra study`.
+    study file. output, progress, options and errors: as for run(), with the options of `clathra study`. After Ctrl-C the same
+    call goes on.
     """
-    _call("study", plan, output, options)
+    _call("study", plan, output, progress, options)
     return open_study(output)

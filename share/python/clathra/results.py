@@ -119,7 +119,7 @@ class Study:
 
     @cached_property
     def members(self):
-        """A row for each member: its group, what it varies, its seed, its state, its numbers."""
+        """A row for each member: its group, a label, what it varies (SI units), its seed, its state, its warnings, its numbers."""
         return self._rows("member")
 
     @cached_property
@@ -129,11 +129,13 @@ class Study:
 
     @cached_property
     def means(self):
-        """A row for each group (and material): means over `n` seeds."""
+        """A row for each group (and material): means over `n` seeds; where fewer seeds have some numbers, these have a row of their
+        own with that `n`."""
         return self._rows("mean")
 
     def interval(self, number):
-        """A row for each group that has this number: mean, standard_deviation, and low and high of the 95 % interval."""
+        """A row for each group that has this number: of how many seeds (n), mean, standard_deviation, and low and high of the 95 %
+        interval."""
         if number not in self.table:
             raise KeyError(f"{number}: no such number in {self.folder}/study.csv")
         rows = self.table[self.table["row"].isin(self._STATISTICS) & self.table[number].notna()]
@@ -148,11 +150,12 @@ class Study:
         return Run(os.path.join(self.folder, "members", f"{group}-seed{seed}"))
 
     def runs(self, group):
-        """The finished runs of a group, in the order of study.csv."""
-        rows = self.members[(self.members["group"] == group) & (self.members["state"] == "finished")]
+        """The finished runs of a group, in the order of study.csv; none where all its members failed. Raises KeyError where there is
+        no such group."""
+        rows = self.members[self.members["group"] == group]
         if rows.empty:
-            raise KeyError(f"{group}: no finished member of {self.folder} is in a group of that name")
-        return [self.run(group, int(seed)) for seed in rows["seed"]]
+            raise KeyError(f"{group}: no group of {self.folder} has that name; there are {', '.join(dict.fromkeys(self.members['group']))}")
+        return [self.run(group, int(seed)) for seed in rows["seed"][rows["state"] == "finished"]]
 
 
 def open_run(folder):
