@@ -26,7 +26,9 @@ std::string interval_text(GroupNumbers const& group, char const* name, char cons
   MeanInterval const m = mean_interval(found->second);
   std::string text = fmt::format("{} {:.4g}", words, m.mean * factor);
   if (m.half_width) text += fmt::format(" ± {:.2g}", *m.half_width * factor);
-  return text + " " + unit;
+  text += std::string(" ") + unit;
+  if (found->second.size() != group.seeds.size()) text += fmt::format(" (of {})", found->second.size());
+  return text;
 }
 
 std::string line_of(GroupNumbers const& group, std::vector<std::string> const& parts) {
