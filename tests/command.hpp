@@ -1,5 +1,6 @@
 #pragma once
 /// Runs the program `clathra` as a user does.
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -26,6 +27,12 @@ inline CommandResult run_clathra(std::string const& arguments) {
   while (std::size_t const count = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), count);
   result.code = WEXITSTATUS(::pclose(pipe));
   return result;
+}
+
+/// Whether the program said something.
+inline testing::AssertionResult says(CommandResult const& result, std::string const& wanted) {
+  if (result.output.find(wanted) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "code " << result.code << ", not said: " << wanted << "\n" << result.output;
 }
 
 }  // namespace clathra

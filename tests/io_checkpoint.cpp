@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "file_content.hpp"
 #include "io/formats/digest.hpp"
 #include "io/formats/hdf5_file.hpp"
 #include "io/formats/text_file.hpp"
@@ -36,14 +37,6 @@ BiaxialTest begun() {
   s.d50 = grain_d50;
   return BiaxialTest(test_scene(), s, {});
 }
-
-std::string content(fs::path const& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-void put(fs::path const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
 
 void go_on(BiaxialTest& test, int records) {
   for (int n = 0; n < records && !test.finished(); ++n) {

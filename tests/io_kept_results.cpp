@@ -13,19 +13,12 @@
 #include <thread>
 
 #include "command.hpp"
+#include "file_content.hpp"
 
 namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(fs::path const& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-void put(fs::path const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
 
 /// Every file of a folder with what it holds.
 std::map<std::string, std::string> contents(fs::path const& folder) {
@@ -33,11 +26,6 @@ std::map<std::string, std::string> contents(fs::path const& folder) {
   for (auto const& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) files[entry.path().string()] = content(entry.path());
   return files;
-}
-
-testing::AssertionResult says(CommandResult const& result, std::string const& wanted) {
-  if (result.output.find(wanted) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "code " << result.code << ", not said: " << wanted << "\n" << result.output;
 }
 
 /// A scene of a hundred discs that are made, and one of discs from a file.

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "command.hpp"
+#include "file_content.hpp"
 #include "io/results/checkpoint.hpp"
 #include "io/results/checkpoint_content.hpp"
 #include "io/scene/scene_file.hpp"
@@ -18,22 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content(fs::path const& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-void put(fs::path const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
 void change_byte(fs::path const& path, std::size_t at) {
   std::string text = content(path);
   text.at(at) ^= 1;
   put(path, text);
-}
-
-testing::AssertionResult says(CommandResult const& result, std::string const& wanted) {
-  if (result.output.find(wanted) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "code " << result.code << ", not said: " << wanted << "\n" << result.output;
 }
 
 /// One bonded specimen, a test of it that was left alone, and one that was stopped twice: it has two checkpoints. Made once;

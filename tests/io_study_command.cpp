@@ -202,18 +202,21 @@ TEST_F(StudyCommand, NamesAMemberWithABadNumberAndGoesOnWithTheOthers) {
 }
 
 TEST_F(StudyCommand, ThatCannotWriteItsTableStopsItsMembersWithACheckpoint) {
-  std::string const longer = "seeds = 1\n[matrix]\ntest.inertial_number = [1e-6, 1.1e-6]\n";
-  std::ofstream(folder / "many.toml") << "scene = \"base.toml\"\n" << longer;
-  // One member fails at once, when study.csv is a folder already: the other one runs.
-  std::string const members = (out / "members").string();
-  CommandResult const result = run_clathra(
-      "--version > /dev/null; (until [ -s " + members + "/inertial-number1.1e-06-seed1/history.csv ]; do sleep 0.05; done; mv '" +
-      out.string() + "/study.csv' '" + out.string() + "/old.csv'; mkdir '" + out.string() + "/study.csv'; pkill -KILL -f " +
-      "members/[i]nertial-number1e-06-seed1; sleep 0.5; pkill -KILL -f members/[i]nertial-number1e-06-seed1) & " +
-      std::string(program_in_shell) + " study '" + (folder / "many.toml").string() + "' --parallel 2 --output '" + out.string() +
-      "'");
-  EXPECT_NE(result.output.find("study.csv: cannot"), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("with a checkpoint"), std::string::npos) << result.output;
+  std::ofstream(folder / "many.toml") << "scene = \"base.toml\"\nseeds = 1\n[matrix]\ntest.inertial_number = [1e-6, 1.1e-6]\n";
+  // Both members run when study.csv becomes a folder; then one of them is killed, and once more, so that it fails.
+  std::ofstream(folder / "launch.sh") << "case \"$*\" in *number1e-06*) echo $$ >'" << folder.string() << "/next'; mv '"
+                                      << folder.string() << "/next' '" << folder.string() << "/pid' ;; esac\nexec \"$@\"\n";
+  std::ofstream(folder / "disturb.sh")
+      << "cd '" << folder.string()
+      << "'\nrows() { until [ -s out/members/inertial-number$1-seed1/history.csv ]; do sleep 0.05; done; }\n"
+      << "rows 1e-06; rows 1.1e-06\nmv out/study.csv out/old.csv; mkdir out/study.csv\n"
+      << "first=$(cat pid); kill -KILL $first\nuntil [ $(cat pid) != $first ]; do sleep 0.05; done\nkill -KILL $(cat pid)\n";
+  std::string const in_folder = "'" + folder.string() + "/";
+  CommandResult const result = run_clathra("--version > /dev/null; bash " + in_folder + "disturb.sh' & " + program_in_shell +
+                                           " study " + in_folder + "many.toml' --parallel 2 --launcher \"bash " +
+                                           (folder / "launch.sh").string() + "\" --output " + in_folder + "out'");
+  EXPECT_TRUE(says(result, "study.csv: cannot"));
+  EXPECT_TRUE(says(result, "stopping 1 member with a checkpoint"));
   EXPECT_TRUE(fs::exists(out / "members" / "inertial-number1.1e-06-seed1" / "ckpt" / "0.json"));
 }
 

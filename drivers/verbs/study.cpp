@@ -170,6 +170,13 @@ ExitCode study(StudyOptions const& options) {
   return run_all(plan, limits);
 }
 
+/// Options that let the study do what it else refuses.
+void add_leave(CLI::App& verb, StudyOptions& options) {
+  verb.add_flag("--force", options.force, "members go on where a guard refuses");
+  verb.add_flag("--skip-refused", options.skip_refused, "leave out the groups that a guard refuses");
+  verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and members that another program made");
+}
+
 /// Options that do only a part of the work, one of them at a time.
 void add_parts(CLI::App& verb, StudyOptions& options) {
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what the study will cost");
@@ -219,9 +226,7 @@ void add_study(CLI::App& program, Verb& chosen) {
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   verb->add_option("--launcher", options->launcher, "starts each member: \"mpirun -n 2\", \"srun -n 4\"")->type_name("COMMAND");
-  verb->add_flag("--force", options->force, "members go on where a guard refuses");
-  verb->add_flag("--skip-refused", options->skip_refused, "leave out the groups that a guard refuses");
-  verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and members that another program made");
+  add_leave(*verb, *options);
   verb->add_option("--max-walltime", options->most_time, "stop after this time, members with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
       ->check(time);
