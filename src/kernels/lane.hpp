@@ -1,8 +1,8 @@
 #pragma once
 /// The lane type: laws and kernels are written once on `Lanes` and become SIMD vectors on a CPU (one disc a lane) and plain
 /// numbers on a GPU (one disc a thread). Every operation is exact IEEE arithmetic lane by lane: the width never changes a bit.
-/// Products and sums are fused where times_plus() says so, and nowhere else. With CLATHRA_UNFUSED nothing asks for a fused operation:
-/// the test no_fma compiles the kernels so, and whatever fused instruction is left is one that the compiler made up.
+/// Products and sums are fused where times_plus() says so, and nowhere else. With CLATHRA_UNFUSED nothing asks for a fused
+/// operation: the test no_fma compiles the kernels so, and whatever fused instruction is left is one that the compiler made up.
 #include <Kokkos_Core.hpp>
 #include <cmath>
 #include <cstdint>
