@@ -51,11 +51,12 @@ StudyGroup group_of(double thickness) {
 
 }  // namespace
 
-Study reproduction_study(PaperDesign const& design, ReproductionSize const& size, std::filesystem::path const& folder) {
+Study reproduction_study(PaperDesign const& design, ReproductionSize const& size, std::filesystem::path const& folder,
+                         std::filesystem::path const& scene) {
   Study study;
   study.folder = folder;
-  study.scene = folder / "scene.toml";
-  study.file = study.scene;
+  study.scene = scene;
+  study.file = folder / "scene.toml";
   study.seeds_stated = true;
   for (int k = 0; k < size.seeds; ++k) study.seeds.push_back(size.first_seed + static_cast<std::uint64_t>(k));
   for (int const stress : design.stresses) study.groups.push_back(group_of(0, stress));
@@ -63,7 +64,6 @@ Study reproduction_study(PaperDesign const& design, ReproductionSize const& size
     for (int const stress : design.stresses) study.groups.push_back(group_of(saturation, stress));
   for (double const thickness : design.thicknesses) study.groups.push_back(group_of(thickness));
   study.keys = {saturation_key, confining_stress, "output.snapshots", snapshots_key, "bond.mode", "bond.critical_thickness"};
-  std::filesystem::create_directories(folder);
   replace_text_file(study.scene, shared_keys(size.discs));
   return study;
 }

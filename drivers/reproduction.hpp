@@ -15,8 +15,8 @@ struct ReproductionSize {
 inline constexpr ReproductionSize full_size{}, quick_size{2000, 2};
 
 /// The tests of a design, each with `seeds` seeds from the first one on, as groups named by paper_cell(). Writes what they share
-/// to FOLDER/scene.toml.
-/// @throws FileProblem where it cannot be written
-Study reproduction_study(PaperDesign const& design, ReproductionSize const& size, std::filesystem::path const& folder);
+/// to `scene`. @param folder  of the results  @throws FileProblem where it cannot be written
+Study reproduction_study(PaperDesign const& design, ReproductionSize const& size, std::filesystem::path const& folder,
+                         std::filesystem::path const& scene);
 
 }  // namespace clathra

@@ -24,11 +24,11 @@ std::string verdict_text(SettingSearch const& search, std::size_t setting, doubl
   std::optional<SettingError> const error = search.error(setting);
   if (!error) return "";
   switch (verdict_on(*error, tolerance)) {
-    case Verdict::within:
+    case ErrorVerdict::within:
       return "within";
-    case Verdict::outside:
+    case ErrorVerdict::outside:
       return "beyond";
-    case Verdict::open:
+    case ErrorVerdict::open:
       return "open";
   }
   return "";

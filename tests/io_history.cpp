@@ -298,6 +298,7 @@ TEST_F(Record, HoldsWhatARunNeedsToBeRepeated) {
   EXPECT_EQ(json["state_hash"], "0x0000000000000abc");
   EXPECT_EQ(json["exit"]["reason"], "finished");
   EXPECT_EQ(json["program"]["backend"], ExecutionSpace::name());
+  EXPECT_EQ(json["program"]["precision"], "mixed") << "that of the scene, which has it by default";
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
 

@@ -90,6 +90,7 @@ TEST_F(ReproduceCommand, SaysBeforeWhatItWillCost) {
   EXPECT_EQ(result.code, 0);
   EXPECT_NE(result.output.find("28, "), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("2 to be made"), std::string::npos) << result.output;
+  EXPECT_FALSE(fs::exists(folder / "one")) << "nothing is written";
 }
 
 }  // namespace

@@ -116,6 +116,8 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"refused", "finished", "finished", "refused"}));
   EXPECT_NE(cells("member", "message")[0].find("inertial number"), std::string::npos) << csv();
   EXPECT_NE(skipped.output.find("2 finished, 2 refused by guards and left out"), std::string::npos) << skipped.output;
+  EXPECT_EQ(study(four, "--collect --skip-refused").code, 0);
+  EXPECT_EQ(cells("member", "state")[3], "refused");
   CommandResult const forced = study("seeds = 1\n[matrix]\ntest.inertial_number = [0.02, 1e-3]\n", "--force --allow-mixed");
   EXPECT_EQ(forced.code, 0) << forced.output;
 }
@@ -174,7 +176,7 @@ TEST_F(StudyCommand, TakesNothingThatAnotherProgramMadeUnlessAsked) {
   std::string text = read_text_file(record, 1 << 24);
   std::size_t const at = text.find("\"git_hash\": \"") + 13;
   std::ofstream(record) << text.replace(at, text.find('"', at) - at, "of-somebody");
-  for (char const* const option : {"", "--collect"}) {
+  for (char const* const option : {"", "--collect", "--member 1"}) {
     CommandResult const refused = study("seeds = 1\n", option);
     EXPECT_EQ(refused.code, 77) << refused.output;
     EXPECT_NE(refused.output.find("all-seed1 was made by another program (0.1.0 (of-somebody); this is"), std::string::npos)

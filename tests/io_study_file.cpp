@@ -99,6 +99,8 @@ TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
   EXPECT_NE(problems_of(base + "[matrix]\ngrains.friction = [0.3, 0.3]\n").find("has a value twice"), std::string::npos);
   EXPECT_NE(problems_of(base + "[matrix]\ngrains.friction = []\n").find("no value in its list"), std::string::npos);
   EXPECT_NE(problems_of(base + "[groups.\"a b\"]\ngrains.friction = 0.3\n").find("is no name of a group"), std::string::npos);
+  EXPECT_NE(problems_of(base + "[groups.\".a\"]\ngrains.friction = 0.3\n").find("none of them a dot in front"),
+            std::string::npos);
   EXPECT_NE(problems_of(base + "[groups.a]\ngrains.friction = 0.3\n[matrix]\ngrains.friction = [1]\n")
                 .find("in [matrix] and in [groups.a]"),
             std::string::npos);

@@ -97,13 +97,13 @@ TEST(SettingError, HasTheWidthOfStudentWhereTheLimitIsReached) {
   EXPECT_NEAR(wide, students_half_width(mean_deviation, 8), 0.05 * wide);
 }
 
-TEST(Verdict, AsksForTheWholeInterval) {
+TEST(ErrorVerdict, AsksForTheWholeInterval) {
   SettingError e;
   e.error = -0.01, e.half_width = 0.005;
-  EXPECT_EQ(verdict_on(e, 0.015), Verdict::within);
-  EXPECT_EQ(verdict_on(e, 0.0149), Verdict::open);
-  EXPECT_EQ(verdict_on(e, 0.0051), Verdict::open);
-  EXPECT_EQ(verdict_on(e, 0.0049), Verdict::outside);
+  EXPECT_EQ(verdict_on(e, 0.015), ErrorVerdict::within);
+  EXPECT_EQ(verdict_on(e, 0.0149), ErrorVerdict::open);
+  EXPECT_EQ(verdict_on(e, 0.0051), ErrorVerdict::open);
+  EXPECT_EQ(verdict_on(e, 0.0049), ErrorVerdict::outside);
 }
 
 TEST(SeedsNeeded, AreTheFewestWhoseIntervalFits) {

@@ -50,6 +50,10 @@ class Tradeoff(unittest.TestCase):
         collect.main(self.folder, self.folder / "data.csv")
         return compare.Tests(compare.load(self.folder / "data.csv"))
 
+    def test_students_factor_goes_on_beyond_thirty(self):
+        for freedom, factor in ((1, 12.706), (30, 2.042), (31, 2.0395), (39, 2.0227), (59, 2.0010), (199, 1.9720)):
+            self.assertAlmostEqual(paired.half_width_factor(freedom), factor, delta=6e-4)
+
     def test_a_planted_difference_is_found_on_the_same_specimens(self):
         # Specimens scatter by 10 %, the option adds exactly 0.3, 0.4 and 0.5 MPa: paired, 0.4 +- 4.303 * 0.1 / sqrt(3).
         for seed, q in ((1, 9e6), (2, 10e6), (3, 11e6)):

@@ -1,5 +1,6 @@
 /// `clathra reproduce`: every figure and claim of the seed paper, from scratch.
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <memory>
@@ -101,26 +102,48 @@ ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::o
   return failed ? ExitCode::refused : finished == std::ssize(plan.members) ? ExitCode::done : ExitCode::to_be_resumed;
 }
 
-ExitCode reproduce(ReproduceOptions const& options) {
-  std::optional<LaboratoryData> const data = data_of(options);
-  fs::create_directories(options.output);
-  OutputFolder const folder(options.output, "reproduce");
-  Study study = reproduction_study(design_of(options), size_of(options), options.output);
+StudyPlan plan_of(ReproduceOptions const& options, fs::path const& scene) {
+  Study study = reproduction_study(design_of(options), size_of(options), options.output, scene);
   override_study(study, options.overrides);
   StudyPlan plan = plan_study(std::move(study));
   add_members(plan);
+  heed_guards(plan, false);
+  return plan;
+}
+
+StudyLimits limits_of(ReproduceOptions const& options, StudyPlan const& plan) {
   StudyLimits limits = usual_limits(plan, options.parallel, options.threads, {});
   limits.options = {"--checkpoint-every", "10m"};
   limits.allow_mixed = options.allow_mixed;
   limits.most_seconds = options.most_time.empty() ? 0 : duration_of(options.most_time);
-  if (options.dry_run) return print_result(study_forecast(plan, limits.parallel, limits.threads));
+  return limits;
+}
+
+/// Leaves nothing behind: what all tests share lies in a folder of its own for as long as that takes.
+ExitCode forecast_only(ReproduceOptions const& options) {
+  std::string name = (fs::temp_directory_path() / "clathra-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw FileProblem(ExitCode::cannot_create, name, "cannot be created");
+  std::shared_ptr<void> const removed(nullptr, [&](void*) {
+    std::error_code ignored;
+    fs::remove_all(name, ignored);
+  });
+  StudyPlan const plan = plan_of(options, fs::path(name) / "scene.toml");
+  StudyLimits const limits = limits_of(options, plan);
+  return print_result(study_forecast(plan, limits.parallel, limits.threads));
+}
+
+ExitCode reproduce(ReproduceOptions const& options) {
+  std::optional<LaboratoryData> const data = data_of(options);
+  if (options.dry_run) return forecast_only(options);
+  OutputFolder const folder(options.output, "reproduce");
+  StudyPlan plan = plan_of(options, folder / "scene.toml");
+  StudyLimits const limits = limits_of(options, plan);
   if (options.collect) {
     if (!options.allow_mixed) require_one_program(plan);
     ProgressLine line;
     for (std::size_t i = 0; i < plan.members.size(); ++i) find_finished(plan, i);
     return conclude(plan, options, data, line);
   }
-  heed_guards(plan, false);
   print_result(study_forecast(plan, limits.parallel, limits.threads));
   watch_for_interrupt();
   StudyRun run(plan, limits, folder);

@@ -103,10 +103,10 @@ ExitCode run_alone(StudyPlan const& plan, StudyOptions const& options) {
 }
 
 ExitCode collect(StudyPlan& plan, StudyOptions const& options) {
-  if (!options.allow_mixed) require_one_program(plan);
+  if (options.skip_refused) heed_guards(plan, true);
   ProgressLine line;
   for (std::size_t i = 0; i < plan.members.size(); ++i) try {
-      find_finished(plan, i);
+      if (plan.members[i].state == MemberState::waiting) find_finished(plan, i);
     } catch (FileProblem const& problem) {
       plan.members[i].state = MemberState::failed;
       plan.members[i].message = problem.what();
@@ -158,6 +158,8 @@ ExitCode study(StudyOptions const& options) {
   StudyPlan plan = plan_study(study_of(options));
   if (plan.study.until) require_known_number(*plan.study.until);
   add_members(plan);
+  bool const starts_or_reads = !options.dry_run && options.slurm.empty();
+  if (starts_or_reads && !options.allow_mixed) require_one_program(plan);
   if (options.member > 0 || options.specimen > 0) return run_alone(plan, options);
   if (options.collect) return collect(plan, options);
   StudyLimits const limits = limits_of(options, plan);
@@ -235,7 +237,7 @@ void add_study(CLI::App& program, Verb& chosen) {
       ->type_name("TIME")
       ->check(time);
   add_parts(*verb, *options);
-  verb->footer("Example: clathra study examples/study.toml --until peak_q_Pa=5% --output out/study");
+  verb->footer("Example: clathra study examples/studies/saturations.toml --until peak_q_Pa=5% --output out/study");
   verb->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
 }
 

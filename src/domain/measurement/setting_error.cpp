@@ -32,9 +32,9 @@ std::optional<SettingError> setting_error(SeedValues const& values, RatePair con
   return result;
 }
 
-Verdict verdict_on(SettingError const& error, double tolerance) {
-  if (error.farthest() <= tolerance) return Verdict::within;
-  return error.nearest() > tolerance ? Verdict::outside : Verdict::open;
+ErrorVerdict verdict_on(SettingError const& error, double tolerance) {
+  if (error.farthest() <= tolerance) return ErrorVerdict::within;
+  return error.nearest() > tolerance ? ErrorVerdict::outside : ErrorVerdict::open;
 }
 
 std::optional<int> seeds_needed(SettingError const& error, double tolerance) {

@@ -36,12 +36,12 @@ struct RatePair {
 /// convergence index). Nothing with fewer than two seeds, or where the limit is 0.
 std::optional<SettingError> setting_error(SeedValues const& values, RatePair const& pair);
 
-enum class Verdict {
+enum class ErrorVerdict {
   within,   ///< the whole interval lies within the tolerance
   outside,  ///< all of it lies beyond
   open
 };
-Verdict verdict_on(SettingError const& error, double tolerance);
+ErrorVerdict verdict_on(SettingError const& error, double tolerance);
 
 /// How many seeds a setting needs until its interval could lie within the tolerance, if mean and scatter stay as they are;
 /// nothing where no number of seeds does: the mean and the remainder exceed the tolerance by themselves.

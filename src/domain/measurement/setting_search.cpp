@@ -12,10 +12,10 @@ SettingSearch::SettingSearch(double tolerance, std::vector<Trial> trials) : tole
   slowest_ = std::min(first_rungs, ladder_.size()) - 1;
 }
 
-Verdict SettingSearch::verdict(std::size_t trial) const {
-  if (trials_[trial].failed) return Verdict::outside;
+ErrorVerdict SettingSearch::verdict(std::size_t trial) const {
+  if (trials_[trial].failed) return ErrorVerdict::outside;
   std::optional<SettingError> const found = error(trial);
-  return found ? verdict_on(*found, tolerance_) : Verdict::open;
+  return found ? verdict_on(*found, tolerance_) : ErrorVerdict::open;
 }
 
 void SettingSearch::leave_out_slowest() {
@@ -36,9 +36,9 @@ std::optional<Wish> SettingSearch::next() {
   if (trials_[fast()].values.empty()) return {};
   for (std::size_t place = 0; place <= slowest_; ++place) {
     std::size_t const rung = ladder_[place];
-    Verdict const verdict_here = verdict(rung);
-    if (verdict_here == Verdict::within) return choose(rung);
-    if (verdict_here == Verdict::outside) continue;
+    ErrorVerdict const verdict_here = verdict(rung);
+    if (verdict_here == ErrorVerdict::within) return choose(rung);
+    if (verdict_here == ErrorVerdict::outside) continue;
     if (std::optional<Wish> wish = more_seeds(rung)) return wish;
     // Where the slowest rate's own error hides the answer, a slower one shows it.
     std::optional<SettingError> const found = error(rung);
@@ -83,10 +83,10 @@ std::optional<Wish> SettingSearch::choose(std::size_t rung) {
   std::vector<std::size_t> candidates;
   if (std::optional<Wish> wish = numerics_at(trials_[rung].rate, candidates)) return wish;
   for (std::size_t const trial : candidates) {
-    Verdict const verdict_here = verdict(trial);
-    if (verdict_here == Verdict::open)
+    ErrorVerdict const verdict_here = verdict(trial);
+    if (verdict_here == ErrorVerdict::open)
       if (std::optional<Wish> wish = more_seeds(trial)) return wish;
-    if (verdict_here == Verdict::within) {
+    if (verdict_here == ErrorVerdict::within) {
       choice_ = trial;
       break;
     }
@@ -107,7 +107,7 @@ std::optional<std::pair<std::size_t, int>> SettingSearch::undecided() const {
   for (std::size_t place = 0; place <= slowest_; ++place) {
     std::size_t const rung = ladder_[place];
     std::optional<SettingError> const found = error(rung);
-    if (!found || verdict(rung) != Verdict::open) continue;
+    if (!found || verdict(rung) != ErrorVerdict::open) continue;
     if (std::optional<int> const needed = seeds_needed(*found, tolerance_)) return std::pair(rung, *needed);
   }
   return {};

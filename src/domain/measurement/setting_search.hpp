@@ -57,7 +57,7 @@ class SettingSearch {
 
  private:
   RatePair pair() const { return {trials_[fast()].values, trials_[slow()].values, trials_[fast()].rate / trials_[slow()].rate}; }
-  Verdict verdict(std::size_t trial) const;
+  ErrorVerdict verdict(std::size_t trial) const;
   std::optional<Wish> more_seeds(std::size_t trial) const;
   std::optional<Wish> slower_rung();
   void leave_out_slowest();

@@ -51,7 +51,7 @@ Json program_json(RunRecord const& record) {
           {"compiler", compiler_name()},
           {"kokkos", kokkos_version()},
           {"backend", backend_name()},
-          {"precision", "double"},
+          {"precision", precision_names[static_cast<int>(record.input.scene.run.precision)]},
           {"message_passing", message_passing_name()},
           {"ranks", record.ranks},
           {"threads", record.threads}};

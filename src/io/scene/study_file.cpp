@@ -40,9 +40,9 @@ std::string slug(std::string_view text) {
 
 constexpr std::size_t most_letters = 200;
 
-/// Whether a text can be the name of a file and of a group.
+/// Whether a text can be the name of a group and of its members' folders, which are not to be hidden.
 bool is_name(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.starts_with('.') && std::all_of(text.begin(), text.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '+' || c == '-';
   });
 }
@@ -270,8 +270,9 @@ class StudyReader {
     if (!groups) return report(section, "'groups' holds sections: write [groups.NAME] and keys of the scene below");
     for (auto const& [name, line, column, node] : in_order(*groups)) {
       if (name.empty() || !is_name(name) || name.size() > most_letters) {
-        report(node, fmt::format("'{}' is no name of a group: letters, digits and ._+- only, {} at most",
-                                 name.substr(0, most_letters), most_letters));
+        report(node,
+               fmt::format("'{}' is no name of a group: letters, digits and ._+- only, {} at most, none of them a dot in front",
+                           name.substr(0, most_letters), most_letters));
         continue;
       }
       StudyGroup group{name, {}, name};
