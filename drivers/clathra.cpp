@@ -9,10 +9,10 @@
 #include <sstream>
 #include <thread>
 
-#include "clathra_version.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "io/errors/failure.hpp"
 #include "io/scene/schema.hpp"
+#include "own_program.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
@@ -67,7 +67,7 @@ ExitCode say_of_parser(CLI::App const& program, CLI::ParseError const& error) {
 
 ExitCode choose_and_run(int argc, char** argv) {
   CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
-  program.set_version_flag("--version", fmt::format("clathra {} ({})", CLATHRA_VERSION, CLATHRA_GIT_HASH));
+  program.set_version_flag("--version", "clathra " + own_version());
   program.require_subcommand(1);
   program.footer("Example: clathra run examples/quick.toml --output out/quick");
   Verb chosen;

@@ -229,9 +229,24 @@ void find_finished(StudyPlan& plan, std::size_t member) {
   std::error_code ignored;
   if (!fs::exists(task.result / "run.json", ignored)) return;
   if (task.specimen && !fs::exists(plan.specimens[*task.specimen].result, ignored)) return;
-  Scene const scene = plan.scene_of_run(member).scene;
-  std::string const digest = scene.sample.generator == Generator::file ? file_digest(scene.sample.file) : "";
-  if (earlier_run(task.result, scene, digest) == EarlierRun::finished) read_member(plan.members[member], task.result);
+  auto const fail = [&](char const* message) {
+    plan.members[member].state = MemberState::failed;
+    plan.members[member].message = message;
+  };
+  try {
+    Scene const scene = plan.scene_of_run(member).scene;
+    std::string const digest = scene.sample.generator == Generator::file ? file_digest(scene.sample.file) : "";
+    if (earlier_run(task.result, scene, digest) == EarlierRun::finished) read_member(plan.members[member], task.result);
+  } catch (FileProblem const& problem) {
+    fail(problem.what());
+  } catch (SceneProblems const& problems) {
+    fail(problems.what());
+  }
+}
+
+void find_all_finished(StudyPlan& plan) {
+  for (std::size_t i = 0; i < plan.members.size(); ++i)
+    if (plan.members[i].state == MemberState::waiting) find_finished(plan, i);
 }
 
 }  // namespace clathra

@@ -61,8 +61,10 @@ void heed_guards(StudyPlan& plan, bool skip);
 /// @throws Refused
 void require_one_program(StudyPlan const& plan);
 
-/// Reads what is there already: members that are finished, by their scene and specimen, have their numbers then.
-/// @throws FileProblem refused where the folder of a member holds a finished run of another scene
+/// Reads what is there already: a member that is finished, by its scene and specimen, has its numbers then. One whose folder
+/// holds a run of another scene, or one that cannot be read, has failed, with the reason.
 void find_finished(StudyPlan& plan, std::size_t member);
+/// The same for all that are waiting.
+void find_all_finished(StudyPlan& plan);
 
 }  // namespace clathra

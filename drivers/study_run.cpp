@@ -85,13 +85,10 @@ void StudyRun::look_at_what_is_there() {
   std::vector<bool> needed(plan_.specimens.size());
   work_ = done_ = 0;
   for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
-    if (plan_.members[i].state == MemberState::waiting) try {
-        find_finished(plan_, i);
-      } catch (FileProblem const& problem) {
-        fail_member(i, problem.what());
-      } catch (SceneProblems const& problems) {
-        fail_member(i, problems.what());
-      }
+    if (plan_.members[i].state == MemberState::waiting) {
+      find_finished(plan_, i);
+      if (plan_.members[i].state == MemberState::failed) note_failure(i);
+    }
     MemberState const state = plan_.members[i].state;
     run_states_[i] = state == MemberState::waiting  ? TaskState::waiting
                      : state == MemberState::failed ? TaskState::failed
@@ -113,7 +110,7 @@ ExitCode StudyRun::run() {
   try {
     return run_until_done();
   } catch (...) {
-    stop_members();
+    if (!running_.empty()) stop_members();
     while (!running_.empty()) {  // their checkpoints are what the study goes on from
       while (std::optional<ProcessEnd> const end = ended_process()) running_.erase(end->process);
       std::this_thread::sleep_for(pause);
@@ -264,7 +261,11 @@ void StudyRun::fail(Running const& was, std::string const& message) {
 void StudyRun::fail_member(std::size_t member, std::string const& message) {
   plan_.members[member].state = MemberState::failed;
   plan_.members[member].message = message;
-  line_.note(fmt::format("clathra: {} failed: {}", plan_.runs[member].name, message));
+  note_failure(member);
+}
+
+void StudyRun::note_failure(std::size_t member) {
+  line_.note(fmt::format("clathra: {} failed: {}", plan_.runs[member].name, plan_.members[member].message));
 }
 
 void StudyRun::write_table() const { replace_text_file(plan_.study.folder / "study.csv", study_csv(plan_.study, plan_.members)); }

@@ -64,6 +64,7 @@ class StudyRun {
   void take_result(Running const& was);
   void fail(Running const& was, std::string const& message);
   void fail_member(std::size_t member, std::string const& message);
+  void note_failure(std::size_t member);
   void write_table() const;
   void show();
   bool time_is_over() const;

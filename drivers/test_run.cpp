@@ -65,8 +65,7 @@ class TestRun::Running {
     on_root(ranks_, [&] {
       if (!limits_.resume && !limits_.overwrite) require_no_kept_run();
       replaces_ = holds_results(folder_);
-      std::error_code none;
-      std::filesystem::remove(folder_ / next_specimen, none);  // of a run that was killed
+      forget_next_specimen();  // of a run that was killed
     });
     replaces_ = ranks_.any(replaces_);
     checkpoints_.emplace(folder_, ranks_, std::nullopt);
@@ -125,13 +124,18 @@ class TestRun::Running {
                                     *kept));
   }
 
+  void forget_next_specimen() const {
+    std::error_code none;
+    std::filesystem::remove(folder_ / next_specimen, none);
+  }
+
   /// What the folder held goes, and the run's own files begin: at once where no result is lost, else when the specimen is ready
   /// to be sheared, after which no guard of the preparation can refuse it.
   void take_folder() {
     on_root(ranks_, [&] {
       lock_->clear(scene_.sample.file);
-      std::error_code none;
-      if (replaces_) std::filesystem::rename(folder_ / next_specimen, folder_ / "specimen.h5", none);  // if it made one
+      if (replaces_ && scene_.sample.generator != Generator::file)
+        std::filesystem::rename(folder_ / next_specimen, folder_ / "specimen.h5");
     });
     begin_record();
   }
@@ -290,7 +294,7 @@ class TestRun::Running {
 
   /// run.json, then the report that draws on it. That there can be no report is a warning and loses nothing else.
   void conclude(ExitCode code, std::string const& reason) {
-    if (!begun_) return;
+    if (!begun_) return on_root(ranks_, [&] { forget_next_specimen(); });
     on_root(ranks_, [&] {
       write_record(code, reason);
       if (!summary_ || summary_->records() < 2) return;

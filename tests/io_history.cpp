@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "comma_locale.hpp"
+#include "file_content.hpp"
 #include "io/errors/problems.hpp"
 #include "io/formats/digest.hpp"
 #include "io/results/events.hpp"
@@ -27,12 +28,6 @@ class Output : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder); }
   void TearDown() override { fs::remove_all(folder); }
-  static std::string content(fs::path const& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
   static std::vector<std::string> split(std::string const& text, char at) {
     std::vector<std::string> parts;
     std::istringstream stream(text);

@@ -81,6 +81,12 @@ TEST_F(KeptResults, OfAFinishedRunGoOnlyWhenAskedAndWhenThereAreNewOnes) {
     EXPECT_EQ(contents(out), before) << refused;
   }
   EXPECT_TRUE(says(run("--overwrite --set sample.void_ratio=0.1"), "as it was"));
+  // Or when the new specimen is made, which rough walls keep from rest.
+  CommandResult const unconsolidated =
+      run("--overwrite --set test.wall_friction=0.5 --set test.confining_stress='0.2 MPa' --set sample.void_ratio=0.3");
+  EXPECT_EQ(unconsolidated.code, 77) << unconsolidated.output;
+  EXPECT_TRUE(says(unconsolidated, "consolidation did not come to rest"));
+  EXPECT_EQ(contents(out), before);
   CommandResult const other = run("--overwrite --set run.damping=0.2");
   EXPECT_EQ(other.code, 0) << other.output;
   EXPECT_EQ(record()["scene"]["run"]["damping"], 0.2);

@@ -13,18 +13,12 @@
 #include <thread>
 
 #include "command.hpp"
+#include "file_content.hpp"
 
 namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(fs::path const& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// A folder with a scene of a few hundred discs, sheared a little: about a second.
 class RunCommand : public testing::Test {

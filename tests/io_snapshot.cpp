@@ -11,6 +11,7 @@
 
 #include "domain/generation/tiled.hpp"
 #include "domain/scene/sample_design.hpp"
+#include "file_content.hpp"
 #include "io/formats/hdf5_file.hpp"
 #include "io/results/export.hpp"
 #include "io/results/snapshot_file.hpp"
@@ -49,12 +50,6 @@ class SnapshotFile : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder); }
 
-  std::string content(fs::path const& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
   ExitCode code_of(std::function<void()> const& act) {
     try {
       act();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "clathra_version.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "duration.hpp"
 #include "interrupt.hpp"
@@ -15,6 +14,7 @@
 #include "io/results/output_folder.hpp"
 #include "io/results/paper_numbers.hpp"
 #include "io/results/scorecard.hpp"
+#include "own_program.hpp"
 #include "print.hpp"
 #include "reproduction.hpp"
 #include "scene_options.hpp"
@@ -60,7 +60,7 @@ std::map<std::string, std::string> facts_of(ReproduceOptions const& options, Stu
           {"seeds", seeds},
           {"settings", settings.empty() ? "the defaults" : settings},
           {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
-          {"program", std::string("clathra ") + CLATHRA_VERSION + " (" + CLATHRA_GIT_HASH + ")"}};
+          {"program", "clathra " + own_version()}};
 }
 
 std::optional<LaboratoryData> data_of(ReproduceOptions const& options) {
@@ -121,7 +121,7 @@ StudyLimits limits_of(ReproduceOptions const& options, StudyPlan const& plan) {
 
 /// Leaves nothing behind: what all tests share lies in a folder of its own for as long as that takes.
 ExitCode forecast_only(ReproduceOptions const& options) {
-  std::string name = (fs::temp_directory_path() / "clathra-XXXXXX").string();
+  std::string name = (fs::temp_directory_path() / ("clathra-" + std::string(6, 'X'))).string();  // mkdtemp() finds a free one
   if (!::mkdtemp(name.data())) throw FileProblem(ExitCode::cannot_create, name, "cannot be created");
   std::shared_ptr<void> const removed(nullptr, [&](void*) {
     std::error_code ignored;
@@ -141,7 +141,7 @@ ExitCode reproduce(ReproduceOptions const& options) {
   if (options.collect) {
     if (!options.allow_mixed) require_one_program(plan);
     ProgressLine line;
-    for (std::size_t i = 0; i < plan.members.size(); ++i) find_finished(plan, i);
+    find_all_finished(plan);
     return conclude(plan, options, data, line);
   }
   print_result(study_forecast(plan, limits.parallel, limits.threads));

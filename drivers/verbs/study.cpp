@@ -105,12 +105,7 @@ ExitCode run_alone(StudyPlan const& plan, StudyOptions const& options) {
 ExitCode collect(StudyPlan& plan, StudyOptions const& options) {
   if (options.skip_refused) heed_guards(plan, true);
   ProgressLine line;
-  for (std::size_t i = 0; i < plan.members.size(); ++i) try {
-      if (plan.members[i].state == MemberState::waiting) find_finished(plan, i);
-    } catch (FileProblem const& problem) {
-      plan.members[i].state = MemberState::failed;
-      plan.members[i].message = problem.what();
-    }
+  find_all_finished(plan);
   return conclude(plan, line);
 }
 
@@ -140,8 +135,6 @@ ExitCode run_all(StudyPlan& plan, StudyLimits const& limits) {
   try {
     code = run.run();
     for (GoalSearch goal(plan.study); code == ExitCode::done && goal.add_members(plan, run.line());) code = run.run();
-  } catch (Refused const&) {
-    throw;  // before anything was done
   } catch (std::exception const& problem) {
     try {
       conclude(plan, run.line());
@@ -158,8 +151,9 @@ ExitCode study(StudyOptions const& options) {
   StudyPlan plan = plan_study(study_of(options));
   if (plan.study.until) require_known_number(*plan.study.until);
   add_members(plan);
-  bool const starts_or_reads = !options.dry_run && options.slurm.empty();
-  if (starts_or_reads && !options.allow_mixed) require_one_program(plan);
+  // Before study.csv is touched; the waves of a study with a goal are asked again.
+  bool const only_plans = options.dry_run || !options.slurm.empty();
+  if (!only_plans && !options.allow_mixed) require_one_program(plan);
   if (options.member > 0 || options.specimen > 0) return run_alone(plan, options);
   if (options.collect) return collect(plan, options);
   StudyLimits const limits = limits_of(options, plan);

@@ -81,16 +81,12 @@ def _watch(arguments, progress):
     # In a session of its own: a terminal's Ctrl-C comes to us alone, and once, which the program takes as a wish to stop.
     child = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
     said = []
-
-    def follow():
-        for line in child.stdout:
-            said.append(line)
-            if progress:
-                progress(line.rstrip("\n"))
-
     try:
         with child.stdout:
-            follow()
+            for line in child.stdout:
+                said.append(line)
+                if progress:
+                    progress(line.rstrip("\n"))
         code = child.wait()
     except BaseException:
         child.send_signal(signal.SIGINT)

@@ -101,12 +101,11 @@ std::string strength_figure(std::vector<GroupNumbers> const& materials, char con
   Range saturations, values;
   std::vector<std::pair<double, MeanInterval>> points;
   for (GroupNumbers const& material : materials) {
-    auto const setting = std::find_if(material.settings.begin(), material.settings.end(),
-                                      [](Setting const& s) { return s.first == saturation_key; });
+    std::string const* const setting = value_in(material.settings, saturation_key);
     auto const found = material.values.find(number);
-    if (setting == material.settings.end() || found == material.values.end()) continue;
-    double const value = std::atof(setting->second.c_str());
-    points.emplace_back(setting->second.find('%') == std::string::npos ? value * percent : value, mean_interval(found->second));
+    if (!setting || found == material.values.end()) continue;
+    double const value = std::atof(setting->c_str());
+    points.emplace_back(setting->find('%') == std::string::npos ? value * percent : value, mean_interval(found->second));
   }
   std::set<double> distinct;
   for (auto const& [saturation, mean] : points) distinct.insert(saturation);

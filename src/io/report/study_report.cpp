@@ -96,15 +96,8 @@ std::string strength_part(std::vector<GroupNumbers> const& materials) {
 /// The keys that have several values, in words.
 std::string varied_keys(Study const& study) {
   std::string text;
-  for (std::string const& key : study.keys) {
-    std::set<std::string> values;
-    for (StudyGroup const& group : study.groups) {
-      auto const found =
-          std::find_if(group.settings.begin(), group.settings.end(), [&](Setting const& s) { return s.first == key; });
-      values.insert(found == group.settings.end() ? "" : found->second);
-    }
-    if (values.size() > 1) text += (text.empty() ? "" : ", ") + key;
-  }
+  for (std::string const& key : study.keys)
+    if (groups_differ_in(study, key)) text += (text.empty() ? "" : ", ") + key;
   return text.empty() ? "their seed only" : text;
 }
 

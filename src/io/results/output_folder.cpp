@@ -17,7 +17,7 @@ namespace clathra {
 namespace {
 
 constexpr char lock_name[] = ".lock";
-constexpr std::string_view records[] = {"run.json", "input.toml", "resolved.toml"};
+constexpr std::size_t records = 3;  // come first: they say what is run and are no results of it
 constexpr std::string_view results[] = {"run.json",    "input.toml",     "resolved.toml", "history.csv", "events.csv",
                                         "specimen.h5", "particles.xdmf", "contacts.xdmf", "report.html", "final.h5"};
 
@@ -113,8 +113,9 @@ OutputFolder::OutputFolder(std::filesystem::path folder, std::string_view verb) 
     throw FileProblem(ExitCode::cannot_create, folder_, "another run is writing into this folder; choose another (--output)");
   }
   held_ = error == 0;
+  if (!marked_as(folder_).empty()) return;
   std::string const text = marker_text(verb);
-  if (::ftruncate(lock_, 0) != 0 || ::pwrite(lock_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
+  if (::pwrite(lock_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
     FileProblem const problem(ExitCode::io_error, folder_ / lock_name,
                               "cannot be written: " + std::generic_category().message(errno));
     ::close(lock_);
@@ -148,10 +149,8 @@ void OutputFolder::clear(std::filesystem::path const& keep) const {
 
 bool holds_results(std::filesystem::path const& run_folder) {
   std::error_code error;
-  for (std::string_view const name : results)
-    if (std::find(std::begin(records), std::end(records), name) == std::end(records) &&
-        std::filesystem::exists(std::filesystem::symlink_status(run_folder / name, error)))
-      return true;
+  for (std::string_view const name : result_files().subspan(records))
+    if (std::filesystem::exists(std::filesystem::symlink_status(run_folder / name, error))) return true;
   return has_snapshots(run_folder / "snap") || has_snapshots(run_folder / "diverged" / "snap") || has_checkpoints(run_folder);
 }
 

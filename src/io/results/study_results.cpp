@@ -129,9 +129,8 @@ class Table {
   void begin(char const* row, std::string const& group, std::string const& label, std::vector<Setting> const& settings) {
     text_ += fmt::format("{},{},{}", row, cell(group), cell(label));
     for (std::string const& key : study_.keys) {
-      auto const found =
-          std::find_if(settings.begin(), settings.end(), [&](Setting const& setting) { return setting.first == key; });
-      add(found == settings.end() ? "" : cell(si_text(*found)));
+      std::string const* const value = value_in(settings, key);
+      add(value ? cell(si_text({key, *value})) : "");
     }
   }
 

@@ -358,6 +358,11 @@ StudyGoal study_goal(std::string const& text) {
   return goal;
 }
 
+std::string const* value_in(std::vector<Setting> const& settings, std::string_view key) {
+  auto const found = std::find_if(settings.begin(), settings.end(), [&](Setting const& setting) { return setting.first == key; });
+  return found == settings.end() ? nullptr : &found->second;
+}
+
 void add_key(Study& study, std::string const& key) {
   if (key != "run.force" && std::find(study.keys.begin(), study.keys.end(), key) == study.keys.end()) study.keys.push_back(key);
 }

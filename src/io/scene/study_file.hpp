@@ -23,6 +23,9 @@ namespace clathra {
 /// A key of a scene with its value as text, as after --set.
 using Setting = std::pair<std::string, std::string>;
 
+/// The value of a key among settings, or nullptr.
+std::string const* value_in(std::vector<Setting> const& settings, std::string_view key);
+
 /// Members that differ in their seed only.
 struct StudyGroup {
   std::string name;               ///< of letters, digits and ._+-: "dense_26pct_1MPa"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
@@ -13,12 +14,6 @@ namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string const* value_in(StudyGroup const& group, std::string const& key) {
-  auto const found =
-      std::find_if(group.settings.begin(), group.settings.end(), [&](Setting const& setting) { return setting.first == key; });
-  return found == group.settings.end() ? nullptr : &found->second;
-}
 
 /// A value as a scene would echo it, so that "50 %" and "0.5" are one.
 std::string echoed(std::string const& key_name, std::string const& text) {
@@ -32,16 +27,6 @@ std::string echoed(std::string const& key_name, std::string const& text) {
   return value_text(*key, scene);
 }
 
-/// Whether the groups have different values of a key, or only some of them have one.
-bool varies(Study const& study, std::string const& key) {
-  std::set<std::string> values;
-  for (StudyGroup const& group : study.groups) {
-    std::string const* const value = value_in(group, key);
-    values.insert(value ? echoed(key, *value) : "");
-  }
-  return values.size() > 1;
-}
-
 /// What is wrong with an override of a study, or nothing.
 std::string problem_of(Study const& study, std::string const& text) {
   auto const equals = text.find('=');
@@ -51,7 +36,7 @@ std::string problem_of(Study const& study, std::string const& text) {
     return fmt::format("'{}' cannot be set for all members: {}", name, instead);
   Key const* const key = find_key(name);
   if (!key) return fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name));
-  if (varies(study, name))
+  if (groups_differ_in(study, name))
     return fmt::format("'{}' is what the groups of {} differ in: change it there, or leave it out here", name,
                        study.file.string());
   try {
@@ -63,21 +48,24 @@ std::string problem_of(Study const& study, std::string const& text) {
   return {};
 }
 
+/// A basic string of TOML is one of JSON.
 std::string quoted(std::string const& text) {
-  std::string result = "\"";
-  for (char const c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      result += c;
-  }
-  return result + "\"";
+  using Json = nlohmann::json;
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string absolute_text(fs::path const& path) { return fs::absolute(path).lexically_normal().string(); }
 
 }  // namespace
+
+bool groups_differ_in(Study const& study, std::string const& key) {
+  std::set<std::string> values;
+  for (StudyGroup const& group : study.groups) {
+    std::string const* const value = value_in(group.settings, key);
+    values.insert(value ? echoed(key, *value) : "");
+  }
+  return values.size() > 1;
+}
 
 void override_study(Study& study, std::vector<std::string> const& overrides) {
   std::vector<Problem> problems;
@@ -123,8 +111,8 @@ std::string member_name(StudyGroup const& group, std::uint64_t seed) { return fm
 std::string group_label(Study const& study, StudyGroup const& group) {
   std::string label;
   for (std::string const& key : study.keys) {
-    std::string const* const value = value_in(group, key);
-    if (!value || !varies(study, key)) continue;
+    std::string const* const value = value_in(group.settings, key);
+    if (!value || !groups_differ_in(study, key)) continue;
     bool const bare = value->find_first_not_of("0123456789.eE+-") == std::string::npos || *value == "true" || *value == "false";
     std::string leaf = key.substr(key.find('.') + 1);
     std::replace(leaf.begin(), leaf.end(), '_', ' ');

@@ -9,6 +9,9 @@
 
 namespace clathra {
 
+/// Whether the groups have different values of a key, however these are written, or only some of them have one.
+bool groups_differ_in(Study const& study, std::string const& key);
+
 /// Takes overrides "key=value" of the command line into all groups, above the values of the study file. Columns of study.csv
 /// follow (Study::keys). A path among them is relative to the current folder.
 /// @throws SceneProblems with all of: keys that the groups differ in, the seed, the threads and the folder of a run, unknown
