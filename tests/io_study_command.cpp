@@ -7,28 +7,13 @@
 #include <sstream>
 
 #include "command.hpp"
+#include "file_content.hpp"
 #include "io/formats/text_file.hpp"
 
 namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Rows of a CSV file without quotes, the header among them.
-std::vector<std::vector<std::string>> rows_of(std::string const& text) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> cells(1);
-    for (char const c : line)
-      if (c == ',')
-        cells.emplace_back();
-      else
-        cells.back() += c;
-    rows.push_back(cells);
-  }
-  return rows;
-}
 
 class StudyCommand : public testing::Test {
  protected:
@@ -48,7 +33,7 @@ class StudyCommand : public testing::Test {
   std::string csv() const { return read_text_file(out / "study.csv", 1 << 24); }
   /// The cells of a column in the rows of a kind.
   std::vector<std::string> cells(std::string const& row, std::string const& column) const {
-    auto const rows = rows_of(csv());
+    auto const rows = csv_rows(csv());
     auto const at = std::find(rows[0].begin(), rows[0].end(), column) - rows[0].begin();
     std::vector<std::string> found;
     for (auto const& cells : rows)
@@ -81,7 +66,7 @@ TEST_F(StudyCommand, LeavesATableWithARowForEachMemberAndStatisticsOfEachGroup) 
     EXPECT_LE(std::stod(cells("interval_low", "peak_q_Pa")[group]), mean);
     EXPECT_GE(std::stod(cells("interval_high", "peak_q_Pa")[group]), mean);
   }
-  auto const rows = rows_of(csv());
+  auto const rows = csv_rows(csv());
   for (auto const& row : rows) EXPECT_EQ(row.size(), rows[0].size());
   EXPECT_EQ(rows[0].back(), "disc_steps_per_second");
   EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("<polygon data-name=\"1MPa\""), std::string::npos) << "a band";
@@ -272,10 +257,19 @@ TEST_F(StudyCommand, RefusesGroupsThatAreTheSameAndAScenesFaultsOnce) {
 
 TEST_F(StudyCommand, StopsItsMembersWithACheckpointAndGoesOn) {
   std::string const longer = "seeds = 2\n[matrix]\ntest.axial_strain = \"12 %\"\ntest.inertial_number = 2e-5\n";
-  CommandResult const stopped = study(longer, "--max-walltime 1s");
+  EXPECT_EQ(study(longer, "--max-walltime 0.1s").code, 75);
+  EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"waiting", "waiting"}));
+  // Told to stop when both members have rows, however long their specimens took.
+  std::ofstream(folder / "stop.sh")
+      << "cd '" << folder.string() << "'\n"
+      << program_in_shell
+      << " study many.toml --parallel 2 --output out &\nstudy=$!\nfor seed in 1 2; do until [ -s "
+         "out/members/all-seed$seed/history.csv ]; do sleep 0.05; done; done\nkill -TERM $study\nwait $study\n";
+  CommandResult const stopped = run_clathra("--version > /dev/null; bash '" + (folder / "stop.sh").string() + "'");
   EXPECT_EQ(stopped.code, 75) << stopped.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"waiting", "waiting"}));
-  EXPECT_TRUE(fs::exists(out / "members" / "all-seed1" / "ckpt"));
+  for (char const* const member : {"all-seed1", "all-seed2"})
+    EXPECT_TRUE(fs::exists(out / "members" / member / "ckpt" / "0.json"));
   CommandResult const done = study(longer);
   EXPECT_EQ(done.code, 0) << done.output;
 }
