@@ -108,11 +108,16 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
 }
 
 TEST_F(StudyCommand, ShowsTheWarningsOfItsMembers) {
-  ASSERT_EQ(study("seeds = 1\n[matrix]\ntest.inertial_number = 2e-3\n").code, 0);
-  EXPECT_NE(cells("member", "warnings")[0].find("inertial number"), std::string::npos) << csv();
+  ASSERT_EQ(study("seeds = 1\n[matrix]\ntest.inertial_number = [2e-3, 3e-3]\n").code, 0);
+  for (std::string const& warning : cells("member", "warnings"))
+    EXPECT_NE(warning.find("inertial number"), std::string::npos) << csv();
   std::string const page = read_text_file(out / "study.html", 1 << 24);
   EXPECT_NE(page.find("Warnings of members"), std::string::npos);
-  EXPECT_NE(page.find("inertial number"), std::string::npos);
+  // Both say it with numbers of their own, which is one line, not two.
+  std::size_t const line = page.find("inertial-number0.002-seed1, inertial-number0.003-seed1 (each with its own numbers");
+  ASSERT_NE(line, std::string::npos) << page.substr(page.find("Warnings of members"), 2000);
+  std::string const said = page.substr(line, page.find("</li>", line) - line);
+  EXPECT_NE(said.find("0.002"), std::string::npos) << said;
 }
 
 TEST_F(StudyCommand, HasOnePrecedenceAndSaysWhatItSets) {

@@ -1,11 +1,13 @@
 #include "io/report/study_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <regex>
 #include <set>
 #include <span>
 
@@ -101,24 +103,39 @@ std::string varied_keys(Study const& study) {
   return text.empty() ? "their seed only" : text;
 }
 
-/// Each warning once, with the members that have it.
+/// A text without its numbers: warnings that differ in numbers alone are one warning to the reader.
+std::string without_numbers(std::string const& text) {
+  static std::regex const number("[0-9]+([.][0-9]+)?(e[+-]?[0-9]+)?");
+  return std::regex_replace(text, number, "#");
+}
+
+/// What several members say in the same words.
+struct SharedWarning {
+  std::string first;  // as the first member says it
+  bool numbers_differ = false;
+  std::vector<std::string> members;
+};
+
+/// Each warning once, with the members that have it; of those that differ in numbers alone, the first.
 std::string warnings(Study const& study, std::vector<MemberResult> const& members) {
   constexpr std::size_t most_named = 5;
-  std::vector<std::string> texts;
-  std::map<std::string, std::vector<std::string>> by_text;
+  std::vector<SharedWarning> all;
+  std::map<std::string, std::size_t> place;
   for (MemberResult const& member : members)
     for (std::string const& text : member.warnings) {
-      std::vector<std::string>& names = by_text[text];
-      if (names.empty()) texts.push_back(text);
-      names.push_back(member_name(study.groups[member.group], member.seed));
+      auto const [at, is_new] = place.try_emplace(without_numbers(text), all.size());
+      if (is_new) all.push_back({text, false, {}});
+      SharedWarning& warning = all[at->second];
+      warning.numbers_differ |= text != warning.first;
+      warning.members.push_back(member_name(study.groups[member.group], member.seed));
     }
   std::string items;
-  for (std::string const& text : texts) {
-    std::vector<std::string> const& names = by_text[text];
-    std::string who;
-    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) who += (i == 0 ? "" : ", ") + names[i];
-    if (names.size() > most_named) who += fmt::format(" and {} more", names.size() - most_named);
-    items += "<li>" + escaped(who + ": " + text) + "</li>\n";
+  for (SharedWarning const& warning : all) {
+    std::span const named = std::span(warning.members).first(std::min(warning.members.size(), most_named));
+    std::string who = fmt::format("{}", fmt::join(named, ", "));
+    if (named.size() < warning.members.size()) who += fmt::format(" and {} more", warning.members.size() - named.size());
+    if (warning.numbers_differ) who += " (each with its own numbers, in its own report; here the first)";
+    items += "<li>" + escaped(who + ": " + warning.first) + "</li>\n";
   }
   return items.empty() ? "" : "<div class=\"warn\"><b>Warnings of members</b><ul>\n" + items + "</ul></div>\n";
 }
