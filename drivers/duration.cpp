@@ -38,4 +38,10 @@ std::string duration_problem(std::string const& text) {
   return {};
 }
 
+std::string time_limit_problem(std::string const& text) {
+  std::string const problem = duration_problem(text);
+  return problem.empty() && duration_of(text) == 0 ? "'" + text.substr(0, 40) + "' leaves no time; leave it out for no limit"
+                                                   : problem;
+}
+
 }  // namespace clathra

@@ -9,5 +9,7 @@ double duration_of(std::string const& text);
 
 /// What is wrong with such a text, or nothing.
 std::string duration_problem(std::string const& text);
+/// The same, of a time that cannot be 0.
+std::string time_limit_problem(std::string const& text);
 
 }  // namespace clathra

@@ -127,6 +127,14 @@ std::vector<std::string> words_of(std::string const& command) {
   return words;
 }
 
+std::string words_problem(std::string const& command) {
+  try {
+    return words_of(command).empty() ? "needs a command" : "";
+  } catch (std::invalid_argument const& problem) {
+    return fmt::format("{}: {}", command.substr(0, 100), problem.what());
+  }
+}
+
 void become(std::vector<std::string> const& command) {
   std::vector<std::string> words = command;
   ::execvp(words[0].c_str(), pointers_to(words).data());

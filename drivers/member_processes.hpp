@@ -37,6 +37,8 @@ std::optional<ProcessEnd> ended_process();
 /// The words of a command line, as a shell would take them: blanks separate, quotes hold together.
 /// @throws std::invalid_argument where a quote is not closed
 std::vector<std::string> words_of(std::string const& command);
+/// What is wrong with such a command line; nothing where nothing is. For options.
+std::string words_problem(std::string const& command);
 
 /// The whole process becomes another program. @throws std::runtime_error where it cannot be started
 [[noreturn]] void become(std::vector<std::string> const& command);

@@ -15,12 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A word for a shell.
-std::string shell_word(std::string const& text) {
-  std::string word = "'";
-  for (char const c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
-}
+std::string absolute_text(fs::path const& path) { return fs::absolute(path).lexically_normal().string(); }
 
 /// "HH:MM:00", rounded up.
 std::string slurm_time(double seconds) {
@@ -37,12 +32,17 @@ double largest_memory(StudyPlan const& plan) {
 
 }  // namespace
 
+std::string shell_word(std::string const& text) {
+  std::string word = "'";
+  for (char const c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
 void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs) {
   if (plan.study.until) throw Refused("--slurm needs members that are known before: leave out 'until' and give 'seeds'");
   fs::path const study = jobs.script.string() + ".toml";
-  replace_text_file(study, resolved_study(plan.study));
-  std::vector<std::string> words = {own_path(), "study", fs::absolute(study).lexically_normal().string(), "--checkpoint-every",
-                                    jobs.checkpoint_every};
+  replace_text_file(study, resolved_study(plan.study), Existing::kept);
+  std::vector<std::string> words = {own_path(), "study", absolute_text(study), "--checkpoint-every", jobs.checkpoint_every};
   if (!jobs.most_time.empty()) words.insert(words.end(), {"--max-walltime", jobs.most_time});
   if (jobs.threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", jobs.threads)});
   if (jobs.allow_mixed) words.push_back("--allow-mixed");
@@ -55,8 +55,8 @@ void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs) {
       "follow:\n"
       "# bash {} --partition=short\nset -euo pipefail\ncd {}\n",
       jobs.script.filename().string(), shell_word(fs::current_path().string()));
-  text += fmt::format("study=({})\nlauncher={}\nfolder={}\n", command, shell_word(jobs.launcher.empty() ? "srun" : jobs.launcher),
-                      shell_word(fs::absolute(plan.study.folder).lexically_normal().string()));
+  text += fmt::format("script={}\nstudy=({})\nlauncher={}\nfolder={}\n", shell_word(absolute_text(jobs.script)), command,
+                      shell_word(jobs.launcher.empty() ? "srun" : jobs.launcher), shell_word(absolute_text(plan.study.folder)));
   text += R"(
 # In a job.
 case ${1-} in
@@ -79,14 +79,15 @@ mkdir -p "$folder/logs"
   text += "    --output=\"$folder/logs/slurm-%x-%a.log\" \"$@\"\n}\n";
   std::string after;
   if (!plan.specimens.empty()) {
-    text +=
-        fmt::format("specimens=$(job \"$@\" --job-name=specimen --array=1-{} \"$0\" --job=specimen)\n", plan.specimens.size());
+    text += fmt::format("specimens=$(job \"$@\" --job-name=specimen --array=1-{} \"$script\" --job=specimen)\n",
+                        plan.specimens.size());
     after = " --dependency=afterok:$specimens";
   }
-  text += fmt::format("members=$(job \"$@\" --job-name=member --array=1-{}{} \"$0\" --job=member)\n", plan.runs.size(), after);
-  text += "collect=$(job \"$@\" --job-name=collect --dependency=afterany:$members \"$0\" --job=collect)\n";
+  text +=
+      fmt::format("members=$(job \"$@\" --job-name=member --array=1-{}{} \"$script\" --job=member)\n", plan.runs.size(), after);
+  text += "collect=$(job \"$@\" --job-name=collect --dependency=afterany:$members \"$script\" --job=collect)\n";
   text += "echo \"members $members, collected by $collect into $folder/study.csv\"\n";
-  replace_text_file(jobs.script, text);
+  replace_text_file(jobs.script, text, Existing::kept);
 }
 
 }  // namespace clathra

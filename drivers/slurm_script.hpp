@@ -18,10 +18,13 @@ struct SlurmJobs {
   bool allow_mixed = false;      ///< jobs take what another program made
 };
 
+/// A word for a shell, in quotes.
+std::string shell_word(std::string const& text);
+
 /// Writes the resolved study (SCRIPT.toml), and a script for bash that submits an array of specimens, an array of members that
 /// begins when they are there, and a job that collects them. A job that is told to stop (USR1, two minutes before its time is
-/// over) or whose node is set down is queued again and goes on from its checkpoint. @throws FileProblem;  Refused for a study
-/// with a goal, whose members nobody knows before
+/// over) or whose node is set down is queued again and goes on from its checkpoint. @throws FileProblem, also where one of the
+/// two files is there already; Refused for a study with a goal, whose members nobody knows before
 void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs);
 
 }  // namespace clathra

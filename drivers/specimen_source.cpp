@@ -29,7 +29,8 @@ std::string provenance_text(RunRecord const& record, SceneTexts const& label) {
                 [](std::string const& text) { return text.starts_with("run.threads="); });  // the same file for any number
   json["overrides"] = overrides;
   json["made_of"] = label;
-  if (!record.specimen_digest.empty()) json["specimen_digest_xxh3_128"] = record.specimen_digest;
+  if (!record.digests.specimen.empty()) json["specimen_digest_xxh3_128"] = record.digests.specimen;
+  if (!record.digests.grading.empty()) json["grading_digest_xxh3_128"] = record.digests.grading;
   if (auto const stage = record.stages.find("generate"); stage != record.stages.end()) json["generate"] = stage->second;
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

@@ -193,11 +193,10 @@ void heed_guards(StudyPlan& plan, bool skip) {
     member.state = MemberState::refused;
     member.message = why;
   }
-  if (groups.empty() || (skip && groups.size() < plan.study.groups.size())) return;
-  add(
-      fmt::format("{} of {} groups would be refused, so nothing was started: --skip-refused goes on without them, --force "
-                  "overrides the guards",
-                  groups.size(), plan.study.groups.size()));
+  bool const all = groups.size() == plan.study.groups.size();
+  if (groups.empty() || (skip && !all)) return;
+  add(fmt::format("{} of {} groups would be refused, so nothing was started: {}--force overrides the guards", groups.size(),
+                  plan.study.groups.size(), all ? "" : "--skip-refused goes on without them, "));
   throw SceneProblems(std::move(problems));
 }
 
@@ -235,8 +234,13 @@ void find_finished(StudyPlan& plan, std::size_t member) {
   };
   try {
     Scene const scene = plan.scene_of_run(member).scene;
-    std::string const digest = scene.sample.generator == Generator::file ? file_digest(scene.sample.file) : "";
-    if (earlier_run(task.result, scene, digest) == EarlierRun::finished) read_member(plan.members[member], task.result);
+    EarlierRun const earlier = earlier_run(task.result, scene, input_digests(scene));
+    // An extended test has rows at the places of the shorter one: other numbers than one that was asked for at once.
+    if (earlier == EarlierRun::to_be_extended)
+      throw FileProblem(ExitCode::refused, task.result,
+                        "holds a finished run to a smaller test.axial_strain; a study does not extend it: name another folder "
+                        "(--output), or remove this one");
+    if (earlier == EarlierRun::finished) read_member(plan.members[member], task.result);
   } catch (FileProblem const& problem) {
     fail(problem.what());
   } catch (SceneProblems const& problems) {

@@ -168,7 +168,8 @@ std::optional<std::size_t> StudyRun::next_run() {
     if (run_states_[i] != TaskState::waiting) continue;
     if (std::optional<std::size_t> const specimen = plan_.runs[i].specimen) {
       if (specimen_states_[*specimen] == TaskState::failed)
-        fail_member(i, "its specimen could not be made (" + plan_.specimens[*specimen].name + ")"),
+        fail_member(i, fmt::format("its specimen {} could not be made: {}", plan_.specimens[*specimen].name,
+                                   specimen_failures_.at(*specimen))),
             run_states_[i] = TaskState::failed;
       if (specimen_states_[*specimen] != TaskState::done) continue;
     }
@@ -253,7 +254,10 @@ void StudyRun::take_result(Running const& was) {
 void StudyRun::fail(Running const& was, std::string const& message) {
   (was.specimen ? specimen_states_ : run_states_)[was.task] = TaskState::failed;
   done_ += task_of(was).disc_steps;
-  if (was.specimen) return line_.warn(fmt::format("{}: {}", task_of(was).name, message));
+  if (was.specimen) {
+    specimen_failures_[was.task] = message;
+    return line_.warn(fmt::format("{}: {}", task_of(was).name, message));
+  }
   fail_member(was.task, message);
   write_table();
 }

@@ -73,6 +73,7 @@ class StudyRun {
   StudyLimits limits_;
   ProgressLine line_;
   std::vector<TaskState> specimen_states_, run_states_;
+  std::map<std::size_t, std::string> specimen_failures_;  // why they could not be made
   std::map<pid_t, Running> running_;
   std::set<std::string> tried_again_;
   std::vector<bool> slot_taken_;

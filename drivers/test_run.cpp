@@ -13,7 +13,6 @@
 #include "interrupt.hpp"
 #include "io/errors/failure.hpp"
 #include "io/errors/rank_errors.hpp"
-#include "io/formats/digest.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/report.hpp"
 #include "io/results/earlier_run.hpp"
@@ -57,7 +56,7 @@ class TestRun::Running {
     on_root(ranks_, [&] {
       lock_.emplace(scene_.output.folder, "run");
       if (std::string const warning = lock_->lock_warning(); !warning.empty()) warn(warning);
-      if (specimen_) record_.specimen_digest = file_digest(scene_.sample.file);
+      record_.digests = input_digests(scene_);
     });
     folder_ = ranks_.from_root(lock_ ? lock_->path().string() : "");
     if (limits_.resume) look_for_an_earlier_part();
@@ -65,6 +64,10 @@ class TestRun::Running {
     on_root(ranks_, [&] {
       if (!limits_.resume && !limits_.overwrite) require_no_kept_run();
       replaces_ = holds_results(folder_);
+      std::error_code ignored;
+      if (replaces_ && specimen_ && std::filesystem::equivalent(scene_.sample.file, folder_ / "final.h5", ignored))
+        throw FileProblem(ExitCode::refused, scene_.sample.file,
+                          "is a result that the new run would take the place of: copy it elsewhere, or choose another folder");
       forget_next_specimen();  // of a run that was killed
     });
     replaces_ = ranks_.any(replaces_);
@@ -111,17 +114,16 @@ class TestRun::Running {
   bool resumes() const { return !found_.usable.empty(); }
 
   void look_for_an_earlier_part() {
-    on_root(ranks_, [&] { finished_ = earlier_run(folder_, scene_, record_.specimen_digest) == EarlierRun::finished; });
+    on_root(ranks_, [&] { finished_ = earlier_run(folder_, scene_, record_.digests) == EarlierRun::finished; });
     finished_ = ranks_.any(finished_);
     if (!finished_) found_ = find_checkpoints(folder_, ranks_);
   }
 
   void require_no_kept_run() const {
-    if (std::optional<std::string> const kept = kept_run(folder_))
+    if (std::optional<KeptRun> const kept = kept_run(folder_))
       throw FileProblem(ExitCode::refused, folder_,
-                        fmt::format("holds {}: --output names another folder, --resume goes on with it, --overwrite puts the new "
-                                    "run in its place",
-                                    *kept));
+                        fmt::format("holds {}: --output names another folder, {}--overwrite puts the new run in its place",
+                                    kept->what, kept->can_go_on ? "--resume goes on with it, " : ""));
   }
 
   void forget_next_specimen() const {
@@ -172,6 +174,10 @@ class TestRun::Running {
     for (std::string const& problem : resumed.passed_over) warn("a checkpoint is passed over: " + problem);
     line_.note(fmt::format("clathra: goes on from step {} of the shear", resumed_->step));
     record_.checkpoint_digest = resumed_->digest;
+    on_root(ranks_, [&] { earlier_ = earlier_sessions(folder_); });
+    if (!earlier_.generate.empty()) record_.stages["generate"] = earlier_.generate;
+    record_.layer_void_ratios = earlier_.layer_void_ratios;
+    record_.wall_seconds = earlier_.wall_seconds;
     checkpoints_.emplace(folder_, ranks_, resumed_);
     for (HistoryEntry const& entry : resumed.history) {
       last_ = entry.row;
@@ -187,10 +193,11 @@ class TestRun::Running {
     summary_.emplace(scene_.test.confining_stress);
     Speedometer const preparing;
     std::unique_ptr<BiaxialTest> const test = prepared_test();
-    auto const generating = record_.wall_seconds.find("generate");
-    record_.wall_seconds["prepare"] = preparing.seconds() - (generating == record_.wall_seconds.end() ? 0 : generating->second);
+    bool const generated = !resumed_ && record_.wall_seconds.contains("generate");
+    record_.wall_seconds["prepare"] += preparing.seconds() - (generated ? record_.wall_seconds.at("generate") : 0);
     record_.stages["prepare"] = test->preparation();
-    record_.stages["plan"] = test->plan();
+    bool const same_plan = !earlier_.plan.empty() && earlier_.axial_strain == scene_.test.axial_strain;
+    record_.stages["plan"] = same_plan ? earlier_.plan : test->plan();
     for (std::string const& warning : test->warnings()) warn(warning);
     try {
       write_curves(*test, preparing.seconds());
@@ -223,7 +230,8 @@ class TestRun::Running {
   void write_curves(BiaxialTest& test, double preparing_seconds) {
     files_.emplace(folder_, scene_, ranks_, test, resumed_ ? std::optional(resumed_->progress) : std::nullopt, last_.eps1);
     Speedometer const clock(test.strain_fraction());
-    std::int64_t const steps_before = test.disc_steps();
+    std::int64_t const steps_before = test.shear_disc_steps();
+    std::map<std::string, double> before = record_.wall_seconds;
     double const searching_before = test.search_seconds();
     if (!resumed_) write_record_of(test);
     // What took long to prepare is kept at once.
@@ -232,11 +240,11 @@ class TestRun::Running {
     while (!test.finished()) {
       if (test.advance(pace_, files_->next_snapshot_at())) write_record_of(test);
       files_->write_snapshot_at(test);
-      record_.disc_steps = test.disc_steps() - steps_before;
-      record_.wall_seconds["shear"] = clock.seconds();
-      record_.wall_seconds["neighbour_searches"] = test.search_seconds() - searching_before;
-      record_.disc_steps_per_second = static_cast<double>(record_.disc_steps) / clock.seconds();
-      show(test, clock.text(test.strain_fraction(), record_.disc_steps));
+      record_.disc_steps = test.shear_disc_steps();
+      record_.wall_seconds["shear"] = before["shear"] + clock.seconds();
+      record_.wall_seconds["neighbour_searches"] = before["neighbour_searches"] + test.search_seconds() - searching_before;
+      record_.disc_steps_per_second = static_cast<double>(record_.disc_steps - steps_before) / clock.seconds();
+      show(test, clock.text(test.strain_fraction(), record_.disc_steps - steps_before));
       poll(test);
     }
     if (keeps_checkpoint()) write_checkpoint(test);
@@ -350,6 +358,7 @@ class TestRun::Running {
   RunLimits limits_;
   Scene scene_;
   std::optional<Specimen> specimen_;
+  EarlierSessions earlier_;           // of a run that goes on; on rank 0
   SceneTexts label_before_;           // of the specimen before this test
   double strain_before_ = 0;          // axial, of earlier tests
   std::optional<OutputFolder> lock_;  // on rank 0

@@ -164,6 +164,79 @@ TEST_F(KeptResults, WhoseRecordIsDamagedAreNeitherUnfinishedNorBegunAnew) {
   EXPECT_EQ(run("--overwrite").code, 0);
 }
 
+/// The end of the run, or what its scene was.
+TEST_F(KeptResults, WhoseRecordIsOfTheWrongKindInsideAreDamagedToo) {
+  ASSERT_EQ(run().code, 0);
+  std::string const whole = content(out / "run.json");
+  auto const with = [&](char const* at, nlohmann::json const& value) {
+    nlohmann::json record = nlohmann::json::parse(whole);
+    record[nlohmann::json::json_pointer(at)] = value;
+    put(out / "run.json", record.dump());
+  };
+  std::vector<std::pair<char const*, nlohmann::json>> const wrong = {{"/exit", nlohmann::json::object()},
+                                                                     {"/exit", 5},
+                                                                     {"/exit", nlohmann::json::array()},
+                                                                     {"/exit/reason", 0},
+                                                                     {"/exit/reason", "blah"},
+                                                                     {"/exit/code", "0"},
+                                                                     {"/scene", nlohmann::json::array()},
+                                                                     {"/scene/test", 5},
+                                                                     {"/scene/sample/particles", 1e300},
+                                                                     {"/scene/sample/particles", "100"},
+                                                                     {"/scene/run/seed", -1},
+                                                                     {"/scene/output/events", 1}};
+  for (auto const& [at, value] : wrong) {
+    with(at, value);
+    auto const before = contents(out);
+    CommandResult const resumed = run("--resume");
+    EXPECT_EQ(resumed.code, 65) << at << " " << value << resumed.output;
+    EXPECT_TRUE(says(resumed, "run.json: is "));
+    EXPECT_EQ(run().code, 77) << at;
+    EXPECT_EQ(contents(out), before) << at;
+  }
+}
+
+TEST_F(KeptResults, ThatTheNewRunReadsAreNotTakenThePlaceOf) {
+  ASSERT_EQ(run().code, 0);
+  auto const before = contents(out);
+  std::string const from = "--overwrite --set sample.generator=file --set sample.file='" + out.string();
+  CommandResult const result = run(from + "/final.h5'");
+  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_TRUE(says(result, "final.h5: is a result that the new run would take the place of"));
+  EXPECT_EQ(contents(out), before);
+  // A run that reads its specimen makes none: that of the earlier one stays.
+  EXPECT_EQ(run(from + "/specimen.h5'").code, 0);
+  EXPECT_EQ(content(out / "specimen.h5"), before.at((out / "specimen.h5").string()));
+}
+
+TEST_F(KeptResults, OfOtherGrainsAreNotGoneOnWith) {
+  put(folder / "sizes.csv", "d_mm,percent_finer\n0.12,0\n0.15,30\n0.17,50\n0.2,80\n0.24,100\n");
+  std::string const graded = "--set grading.file='" + (folder / "sizes.csv").string() + "' --set test.axial_strain=0.1 ";
+  ASSERT_EQ(run(graded + "--max-walltime 0.3s").code, 75);
+  put(folder / "sizes.csv", "d_mm,percent_finer\n0.12,0\n0.15,30\n0.17,55\n0.2,80\n0.24,100\n");
+  auto const before = contents(out);
+  CommandResult const resumed = run(graded + "--resume");
+  EXPECT_EQ(resumed.code, 77) << resumed.output;
+  EXPECT_TRUE(says(resumed, "the grading file had digest "));
+  EXPECT_EQ(contents(out), before);
+}
+
+TEST_F(KeptResults, OfARunThatWasResumedSayHowItsSpecimenWasMade) {
+  std::string const longer = "--set test.axial_strain=0.05 ";
+  ASSERT_EQ(run(longer + "--max-walltime 0.3s").code, 75);
+  nlohmann::json const first = record();
+  ASSERT_EQ(run(longer + "--resume").code, 0);
+  nlohmann::json const whole = record();
+  EXPECT_EQ(whole["stages"]["generate"], first["stages"]["generate"]);
+  EXPECT_EQ(whole["stages"]["plan"], first["stages"]["plan"]);
+  EXPECT_EQ(whole["layer_void_ratios"], first["layer_void_ratios"]);
+  EXPECT_EQ(whole["wall_seconds"]["generate"], first["wall_seconds"]["generate"]);
+  EXPECT_GT(whole["wall_seconds"]["shear"], first["wall_seconds"]["shear"]);
+  fs::remove_all(out);
+  ASSERT_EQ(run(longer).code, 0);
+  EXPECT_EQ(whole["disc_steps"], record()["disc_steps"]) << "of the whole shear";
+}
+
 TEST_F(KeptResults, ASpecimenFileIsReplacedOnlyWhenAsked) {
   std::string const generate =
       "generate '" + (folder / "made.toml").string() + "' -o '" + (folder / "sand.h5").string() + "' --set run.seed=";

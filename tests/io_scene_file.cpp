@@ -67,6 +67,12 @@ TEST(SceneFile, NamesPlaceCauseAndRemedyOfAProblem) {
                  "my.toml:4:22: error: 'confining_stress' needs a pressure, got a length ('1 mm'); example: \"1 MPa\"");
 }
 
+TEST(SceneFile, AHintIsGivenOnlyWhereItHelps) {
+  expect_problem("[hydrate]\nsaturation = \"110 %\"\n", "'saturation' must lie between 0 and 1, got 1.1");
+  EXPECT_EQ(problems_of("[hydrate]\nsaturation = \"110 %\"\n").find("looks like percent"), std::string::npos);
+  expect_problem("[output]\nsnapshots_at = [\"0,5 %\"]\n", "with a decimal point, got '0,5 %'");
+}
+
 TEST(SceneFile, ReportsAllProblemsAtOnceInTheOrderOfTheFile) {
   std::string const all = problems_of(
       "[sample]\nparticles = -5\nwidht = \"3 mm\"\n[hydrate]\nsaturation = 26\n[grain]\nkn = 3\n[test]\nconfining_stress = "
@@ -140,17 +146,25 @@ TEST(SceneFile, HostileValuesAreRefused) {
 
 TEST(SceneFile, TheGuardKeepsHostileTextFromTheParser) {
   expect_problem(std::string((1 << 20) + 1, ' '), "my.toml: error: has 1048577 bytes");
-  expect_problem(sized + "# " + std::string(600, 'x') + "\n",
-                 "my.toml:3:513: error: the line has 602 bytes, at most 512 are allowed");
+  expect_problem(sized + "# " + std::string(1 << 16, 'x') + "\n",
+                 "my.toml:3:65537: error: the line has 65538 bytes, at most 65536 are allowed");
   expect_problem(
       "[sample]\nparticles = 2\xc2\xa0"
       "000\n",
-      "my.toml:2:14: error: only ASCII characters are allowed outside comments");
+      "my.toml:2:14: error: only ASCII characters are allowed outside quotes and comments");
   expect_problem(std::string("[sample]\nparticles = 20\0 0\n", 24), "control characters");
   expect_problem("[sample]\nvoid_ratio = nan\n", "my.toml:2:14: error: nan and inf are not allowed");
   expect_problem("[sample]\nvoid_ratio = -inf\n", "nan and inf are not allowed");
   expect_problem("[sample]\nfile = \"\"\"a\"\"\"\n", "multi-line");
-  expect_problem("[sample]\nfile = \"a\\\xff\"\n", "only ASCII");
+  // In quotes any UTF-8: a folder may have any name. Not what only looks like it.
+  EXPECT_EQ(load(sized + "file = \"sable fonc\xc3\xa9 \xe6\xb2\x99/\xf0\x9f\x8f\x96.h5\"\n").scene.sample.file,
+            "folder/sable fonc\xc3\xa9 \xe6\xb2\x99/\xf0\x9f\x8f\x96.h5");
+  for (char const* const bytes : {"a\\\xff", "\xc3", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xa9"})
+    expect_problem(std::string("[sample]\nfile = \"") + bytes + "\"\n", "my.toml:2:");
+  expect_problem("[sample]\nfile = \"a\xa9\"\n", "my.toml:2:10: error: the text is not UTF-8");
+  std::string list = "[output]\nsnapshots_at = [";
+  for (int i = 1; i < 3000; ++i) list += "0." + std::to_string(10000 + i) + ", ";
+  EXPECT_EQ(load(sized + list + "]\n").scene.output.snapshots_at.size(), 2999u);
   EXPECT_EQ(load("# sable \xc3\xa0 la m\xc3\xa9thode, \xff nan\r\n" + sized + "layers = 7 # \"nan\" '''\r\n").scene.sample.layers,
             7);
   EXPECT_EQ(load(sized + "file = \"a#nan.h5\"\n").scene.sample.file, "folder/a#nan.h5");
@@ -175,10 +189,13 @@ TEST(SceneFile, DeeplyNestedAndWronglyShapedTextEndsInAMessage) {
   for (int i = 0; i < 2000; ++i) lines += std::string(500, '[') + "\n";
   expect_problem(sized + "layers = [\n" + lines,
                  "my.toml:4:256: error: cannot be understood: Error while parsing value: " + depth);
-  std::string dotted;
-  for (int i = 0; i < 250; ++i) dotted += "a.";
+  std::string dotted, tables;
+  for (int i = 0; i < 8; ++i) dotted += "a.";
   expect_problem(sized + dotted + "a = 1\n", "my.toml:3:1: error: unknown key 'a' in [sample]");
   expect_problem("[" + dotted + "a]\n" + sized, "my.toml:1:2: error: unknown section [a]");
+  expect_problem(sized + dotted + "a.a = 1\n", "my.toml:3:18: error: a name has at most 8 dots");
+  for (int i = 0; i < 250; ++i) tables += dotted + "a = {";
+  expect_problem(sized + tables + std::string(250, '}') + "\n", "my.toml:3:1: error: unknown key 'a' in [sample]");
   expect_problem(sized + "layers = [5]\n", "'layers' needs one value, not a list or a date");
   expect_problem(sized + "layers = 1979-05-27\n", "'layers' needs one value");
   expect_problem(sized + "layers.deep = 5\n", "'layers' is one value, not a section");

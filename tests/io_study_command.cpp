@@ -79,7 +79,7 @@ TEST_F(StudyCommand, NamesAMemberThatFailsAndGoesOnWithTheOthers) {
   CommandResult const result = study("seeds = 1\n[matrix]\nsample.void_ratio = [0.1, 0.28, 0.29]\n");
   EXPECT_EQ(result.code, 77) << result.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished", "finished"}));
-  EXPECT_NE(cells("member", "message")[0].find("its specimen could not be made"), std::string::npos) << csv();
+  EXPECT_NE(cells("member", "message")[0].find("could not be made: refused: without friction"), std::string::npos) << csv();
   EXPECT_NE(result.output.find("failed    void-ratio0.1-seed1: "), std::string::npos) << result.output;
   EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("Members that are missing"), std::string::npos);
 }
@@ -248,6 +248,69 @@ TEST_F(StudyCommand, RunsMembersOneByOneForAnArray) {
   EXPECT_EQ(study(two, "--member 4 --launcher 'env SOMETHING=1'").code, 0);
   EXPECT_EQ(study(two, "--collect").code, 0);
   EXPECT_EQ(cells("mean", "n").front(), "2");
+}
+
+TEST_F(StudyCommand, ByHandIsOneThatIsGoneOnWithAndStaysOutOfOthersFolders) {
+  ASSERT_EQ(study(two, "--specimen 1").code, 0);
+  CommandResult const early = study(two, "--member 2");
+  EXPECT_EQ(early.code, 66) << early.output;
+  EXPECT_NE(early.output.find("make it first (--specimen 2)"), std::string::npos) << early.output;
+  ASSERT_EQ(study(two, "--member 1").code, 0);
+  EXPECT_EQ(study(two, "--collect").code, 75);
+  EXPECT_EQ(study(two).code, 0);
+  EXPECT_EQ(cells("member", "state"), std::vector<std::string>(4, "finished"));
+  fs::remove_all(out);
+  fs::create_directories(out);
+  std::ofstream(out / "study.csv") << "my precious table";
+  for (char const* const part : {"--collect", "--member 1", "--specimen 1", "--slurm array.sh", ""}) {
+    CommandResult const result = study(two, part);
+    EXPECT_EQ(result.code, 77) << result.output;
+    EXPECT_EQ(csv(), "my precious table") << part;
+  }
+  fs::remove_all(out);
+  for (std::string const taken : {"array.sh", "array.sh.toml"}) {
+    std::ofstream(folder / taken) << "mine";
+    CommandResult const result = study(two, "--slurm '" + (folder / "array.sh").string() + "'");
+    EXPECT_EQ(result.code, 73) << result.output;
+    EXPECT_EQ(read_text_file(folder / taken, 100), "mine");
+    fs::remove(folder / taken);
+  }
+}
+
+TEST_F(StudyCommand, KnowsAMemberWhoseRowsAreNotThoseOfItsRun) {
+  ASSERT_EQ(study("seeds = 2\n").code, 0);
+  fs::path const rows = out / "members" / "all-seed1" / "history.csv";
+  std::string const whole = read_text_file(rows, 1 << 24);
+  std::ofstream(rows) << whole.substr(0, whole.size() * 8 / 10);
+  CommandResult const result = study("seeds = 2\n", "--collect");
+  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished"}));
+  EXPECT_NE(result.output.find("history.csv: is not the one that its run.json says"), std::string::npos) << result.output;
+}
+
+TEST_F(StudyCommand, DoesNotExtendMembersOfAShorterTest) {
+  ASSERT_EQ(study("seeds = 1\n").code, 0);
+  std::string const before = csv();
+  CommandResult const longer = study("seeds = 1\n", "--set test.axial_strain=0.005");
+  EXPECT_EQ(longer.code, 77) << longer.output;
+  EXPECT_NE(longer.output.find("a study does not extend it"), std::string::npos) << longer.output;
+  EXPECT_EQ(study("seeds = 1\n").code, 0);
+  EXPECT_EQ(csv(), before);
+}
+
+TEST_F(StudyCommand, SaysWhereAMistakeIs) {
+  std::string const file = "[matrix]\n\"grading.file\" = [\"nofile.csv\"]\n";
+  EXPECT_NE(study(file).output.find("many.toml: error: grading.file="), std::string::npos) << study(file).output;
+  for (std::string const option : {"--until peak_q_Pa", "--until peak_q_Pa=0", "--until peak_q_Pa=200%", "--launcher \"'open\"",
+                                   "--max-walltime 0s", "--member 0"}) {
+    CommandResult const result = study("", option);
+    EXPECT_TRUE(result.code == 64 || result.code == 65) << result.output;
+    EXPECT_NE(result.output.find(option.substr(0, option.find(' '))), std::string::npos) << result.output;
+  }
+  CommandResult const loose = study("seeds = 1\n", "--set sample.void_ratio=0.9");
+  EXPECT_EQ(loose.code, 77) << loose.output;
+  EXPECT_NE(cells("member", "message")[0].find("could not be made: "), std::string::npos) << csv();
+  EXPECT_NE(cells("member", "message")[0].find("looser"), std::string::npos) << csv();
 }
 
 TEST_F(StudyCommand, RefusesGroupsThatAreTheSameAndAScenesFaultsOnce) {

@@ -180,6 +180,17 @@ TEST_F(StudyFile, WrittenOutLoadsToTheSameStudyFromAnywhere) {
   }
 }
 
+TEST_F(StudyFile, HasOneMaterialWhereNamedGroupsDifferInTheirStressAlone) {
+  Study const study = load(base +
+                           "[groups.low]\ntest.confining_stress = \"1 MPa\"\ngrains.friction = 0.4\n"
+                           "[groups.high]\ngrains.friction = 0.4\ntest.confining_stress = \"2 MPa\"\n"
+                           "[groups.rough]\ntest.confining_stress = \"2 MPa\"\ngrains.friction = 0.6\n"
+                           "[groups.own]\nmaterial = \"mine\"\ngrains.friction = 0.4\n");
+  Names materials;
+  for (StudyGroup const& group : study.groups) materials.push_back(group.material);
+  EXPECT_EQ(materials, (Names{"low+high", "low+high", "rough", "mine"}));
+}
+
 TEST(StudyFiles, OfTheExamplesAreRight) {
   int count = 0;
   for (auto const& entry : fs::directory_iterator(CLATHRA_EXAMPLES "/studies")) {

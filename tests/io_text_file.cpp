@@ -140,5 +140,21 @@ TEST_F(TextFile, OfASceneThroughAPipeIsThatOfARunToo) {
   }
 }
 
+TEST_F(TextFile, ThatCameMeanwhileIsKept) {
+  fs::path const file = folder / "file";
+  replace_text_file(file, "first", Existing::kept);
+  EXPECT_EQ(read_text_file(file, 100), "first");
+  auto const again = [&] { replace_text_file(file, "second", Existing::kept); };
+  EXPECT_NE(complaint(again, ExitCode::cannot_create).find("file: exists already and is left as it is"), std::string::npos);
+  EXPECT_EQ(read_text_file(file, 100), "first");
+  replace_text_file(file, "second");
+  EXPECT_EQ(read_text_file(file, 100), "second");
+  auto const nowhere = [&] { replace_text_file(folder / "none" / "study.csv", ""); };
+  EXPECT_NE(complaint(nowhere, ExitCode::cannot_create).find("none/study.csv: cannot be created"), std::string::npos);
+  int files = 0;
+  for (auto const& entry : fs::directory_iterator(folder)) files += entry.is_regular_file() ? 1 : 0;
+  EXPECT_EQ(files, 1) << "no temporary one is left";
+}
+
 }  // namespace
 }  // namespace clathra

@@ -64,6 +64,31 @@ TEST(Units, AUnitOfTheWrongCaseIsRefusedWithTheRightOne) {
   EXPECT_EQ(refusal("2 x", Dimension::pressure), "has an unknown unit 'x' in '2 x'");
 }
 
+TEST(Units, SignsThatPeopleCopyAreRead) {
+  for (char const* const text : {"169.4 \xc2\xb5m", "169.4 \xce\xbcm", "169.4\xc2\xa0um"})
+    EXPECT_EQ(parse_quantity(text, Dimension::length), parse_quantity("169.4 um", Dimension::length)) << text;
+  EXPECT_EQ(parse_quantity("5 \xc2\xb0"
+                           "C",
+                           Dimension::temperature),
+            5);
+  EXPECT_EQ(parse_quantity("2 N/mm\xc2\xb2", Dimension::pressure), 2e6);
+  EXPECT_EQ(parse_quantity("2.6 g/cm\xc2\xb3", Dimension::density), 2600);
+}
+
+TEST(Units, AHintSaysHowToWriteWhatWasMeant) {
+  auto const said = [](char const* text, Dimension dimension) {
+    try {
+      return "read as " + std::to_string(parse_quantity(text, dimension));
+    } catch (std::invalid_argument const& problem) {
+      return std::string(problem.what());
+    }
+  };
+  EXPECT_EQ(said("55,0 %", Dimension::ratio), "has a decimal comma; write a point: 55.0 %");
+  EXPECT_EQ(said("0,1694mm", Dimension::length), "has a decimal comma; write a point: 0.1694mm");
+  EXPECT_EQ(said("1e6 N/m2", Dimension::pressure), "has an unknown unit 'm2' in '1e6 N/m2'; did you mean 'm^2'?");
+  EXPECT_EQ(said("2 g/cm3", Dimension::density), "has an unknown unit 'cm3' in '2 g/cm3'; did you mean 'cm^3'?");
+}
+
 TEST(Units, NonsenseIsRefusedAndNeverGuessed) {
   for (char const* const text : {"",
                                  " ",

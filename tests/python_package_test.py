@@ -109,9 +109,9 @@ class Package(unittest.TestCase):
 
 
     def test_numbers_of_numpy_are_numbers(self):
-        scene = {"sample": {"particles": np.int32(20), "void_ratio": np.float32(0.25)}, "output": {"energy": np.bool_(True), "snapshots_at": np.array([0.01, 0.02])}}
+        scene = {"sample": {"particles": np.int32(20), "void_ratio": np.float32(0.25)}, "output": {"energy": np.bool_(True), "snapshots_at": np.array([0.01, 0.02])}, "hydrate": {"saturation": np.array(0.5)}}
         text = clathra.program._toml(scene)
-        for line in ('"particles" = 20', '"void_ratio" = 0.25', '"energy" = true', '"snapshots_at" = [0.01, 0.02]'):
+        for line in ('"particles" = 20', '"void_ratio" = 0.25', '"energy" = true', '"snapshots_at" = [0.01, 0.02]', '"saturation" = 0.5'):
             self.assertIn(line + "\n", text)
 
     def test_runs_of_a_group_that_failed_are_none(self):

@@ -9,7 +9,7 @@ cd "$folder"
 fail() { echo "slurm: $*"; tail -n 40 ./*.log logs/* 2>/dev/null || true; exit 1; }
 
 # A cluster of one machine: sbatch runs each job of an array at once, in the order in which they come.
-mkdir bin "it's here"
+mkdir bin
 cat >bin/sbatch <<'END'
 #!/bin/bash
 array=0 name=? out=
@@ -22,24 +22,25 @@ while [ "${1#--}" != "$1" ]; do
   esac
   shift
 done
-cp "$1" job.sh # as Slurm does: the job does not see the script's own name
+cp "$1" "$CLUSTER/job.sh" # as Slurm does: the job does not see the script's own name
 shift
 for ((i = 1; i <= (array > 0 ? array : 1); ++i)); do
   variables=(SLURM_ARRAY_JOB_ID=7)
   [ "$array" = 0 ] || variables+=(SLURM_ARRAY_TASK_ID=$i)
-  env "${variables[@]}" bash job.sh "$@" >>"$name.log" 2>&1 || echo "$name $i ended with $?" >>ended.log
+  env "${variables[@]}" bash "$CLUSTER/job.sh" "$@" >>"$CLUSTER/$name.log" 2>&1 ||
+    echo "$name $i ended with $?" >>"$CLUSTER/ended.log"
 done
 echo 7
 END
 # Passes on what it is told to start, and writes down which note it was given.
 cat >bin/srun <<'END'
 #!/bin/bash
-echo "$NOTE" >>notes.log
+echo "$NOTE" >>"$CLUSTER/notes.log"
 exec "$@"
 END
 printf '#!/bin/bash\nexit 0\n' >bin/scontrol
 chmod +x bin/*
-export PATH=$PWD/bin:$PATH OMP_NUM_THREADS=1
+export PATH=$PWD/bin:$PATH CLUSTER=$PWD OMP_NUM_THREADS=1
 
 cat >base.toml <<'END'
 [sample]
@@ -64,9 +65,11 @@ END
 options=(--seeds 3 --force --set grains.friction=0.4 --set "run.damping=25 %" --checkpoint-every "10 min")
 "$clathra" study study.toml "${options[@]}" --output at-once >at-once.log 2>&1 || fail "the study at once failed"
 launcher="env \"NOTE=a 'quoted' \$note\" srun"
-"$clathra" study study.toml "${options[@]}" --output "it's here" --max-walltime "1 h" --threads 1 --launcher "$launcher" \
+"$clathra" study study.toml "${options[@]}" --output "it's hér€" --max-walltime "1 h" --threads 1 --launcher "$launcher" \
   --slurm "my script.sh" >script.log 2>&1 || fail "no script"
-bash "my script.sh" --partition=short >submitted.log 2>&1 || fail "the script failed"
+grep -q "submit it with: bash 'my script.sh'" script.log || fail "how to submit it: $(cat script.log)"
+# From wherever it is called.
+(mkdir elsewhere && cd elsewhere && bash "../my script.sh" --partition=short) >submitted.log 2>&1 || fail "the script failed"
 [ ! -e ended.log ] || fail "jobs failed: $(cat ended.log)"
 [ "$(sort -u notes.log)" = "a 'quoted' \$note" ] || fail "the launcher was not taken as it was given: $(sort -u notes.log)"
 [ "$(wc -l <notes.log)" = 12 ] || fail "not 3 specimens and 9 members: $(wc -l <notes.log)"
@@ -74,6 +77,6 @@ bash "my script.sh" --partition=short >submitted.log 2>&1 || fail "the script fa
 rows() { sed 's/,[^,]*,[^,]*$//' "$1/study.csv"; }
 [ "$(rows at-once | grep -c '^member,.*,finished,')" = 9 ] || fail "not all members are finished"
 rows at-once >a.rows
-rows "it's here" >b.rows
+rows "it's hér€" >b.rows
 cmp a.rows b.rows || fail "another study.csv: $(diff a.rows b.rows | head -n 4)"
-[ -s "it's here/study.html" ] || fail "no page"
+[ -s "it's hér€/study.html" ] || fail "no page"

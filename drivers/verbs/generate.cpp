@@ -37,10 +37,8 @@ std::string record_text(RunRecord const& record) {
 /// @throws FileProblem where the file could not be written, or is there and shall stay
 void require_free(std::string const& output, bool overwrite) {
   std::error_code ignored;
-  if (!overwrite && std::filesystem::is_regular_file(output, ignored))
-    throw FileProblem(
-        ExitCode::cannot_create, output,
-        "exists already and is left as it is; -o names another file, --overwrite puts the new specimen in its place");
+  if (!overwrite && !std::filesystem::is_directory(output, ignored))
+    require_no_file(output, "-o names another file, --overwrite puts the new specimen in its place");
   require_creatable(output);
 }
 
@@ -61,7 +59,7 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   if (std::string const warning = thread_warning(scene.run.threads); !warning.empty()) line.warn(warning);
   KokkosSession const kokkos;
   Specimen const specimen = generate_recorded(scene, show_stage(line, ranks), record, ranks);
-  write_specimen(output, specimen, ranks);
+  write_specimen(output, specimen, ranks, options.overwrite ? Existing::replaced : Existing::kept);
   line.repeat_warnings();
   return print_result(fmt::format("{}: {:.0f} discs\n{}", output, record.stages.at("generate").at("discs"), record_text(record)));
 }

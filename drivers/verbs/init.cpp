@@ -50,11 +50,10 @@ ExitCode write_template(InitOptions const& options) {
   }
   std::filesystem::path const path =
       options.output.empty() ? std::filesystem::path(options.example).filename().string() + ".toml" : options.output;
-  std::error_code error;
-  if (std::filesystem::exists(path, error))
-    throw FileProblem(ExitCode::cannot_create, path, "exists already and is left as it is; -o names another file");
+  require_no_file(path, "-o names another file");
   LoadedScene const loaded = parse_scene(std::string(found->text), options.example, path.parent_path());
-  replace_text_file(path, commented_scene(loaded.scene, loaded.stated, opening_comment(found->text), found->text));
+  replace_text_file(path, commented_scene(loaded.scene, loaded.stated, opening_comment(found->text), found->text),
+                    Existing::kept);
   return print_result(fmt::format("{} is written; check it with: clathra check {}\n", path.string(), path.string()));
 }
 

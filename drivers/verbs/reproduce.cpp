@@ -180,7 +180,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
   verb.add_option("--threads", options.threads, "threads of each test")->check(CLI::Range(1, 4096))->type_name("N");
   verb.add_option("--max-walltime", options.most_time, "stop after this time, tests with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
-      ->check(CLI::Validator(duration_problem, ""));
+      ->check(CLI::Validator(time_limit_problem, ""));
   verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and tests that another program made");
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what it will cost");
   verb.add_flag("--collect", options.collect, "only scorecard and report of what there is")->excludes(dry);

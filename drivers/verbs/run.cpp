@@ -87,7 +87,7 @@ void add_run(CLI::App& program, Verb& chosen) {
       ->excludes(resume);
   verb->add_option("--max-walltime", options->most_time, "stop after this time with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
-      ->check(CLI::Validator(duration_problem, ""));
+      ->check(CLI::Validator(time_limit_problem, ""));
   verb->add_option("--checkpoint-every", options->checkpoint_every, "time between checkpoints, 0s for none")
       ->capture_default_str()
       ->type_name("TIME")

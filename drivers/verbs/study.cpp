@@ -31,6 +31,15 @@ struct StudyOptions {
   std::string most_time, checkpoint_every = "10m";
 };
 
+/// @throws SceneProblems, named after the option
+StudyGoal goal_of(std::string const& text) {
+  try {
+    return study_goal(text);
+  } catch (std::invalid_argument const& problem) {
+    throw SceneProblems({{"--until " + text.substr(0, 100), 0, 0, problem.what()}});
+  }
+}
+
 Study study_of(StudyOptions const& options) {
   Study study = load_study(options.file);
   if (!options.output.empty()) study.folder = options.output;
@@ -39,7 +48,7 @@ Study study_of(StudyOptions const& options) {
     study.seeds.clear();
     for (int seed = 1; seed <= options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
   }
-  if (!options.until.empty()) study.until = study_goal(options.until);
+  if (!options.until.empty()) study.until = goal_of(options.until);
   if (options.most_seeds > 0) study.most_seeds = options.most_seeds;
   override_study(study, options.overrides);
   if (options.force) force_study(study);
@@ -88,7 +97,12 @@ ExitCode run_alone(StudyPlan const& plan, StudyOptions const& options) {
   if (static_cast<std::size_t>(number) > tasks.size())
     throw Refused(fmt::format("the study has {} {}, not {}", tasks.size(), specimen ? "specimens" : "members", number));
   StudyTask const& task = tasks[static_cast<std::size_t>(number) - 1];
+  claim_folder(plan.study.folder, "study");
   std::error_code ignored;
+  if (!specimen && task.specimen && !std::filesystem::exists(plan.specimens[*task.specimen].result, ignored))
+    throw FileProblem(
+        ExitCode::file_missing, plan.specimens[*task.specimen].result,
+        fmt::format("is not there, which the member {} needs: make it first (--specimen {})", task.name, *task.specimen + 1));
   for (char const* const folder : {"specimens", "members"})
     std::filesystem::create_directories(plan.study.folder / folder, ignored);
   if (specimen && std::filesystem::exists(task.result, ignored))
@@ -103,6 +117,7 @@ ExitCode run_alone(StudyPlan const& plan, StudyOptions const& options) {
 }
 
 ExitCode collect(StudyPlan& plan, StudyOptions const& options) {
+  claim_folder(plan.study.folder, "study");
   if (options.skip_refused) heed_guards(plan, true);
   ProgressLine line;
   find_all_finished(plan);
@@ -111,6 +126,8 @@ ExitCode collect(StudyPlan& plan, StudyOptions const& options) {
 
 /// A script, and beside it the study that its jobs read: without the groups that guards refuse, which jobs would count.
 ExitCode write_script(StudyPlan const& plan, StudyOptions const& options) {
+  for (std::string const& file : {options.slurm, options.slurm + ".toml"}) require_no_file(file, "--slurm names another script");
+  claim_folder(plan.study.folder, "study");  // which the jobs work in side by side
   Study study = plan.study;
   std::vector<StudyGroup> groups;
   for (std::size_t g = 0; g < study.groups.size(); ++g)
@@ -123,7 +140,7 @@ ExitCode write_script(StudyPlan const& plan, StudyOptions const& options) {
   write_slurm_script(script_plan, {options.slurm, options.launcher, options.threads, options.most_time, options.checkpoint_every,
                                    options.allow_mixed});
   return print_result(fmt::format("{}: {} specimens, {} members; submit it with: bash {}\n", options.slurm,
-                                  script_plan.specimens.size(), script_plan.runs.size(), options.slurm));
+                                  script_plan.specimens.size(), script_plan.runs.size(), shell_word(options.slurm)));
 }
 
 /// Everything, wave by wave. Whatever ends it, there are a table and a page of what was done.
@@ -166,8 +183,11 @@ ExitCode study(StudyOptions const& options) {
   return run_all(plan, limits);
 }
 
-/// Options that let the study do what it else refuses.
-void add_leave(CLI::App& verb, StudyOptions& options) {
+/// Options of how members are started, and what they may do that is else refused.
+void add_members_options(CLI::App& verb, StudyOptions& options) {
+  verb.add_option("--launcher", options.launcher, "starts each member: \"mpirun -n 2\", \"srun -n 4\"")
+      ->type_name("COMMAND")
+      ->check(CLI::Validator(words_problem, ""));
   verb.add_flag("--force", options.force, "members go on where a guard refuses");
   verb.add_flag("--skip-refused", options.skip_refused, "leave out the groups that a guard refuses");
   verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and members that another program made");
@@ -180,10 +200,10 @@ void add_parts(CLI::App& verb, StudyOptions& options) {
                           ->type_name("FILE")
                           ->check(CLI::Validator(name_problem, ""));
   auto* const member = verb.add_option("--member", options.member, "only run this member, counted from 1: a job of an array")
-                           ->check(CLI::PositiveNumber)
+                           ->check(CLI::Range(1, static_cast<int>(most_members)))
                            ->type_name("N");
   auto* const specimen = verb.add_option("--specimen", options.specimen, "only make this specimen, counted from 1")
-                             ->check(CLI::PositiveNumber)
+                             ->check(CLI::Range(1, static_cast<int>(most_members)))
                              ->type_name("N");
   auto* const collected = verb.add_flag("--collect", options.collect, "only write study.csv and the page of what there is");
   for (auto* const one : {dry, slurm, member, specimen, collected})
@@ -221,11 +241,10 @@ void add_study(CLI::App& program, Verb& chosen) {
   verb->add_option("--threads", options->threads, "threads of each member (default: one, more where cores are left over)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  verb->add_option("--launcher", options->launcher, "starts each member: \"mpirun -n 2\", \"srun -n 4\"")->type_name("COMMAND");
-  add_leave(*verb, *options);
+  add_members_options(*verb, *options);
   verb->add_option("--max-walltime", options->most_time, "stop after this time, members with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
-      ->check(time);
+      ->check(CLI::Validator(time_limit_problem, ""));
   verb->add_option("--checkpoint-every", options->checkpoint_every, "time between checkpoints of a member, 0s for none")
       ->capture_default_str()
       ->type_name("TIME")

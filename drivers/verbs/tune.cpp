@@ -221,9 +221,7 @@ ExitCode conclude(Tuning const& tuning, fs::path const& output) {
 ExitCode tune(TuneOptions const& options) {
   TuneGoal const goal = tune_goal(options.quantity, options.tolerance);
   fs::path const output = output_of(options);
-  std::error_code ignored;
-  if (fs::exists(output, ignored))
-    throw FileProblem(ExitCode::cannot_create, output, "exists already and is left as it is; -o names another file");
+  require_no_file(output, "-o names another file");
   fs::path const folder =
       options.folder.empty() ? fs::path("out") / (fs::path(options.scene).stem().string() + "-tune") : fs::path(options.folder);
   TunePlan plan = plan_tune(options.scene, options.overrides, goal, options.discs, folder);

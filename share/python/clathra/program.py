@@ -41,7 +41,7 @@ def _toml_value(value):
             raise ValueError(f"a scene's value is a finite number, not {value}")
         return repr(float(value))
     if isinstance(value, np.ndarray):
-        value = value.tolist()
+        return _toml_value(value.tolist())  # an array without axes is a number
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml_value(item) for item in value) + "]"
     if isinstance(value, (str, os.PathLike)):
@@ -109,6 +109,8 @@ def _call(verb, what, output, progress, options):
         arguments += [made or os.fspath(what), "--output", os.fspath(output)]
         for name, value in options.items():
             option = "--" + name.replace("_", "-")
+            if isinstance(value, np.ndarray):
+                value = value.tolist()
             if isinstance(value, (bool, np.bool_)):
                 arguments += [option] if value else []
             elif isinstance(value, (list, tuple)):  # an option that may be repeated

@@ -205,6 +205,9 @@ double BiaxialTest::strain_fraction() const { return state_->eps1() / state_->sc
 std::int64_t BiaxialTest::disc_steps() const {
   return state_->disc_steps + state_->simulation->steps() * state_->simulation->discs();
 }
+std::int64_t BiaxialTest::shear_disc_steps() const {
+  return (state_->simulation->steps() - state_->first_step) * state_->simulation->discs();
+}
 double BiaxialTest::search_seconds() const { return state_->simulation->rebuild_seconds(); }
 std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->hash(); }
 

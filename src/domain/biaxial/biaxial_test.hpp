@@ -49,7 +49,8 @@ class BiaxialTest {
   std::vector<std::string> shear_warnings() const;
   StageRecord shear_checks() const;
   BreakEvents events_after(std::int64_t step) const;  ///< those already taken that came later; on rank 0 only
-  std::int64_t disc_steps() const;
+  std::int64_t disc_steps() const;                    ///< of consolidation and shear
+  std::int64_t shear_disc_steps() const;              ///< since the shear began
   double search_seconds() const;  ///< wall time of the neighbour searches since the bonds were installed, or since resuming
   std::uint64_t state_hash() const;
   Specimen specimen() const;  ///< the present state, to go on from

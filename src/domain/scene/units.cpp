@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace clathra {
 namespace {
@@ -134,6 +135,9 @@ bool same_but_for_case(std::string_view a, std::string_view b) {
 /// "; did you mean 'MPa'?" for "Mpa", or nothing; of units that differ in their case alone (mN, MN) it names all.
 std::string unit_suggestion(std::string_view name) {
   std::string hint;
+  if (std::string_view const letters = name.substr(0, name.find_last_not_of("0123456789") + 1);
+      letters.size() < name.size() && find_unit(letters))
+    return "; did you mean '" + std::string(letters) + "^" + std::string(name.substr(letters.size())) + "'?";
   for (Unit const& unit : units) {
     if (!same_but_for_case(unit.name, name)) continue;
     hint += hint.empty() ? "; did you mean '" : " or '";
@@ -199,10 +203,30 @@ bool fits(Powers powers, Dimension dimension) {
   return powers == entry(dimension).powers;
 }
 
+/// The signs that people copy from elsewhere, in the letters of our units: two kinds of mu, degrees, powers, the space that does
+/// not break.
+std::string in_ascii(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> signs[] = {
+      {"\xc2\xb5", "u"},  {"\xce\xbc", "u"}, {"\xc2\xb0", "deg"},  {"\xc2\xb2", "^2"},
+      {"\xc2\xb3", "^3"}, {"\xc2\xa0", " "}, {"\xe2\x80\xaf", " "}};
+  std::string plain(text);
+  for (auto const& [sign, letters] : signs)
+    for (std::size_t at = 0; (at = plain.find(sign, at)) != std::string::npos; at += letters.size())
+      plain.replace(at, sign.size(), letters);
+  return plain;
+}
+
+/// "write 55.0 %" for a number with a decimal comma; nothing for others.
+std::string comma_hint(std::string_view number, std::string_view rest) {
+  if (rest.size() < 2 || rest[0] != ',' || rest[1] < '0' || rest[1] > '9') return {};
+  return "has a decimal comma; write a point: " + std::string(number) + "." + std::string(rest.substr(1));
+}
+
 }  // namespace
 
 double parse_quantity(std::string_view text, Dimension dimension) {
-  std::string_view const whole = trimmed(text);
+  std::string const plain = in_ascii(text);
+  std::string_view const whole = trimmed(plain);
   DimensionEntry const& wanted = entry(dimension);
   auto const refuse = [&](std::string const& got) {
     throw std::invalid_argument("needs " + std::string(wanted.name) + ", got " + got +
@@ -211,6 +235,7 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   std::size_t const length = number_length(whole);
   if (length == 0) refuse(quoted(whole));
   std::string_view const number = whole.substr(0, length), unit_text = trimmed(whole.substr(length));
+  if (std::string hint = comma_hint(number, unit_text); !hint.empty()) throw std::invalid_argument(std::move(hint));
   if (unit_text.empty()) {
     if (dimension == Dimension::temperature) refuse("a bare number (" + quoted(whole) + "), which could be degC or K");
     return shifted_number(number, 0);

@@ -315,25 +315,25 @@ std::string Hdf5File::text_attribute(std::string const& name) const {
 namespace {
 
 /// Flushes a finished file to the disk and gives it its final name.
-void publish(std::filesystem::path const& temporary, std::filesystem::path const& path) {
+void publish(std::filesystem::path const& temporary, std::filesystem::path const& path, Existing existing) {
   int const descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
   bool const flushed = descriptor >= 0 && ::fsync(descriptor) == 0;
   if (descriptor >= 0) ::close(descriptor);
-  if (!flushed || ::rename(temporary.c_str(), path.c_str()) != 0)
-    throw FileProblem(ExitCode::io_error, path, "cannot be written: " + std::generic_category().message(errno));
+  if (!flushed) throw FileProblem(ExitCode::io_error, path, "cannot be written: " + std::generic_category().message(errno));
+  give_name(temporary, path, existing);
 }
 
 }  // namespace
 
-void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content,
-                       Ranks const& ranks) {
+void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content, Ranks const& ranks,
+                       Existing existing) {
   std::filesystem::path const temporary = path.string() + ranks.from_root(fmt::format(".tmp-{}", ::getpid()));
   if (ranks.root()) ::unlink(temporary.c_str());
   try {
     Hdf5File file = Hdf5File::create(temporary, ranks);
     write_content(file);
     file.close();
-    on_root(ranks, [&] { publish(temporary, path); });
+    on_root(ranks, [&] { publish(temporary, path, existing); });
   } catch (FileProblem const& problem) {
     if (ranks.root()) ::unlink(temporary.c_str());
     std::string text = problem.what();  // named after the file that the user knows

@@ -10,6 +10,7 @@
 
 #include "domain/parallel/ranks.hpp"
 #include "io/errors/problems.hpp"
+#include "io/formats/text_file.hpp"
 
 namespace clathra {
 
@@ -78,8 +79,8 @@ class Hdf5File {
 };
 
 /// Puts an HDF5 file in place of whatever has that name: written under a temporary name, flushed to the disk, renamed. A reader
-/// sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error
+/// sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error, as give_name()
 void replace_hdf5_file(std::filesystem::path const& path, std::function<void(Hdf5File&)> const& write_content,
-                       Ranks const& ranks = {});
+                       Ranks const& ranks = {}, Existing existing = Existing::replaced);
 
 }  // namespace clathra

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "io/errors/problems.hpp"
 
@@ -16,10 +17,11 @@ namespace {
 
 std::string reason(char const* what) { return fmt::format("{}: {}", what, std::generic_category().message(errno)); }
 
-int create(std::filesystem::path const& path) {
+/// @param known  what the user knows the file as
+int create(std::filesystem::path const& path, std::filesystem::path const& known) {
   ::unlink(path.c_str());
   int const descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (descriptor < 0) throw FileProblem(ExitCode::cannot_create, path, reason("cannot be created"));
+  if (descriptor < 0) throw FileProblem(ExitCode::cannot_create, known, reason("cannot be created"));
   return descriptor;
 }
 
@@ -85,21 +87,36 @@ std::string read_text_file(std::filesystem::path const& path, std::size_t limit,
   return text;
 }
 
-void replace_text_file(std::filesystem::path const& path, std::string_view text) {
+void require_no_file(std::filesystem::path const& path, std::string_view instead) {
+  std::error_code ignored;
+  if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored)))
+    throw FileProblem(ExitCode::cannot_create, path, fmt::format("exists already and is left as it is; {}", instead));
+}
+
+void give_name(std::filesystem::path const& temporary, std::filesystem::path const& path, Existing existing) {
+  constexpr char another_name[] = "choose another name";
+  if (existing == Existing::kept) {
+    if (::link(temporary.c_str(), path.c_str()) == 0) {
+      ::unlink(temporary.c_str());
+      return;
+    }
+    require_no_file(path, another_name);  // a file system without hard links goes on to the rename
+  }
+  if (::rename(temporary.c_str(), path.c_str()) != 0) throw FileProblem(ExitCode::io_error, path, reason("cannot be written"));
+}
+
+void replace_text_file(std::filesystem::path const& path, std::string_view text, Existing existing) {
   std::filesystem::path const temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
-  int const descriptor = create(temporary);
+  int descriptor = create(temporary, path);
   try {
     write_all(descriptor, text, path);
     if (::fsync(descriptor) != 0) throw FileProblem(ExitCode::io_error, path, reason("cannot be written"));
+    if (::close(std::exchange(descriptor, -1)) != 0) throw FileProblem(ExitCode::io_error, path, reason("cannot be written"));
+    give_name(temporary, path, existing);
   } catch (...) {
-    ::close(descriptor);
+    if (descriptor >= 0) ::close(descriptor);
     ::unlink(temporary.c_str());
     throw;
-  }
-  if (::close(descriptor) != 0 || ::rename(temporary.c_str(), path.c_str()) != 0) {
-    FileProblem const problem(ExitCode::io_error, path, reason("cannot be written"));
-    ::unlink(temporary.c_str());
-    throw problem;
   }
 }
 
@@ -115,7 +132,7 @@ void require_creatable(std::filesystem::path const& path) {
   ::unlink(temporary.c_str());
 }
 
-RowFile::RowFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(create(path_)) {}
+RowFile::RowFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(create(path_, path_)) {}
 
 RowFile::RowFile(std::filesystem::path path, std::uintmax_t bytes) : path_(std::move(path)), bytes_(bytes) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);

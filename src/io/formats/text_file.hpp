@@ -15,9 +15,19 @@ namespace clathra {
 std::string read_text_file(std::filesystem::path const& path, std::size_t limit,
                            std::chrono::milliseconds patience = std::chrono::seconds(10));
 
+/// What becomes of a file that has the name of one that is written.
+enum class Existing { replaced, kept };
+
+/// Gives a finished file its final name. @throws FileProblem io_error; cannot_create where there is a file of that name that is
+/// to be kept: also one that was not there when the work began
+void give_name(std::filesystem::path const& temporary, std::filesystem::path const& path, Existing existing);
+
 /// Puts a file with this text in place of whatever has that name: written under a temporary name, flushed to the disk, renamed. A
-/// reader sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error
-void replace_text_file(std::filesystem::path const& path, std::string_view text);
+/// reader sees the old file or the new one, never a part. @throws FileProblem cannot_create or io_error, as give_name()
+void replace_text_file(std::filesystem::path const& path, std::string_view text, Existing existing = Existing::replaced);
+
+/// @throws FileProblem cannot_create where there is something of that name. @param instead  what the user may do then
+void require_no_file(std::filesystem::path const& path, std::string_view instead);
 
 /// Whether a file of this name could be put there, without doing it: for work that takes long before it writes.
 /// @throws FileProblem cannot_create where the name is that of a folder, or nothing can be made beside it

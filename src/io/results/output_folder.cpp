@@ -16,7 +16,7 @@
 namespace clathra {
 namespace {
 
-constexpr char lock_name[] = ".lock";
+constexpr char lock_name[] = ".lock", next_lock[] = ".lock.tmp-";
 constexpr std::size_t records = 3;  // come first: they say what is run and are no results of it
 constexpr std::string_view results[] = {"run.json",    "input.toml",     "resolved.toml", "history.csv", "events.csv",
                                         "specimen.h5", "particles.xdmf", "contacts.xdmf", "report.html", "final.h5"};
@@ -57,30 +57,20 @@ void require_own(std::filesystem::path const& folder, std::string_view verb) {
   if (marked == fmt::format("clathra {}", verb)) return;
   if (!marked.empty())
     throw FileProblem(ExitCode::refused, folder,
-                      fmt::format("holds results of `{}`, not of `clathra {}`; choose another (--output)", marked, verb));
+                      fmt::format("holds results of `{}`, not of `clathra {}`; choose another folder", marked, verb));
   std::error_code error;
   auto const entries = std::filesystem::directory_iterator(folder, error);
   if (error) throw FileProblem(ExitCode::cannot_create, folder, "cannot be read: " + error.message());
-  // An empty marker alone was left by a program that was killed at once.
+  // An empty marker alone, or one that is not in place yet, was left by a program that was killed at once.
   auto const is_other = [&](std::filesystem::directory_entry const& entry) {
-    return entry.path().filename() != lock_name || std::filesystem::is_symlink(entry.path()) || !entry.is_regular_file() ||
-           entry.file_size() > 0;
+    std::string const name = entry.path().filename().string();
+    bool const ours = name == lock_name || name.starts_with(next_lock);
+    return !ours || std::filesystem::is_symlink(entry.path()) || !entry.is_regular_file() ||
+           (name == lock_name && entry.file_size() > 0);
   };
   if (std::any_of(begin(entries), end(entries), is_other))
     throw FileProblem(ExitCode::refused, folder,
-                      fmt::format("is not empty and not of an earlier `clathra {}`; choose another (--output)", verb));
-}
-
-void make_folder(std::filesystem::path const& folder, std::string_view verb) {
-  std::error_code error;
-  if (std::filesystem::is_symlink(folder, error))
-    throw FileProblem(ExitCode::refused, folder, "is a link; name the folder itself");
-  bool const exists = std::filesystem::exists(folder, error);
-  if (exists && !std::filesystem::is_directory(folder, error))
-    throw FileProblem(ExitCode::cannot_create, folder, "is not a folder");
-  if (!exists && !std::filesystem::create_directories(folder, error))
-    throw FileProblem(ExitCode::cannot_create, folder, "cannot be created: " + error.message());
-  if (exists) require_own(folder, verb);
+                      fmt::format("is not empty and not of an earlier `clathra {}`; choose another folder", verb));
 }
 
 /// Tries to hold a file. @return 0, or the error: EWOULDBLOCK where another process holds it
@@ -101,26 +91,42 @@ int hold(int descriptor) {
 
 std::span<std::string_view const> result_files() { return results; }
 
+void claim_folder(std::filesystem::path const& folder, std::string_view verb) {
+  std::error_code error;
+  if (std::filesystem::is_symlink(folder, error))
+    throw FileProblem(ExitCode::refused, folder, "is a link; name the folder itself");
+  bool const exists = std::filesystem::exists(folder, error);
+  if (exists && !std::filesystem::is_directory(folder, error))
+    throw FileProblem(ExitCode::cannot_create, folder, "is not a folder");
+  if (!exists && !std::filesystem::create_directories(folder, error))
+    throw FileProblem(ExitCode::cannot_create, folder, "cannot be created: " + error.message());
+  if (exists) require_own(folder, verb);
+  if (!marked_as(folder).empty()) return;
+  // Others may be at it: whole, and never in the place of another's.
+  if (std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / lock_name, error)) &&
+      std::filesystem::file_size(folder / lock_name, error) == 0)
+    std::filesystem::remove(folder / lock_name, error);
+  try {
+    replace_text_file(folder / lock_name, marker_text(verb), Existing::kept);
+  } catch (FileProblem const&) {
+    if (marked_as(folder).empty()) throw;
+  }
+  require_own(folder, verb);
+}
+
 OutputFolder::OutputFolder(std::filesystem::path folder, std::string_view verb) : folder_(std::move(folder)) {
-  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/": a link would not be seen behind the slash
-  make_folder(folder_, verb);
-  lock_ = ::open((folder_ / lock_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
+  folder_ = folder_.lexically_normal();
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/", "out/.": a link would not be seen behind the slash
+  claim_folder(folder_, verb);
+  lock_ = ::open((folder_ / lock_name).c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (lock_ < 0)
     throw FileProblem(ExitCode::cannot_create, folder_, "cannot be written: " + std::generic_category().message(errno));
   int const error = hold(lock_);
   if (error == EWOULDBLOCK) {
     ::close(lock_);
-    throw FileProblem(ExitCode::cannot_create, folder_, "another run is writing into this folder; choose another (--output)");
+    throw FileProblem(ExitCode::cannot_create, folder_, "another run is writing into this folder; choose another folder");
   }
   held_ = error == 0;
-  if (!marked_as(folder_).empty()) return;
-  std::string const text = marker_text(verb);
-  if (::pwrite(lock_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
-    FileProblem const problem(ExitCode::io_error, folder_ / lock_name,
-                              "cannot be written: " + std::generic_category().message(errno));
-    ::close(lock_);
-    throw problem;
-  }
 }
 
 std::string OutputFolder::lock_warning() const {

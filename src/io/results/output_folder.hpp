@@ -13,6 +13,10 @@ std::span<std::string_view const> result_files();
 /// The specimen of a run that will take the place of an earlier one, until it does.
 inline constexpr char next_specimen[] = "specimen.h5.next";
 
+/// Makes the folder with its marker, which says that it holds results of this verb, or makes sure that it is such a one; without
+/// a lock: for programs that work in it side by side. @throws FileProblem as OutputFolder does
+void claim_folder(std::filesystem::path const& folder, std::string_view verb);
+
 /// Makes the folder and locks it against a second run. A file in it, the marker, says which verb's results it holds.
 class OutputFolder {
  public:

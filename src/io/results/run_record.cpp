@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include "domain/parallel/ranks.hpp"
 #include "io/formats/digest.hpp"
@@ -35,6 +37,18 @@ struct SetFromJson {
   nlohmann::json const& value;
   template <class T>
   void operator()(T& (*at)(Scene&)) const {
+    bool fits = value.is_string();
+    if constexpr (std::is_same_v<T, bool>)
+      fits = value.is_boolean();
+    else if constexpr (std::is_same_v<T, double>)
+      fits = value.is_number();
+    else if constexpr (std::is_unsigned_v<T>)
+      fits = value.is_number_unsigned();
+    else if constexpr (std::is_integral_v<T>)
+      fits = value.is_number_integer() && std::in_range<T>(value.get<std::int64_t>());
+    else if constexpr (!std::is_same_v<T, std::string>)
+      fits = value.is_array();
+    if (!fits) throw std::invalid_argument(fmt::format("{} is {}", key.name, value.dump().substr(0, 40)));
     value.get_to(at(scene));
   }
   void operator()(ChoiceField const& field) const {
@@ -63,14 +77,16 @@ Json meaning_json() {
           {"stages.shear.secant_modulus_Pa", "E50: half the peak of q over the axial strain where q first gets there"},
           {"stages.prepare.rate_share", "part of the rate of test.inertial_number to which test.wave_number has lowered it"},
           {"wall_seconds.generate", "making the specimen"},
-          {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; of a resumed run reading its checkpoint"},
-          {"wall_seconds.shear",
-           "steps, records and snapshots, since the last resume; neighbour_searches and checkpoints are parts of it"}};
+          {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; reading checkpoints where it was resumed"},
+          {"wall_seconds.shear", "steps, records and snapshots; neighbour_searches and checkpoints are parts of it"},
+          {"wall_seconds", "of all sessions of a run that was resumed; one that was killed had not said how long it took"},
+          {"disc_steps_per_second", "of the last session"}};
 }
 
 Json input_json(RunRecord const& record) {
   Json input = {{"digest_xxh3_128", text_digest(record.input.source)}, {"overrides", record.input.overrides}};
-  if (!record.specimen_digest.empty()) input["specimen_digest_xxh3_128"] = record.specimen_digest;
+  if (!record.digests.specimen.empty()) input["specimen_digest_xxh3_128"] = record.digests.specimen;
+  if (!record.digests.grading.empty()) input["grading_digest_xxh3_128"] = record.digests.grading;
   if (!record.checkpoint_digest.empty()) input["checkpoint_digest_xxh3_128"] = record.checkpoint_digest;
   return input;
 }
@@ -109,9 +125,12 @@ nlohmann::json scene_json(Scene const& scene) {
 
 Scene scene_of(nlohmann::json const& json) {
   Scene scene;
+  if (!json.is_object()) throw std::invalid_argument("its scene has no sections");
   for (Key const& key : schema()) {
     auto const section = json.find(std::string(key.section()));
-    if (section == json.end() || !section->contains(std::string(key.leaf()))) continue;
+    if (section == json.end()) continue;
+    if (!section->is_object()) throw std::invalid_argument(fmt::format("{} is no section", key.section()));
+    if (!section->contains(std::string(key.leaf()))) continue;
     std::visit(SetFromJson{key, scene, section->at(std::string(key.leaf()))}, key.field);
   }
   return scene;

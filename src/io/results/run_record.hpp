@@ -10,6 +10,7 @@
 
 #include "domain/scene/scene.hpp"
 #include "domain/scene/stage.hpp"
+#include "io/results/input_digests.hpp"
 #include "io/scene/scene_file.hpp"
 
 namespace clathra {
@@ -18,7 +19,7 @@ namespace clathra {
 struct RunRecord {
   std::string version, git_hash;
   LoadedScene input;
-  std::string specimen_digest;    ///< of the specimen file that was read, if one was
+  InputDigests digests;           ///< of the files that were read
   std::string checkpoint_digest;  ///< of the checkpoint that the run went on from, if it did
   int threads = 0;                ///< of each rank
   int ranks = 1;

@@ -169,10 +169,10 @@ Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std
 
 }  // namespace
 
-void write_specimen(std::filesystem::path const& path, Specimen share, Ranks const& ranks) {
+void write_specimen(std::filesystem::path const& path, Specimen share, Ranks const& ranks, Existing existing) {
   if (!ranks.alone()) share = by_id_blocks(ranks, std::move(share));
   replace_hdf5_file(
-      path, [&](Hdf5File& file) { write_content(file, share, ranks); }, ranks);
+      path, [&](Hdf5File& file) { write_content(file, share, ranks); }, ranks, existing);
 }
 
 Specimen read_specimen(std::filesystem::path const& path, Ranks const& ranks) {

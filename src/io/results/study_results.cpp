@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "io/formats/digest.hpp"
 #include "io/results/run_record.hpp"
 #include "io/results/run_results.hpp"
 
@@ -158,6 +159,10 @@ class Table {
 
 void read_member(MemberResult& member, std::filesystem::path const& run_folder) {
   RunResults const run = read_run(run_folder);
+  std::filesystem::path const history = run_folder / "history.csv";
+  if (run.text("/result_digests_xxh3_128/history.csv").value_or("") != file_digest(history))
+    throw FileProblem(ExitCode::bad_input, history,
+                      "is not the one that its run.json says the run wrote; without the folder the study runs this member anew");
   std::map<std::string, double> numbers;
   for (char const* const stage : {"prepare", "shear"}) {
     nlohmann::json const section = section_of(run.record, {"stages", stage}, run_folder);

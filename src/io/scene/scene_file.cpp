@@ -31,7 +31,11 @@ std::string list_text(TomlList const& list) {
   std::string text;
   for (TomlNode const& item : list) {
     if (!text.empty()) text += ',';
-    if (auto const* const quoted = item.as<std::string>())
+    auto const* const quoted = item.as<std::string>();
+    if (quoted && quoted->find(',') != std::string::npos)
+      throw std::invalid_argument(
+          fmt::format("needs one quantity in each item of its list, with a decimal point, got '{}'", quoted->substr(0, 40)));
+    if (quoted)
       text += *quoted;
     else if (auto const* const whole = item.as<std::int64_t>())
       text += fmt::format("{}", *whole);

@@ -17,6 +17,18 @@ bool is_not_finite(std::string_view line, std::size_t at) {
   return at + 3 >= line.size() || !is_word(line[at + 3]);
 }
 
+/// How many bytes the UTF-8 character at `at` has; 0 where there is none: stray, cut or overlong bytes, half a pair of UTF-16.
+std::size_t utf8_length(std::string_view line, std::size_t at) {
+  auto const byte = [&](std::size_t k) { return at + k < line.size() ? static_cast<unsigned char>(line[at + k]) : 0u; };
+  unsigned const first = byte(0), second = byte(1);
+  std::size_t const length = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte(k) & 0xc0u) != 0x80u) return 0;
+  bool const overlong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90),
+             outside = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
+  return overlong || outside ? 0 : length;
+}
+
 /// What is wrong with a text that begins with a byte order mark, or nothing.
 std::string byte_order_mark(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) return "begins with a byte order mark: save it as UTF-8 without one, or as ASCII";
@@ -24,10 +36,13 @@ std::string byte_order_mark(std::string_view text) {
   return {};
 }
 
+constexpr int most_dots = 8;  // of a dotted name: each is a table in a table for a parser that calls itself
+
 /// Checks one line, appends it to the result with its comment blanked out. Reports the first problem only.
 /// One loop over the characters with the state of the quotes; cutting it up would hide that.
 void guard_line(std::string_view line, int number, std::string const& file, GuardedText& result) {
   char quote = 0;
+  int dots = 0;  // since what separates names and values
   bool comment = false, escaped = false, reported = false;
   auto const report = [&](std::size_t at, std::string text) {
     if (!reported) result.problems.push_back({file, number, static_cast<int>(at) + 1, std::move(text)});
@@ -41,16 +56,26 @@ void guard_line(std::string_view line, int number, std::string const& file, Guar
     if (!comment && quote == 0 && c == '#') comment = true;
     result.text += comment && !end_of_line ? ' ' : c;
     if (comment || end_of_line) continue;
-    if ((c < ' ' && c != '\t') || c > '~')
-      report(i, c >= 0 && c < ' ' ? "control characters are not allowed" : "only ASCII characters are allowed outside comments");
+    std::size_t const bytes = utf8_length(line, i);
+    if (bytes == 0)
+      report(i, "the text is not UTF-8");
+    else if (bytes > 1 && quote == 0)
+      report(i, "only ASCII characters are allowed outside quotes and comments");
+    else if (bytes > 1)
+      result.text += line.substr(i + 1, bytes - 1), i += bytes - 1;
+    else if ((c < ' ' && c != '\t') || c > '~')
+      report(i, "control characters are not allowed");
     else if (quote == 0 && (line.substr(i, 3) == "\"\"\"" || line.substr(i, 3) == "'''"))
       report(i, "a scene has no multi-line strings");
     else if (quote == 0 && is_not_finite(line, i))
       report(i, "nan and inf are not allowed");
+    else if (quote == 0 && (c == '.' ? ++dots : dots) > most_dots)
+      report(i, fmt::format("a name has at most {} dots", most_dots));
     else if (quote == 0 && (c == '"' || c == '\''))
       quote = c;
     else if (c == quote && !escaped)
       quote = 0;
+    if (quote == 0 && std::string_view("=,[]{}").find(c) != std::string_view::npos) dots = 0;
     escaped = quote == '"' && c == '\\' && !escaped;
   }
 }

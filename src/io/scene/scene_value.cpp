@@ -33,7 +33,7 @@ void check_range(Key const& key, double value, bool bare) {
                                  is_quantity(key) ? format_quantity(value, key.dimension) : format_number(value));
   if (!key.zero.empty()) text += fmt::format(" (0: {})", key.zero);
   if (is_quantity(key) && key.dimension == Dimension::ratio) {
-    if (key.most <= 1 && value > 1 && value <= 100)
+    if (bare && key.most <= 1 && value > 1 && value <= 100)
       text += fmt::format("; this looks like percent: write {} or \"{} %\"", format_number(value / 100), format_number(value));
   } else if (is_quantity(key) && bare) {
     text +=
@@ -50,10 +50,10 @@ void set_quantity(Key const& key, Scene& scene, double value, bool bare) {
 
 bool is_bare(std::string_view text) { return text.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos; }
 
-void set_quantities(Key const& key, Scene& scene, std::vector<double> values) {
+void set_quantities(Key const& key, Scene& scene, std::vector<double> values, bool bare) {
   for (double const value : values) {
     if (!std::isfinite(value)) refuse("must be finite");
-    check_range(key, value, true);
+    check_range(key, value, bare);
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -155,7 +155,7 @@ void set_from_text(Key const& key, Scene& scene, std::string_view text) {
       return set_quantity(key, scene, value, is_bare(text));
     }
     case Kind::quantities:
-      return set_quantities(key, scene, quantities_in(key, text));
+      return set_quantities(key, scene, quantities_in(key, text), text.find('%') == std::string_view::npos);
     case Kind::integer:
       return set_integer_text(key, scene, text);
     case Kind::boolean:
@@ -175,7 +175,7 @@ void set_from_number(Key const& key, Scene& scene, double value) {
     if (value != std::floor(value)) refuse("needs a whole number, got " + format_number(value));
     return store_integer(key, scene, static_cast<std::int64_t>(value));
   }
-  if (key.kind == Kind::quantities) return set_quantities(key, scene, {value});
+  if (key.kind == Kind::quantities) return set_quantities(key, scene, {value}, true);
   if (key.kind != Kind::quantity) refuse(fmt::format("needs {}, got a number ({})", kind_name(key), format_number(value)));
   if (key.dimension == Dimension::temperature) parse_quantity(format_number(value), key.dimension);  // refuses: deg C or K?
   set_quantity(key, scene, value, true);

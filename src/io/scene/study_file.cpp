@@ -275,7 +275,7 @@ class StudyReader {
                            name.substr(0, most_letters), most_letters));
         continue;
       }
-      StudyGroup group{name, {}, name};
+      StudyGroup group{name, {}, ""};
       for_each_key(node, "groups.NAME", [&](std::string const& key_name, TomlNode const& value_node) {
         if (key_name == "material") return read_material(value_node, group);
         if (Key const* const key = known(key_name, value_node))
@@ -283,6 +283,24 @@ class StudyReader {
       });
       named_.push_back(std::move(group));
     }
+    name_materials();
+  }
+
+  /// Groups whose material is not stated and that differ in nothing but the confining stress are tests of one material.
+  void name_materials() {
+    auto const without_stress = [](StudyGroup const& group) {
+      std::map<std::string, std::string> settings(group.settings.begin(), group.settings.end());
+      settings.erase(stress_key);
+      return settings;
+    };
+    std::map<std::map<std::string, std::string>, std::string> names;
+    for (StudyGroup const& group : named_) {
+      if (!group.material.empty()) continue;
+      std::string& name = names[without_stress(group)];
+      if (name.size() + group.name.size() < most_letters) name += (name.empty() ? "" : "+") + group.name;
+    }
+    for (StudyGroup& group : named_)
+      if (group.material.empty()) group.material = names.at(without_stress(group));
   }
 
   void read_material(TomlNode const& node, StudyGroup& group) {

@@ -7,7 +7,7 @@
 ///     "hydrate.saturation" = ["26 %", "41 %", "55 %"]
 ///     "test.confining_stress" = { from = "1 MPa", to = "3 MPa", count = 3 }
 ///     [groups.dense]             # named sets of keys, each of them with the whole matrix
-///     material = "dense sand"    # groups of one material share an envelope; left out, it is the name of the group
+///     material = "dense sand"    # groups of one material share an envelope; left out, those that differ in their stress alone
 ///     "sample.void_ratio" = 0.2
 #include <cstdint>
 #include <filesystem>
@@ -43,9 +43,10 @@ struct Study {
   std::filesystem::path file, scene;
   std::filesystem::path folder;  ///< of the results: "out/" and the name of the file, where it does not say
   std::vector<std::uint64_t> seeds;
-  bool seeds_stated = false;       ///< else these are the usual ones
-  std::vector<StudyGroup> groups;  ///< one at least
-  std::vector<std::string> keys;   ///< of all settings, in the order in which they first appear (add_key())
+  bool seeds_stated = false;        ///< else these are the usual ones
+  std::vector<StudyGroup> groups;   ///< one at least
+  std::vector<std::string> keys;    ///< of all settings, in the order in which they first appear (add_key())
+  std::vector<Setting> overridden;  ///< those of the settings that the command line stated
   std::optional<StudyGoal> until;
   int most_seeds = 40;  ///< with a goal
 };

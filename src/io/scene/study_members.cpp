@@ -27,6 +27,8 @@ std::string echoed(std::string const& key_name, std::string const& text) {
   return value_text(*key, scene);
 }
 
+std::string key_in(std::string const& override) { return override.substr(0, override.find('=')); }
+
 /// What is wrong with an override of a study, or nothing.
 std::string problem_of(Study const& study, std::string const& text) {
   auto const equals = text.find('=');
@@ -74,8 +76,9 @@ void override_study(Study& study, std::vector<std::string> const& overrides) {
       problems.push_back({"--set " + text.substr(0, 100), 0, 0, std::move(problem)});
   if (!problems.empty()) throw SceneProblems(std::move(problems));
   for (std::string const& text : overrides) {
-    std::string const name = text.substr(0, text.find('='));
+    std::string const name = key_in(text);
     std::string value = text.substr(name.size() + 1);
+    study.overridden.emplace_back(name, value);
     if (find_key(name)->kind == Kind::path && !value.empty()) value = absolute_text(value);
     for (StudyGroup& group : study.groups) {
       std::erase_if(group.settings, [&](Setting const& setting) { return setting.first == name; });
@@ -86,7 +89,10 @@ void override_study(Study& study, std::vector<std::string> const& overrides) {
 }
 
 void force_study(Study& study) {
-  for (StudyGroup& group : study.groups) group.settings.emplace_back("run.force", "true");
+  for (StudyGroup& group : study.groups) {
+    std::erase_if(group.settings, [](Setting const& setting) { return setting.first == "run.force"; });
+    group.settings.emplace_back("run.force", "true");
+  }
 }
 
 std::vector<std::string> member_overrides(StudyGroup const& group, std::uint64_t seed) {
@@ -101,7 +107,16 @@ LoadedScene member_scene(Study const& study, StudyGroup const& group, std::uint6
     return load_scene(study.scene, member_overrides(group, seed));
   } catch (SceneProblems const& problems) {
     std::vector<Problem> named = problems.problems;
-    for (Problem& problem : named) problem.text += fmt::format(" (in the group {} of {})", group.name, study.file.string());
+    for (Problem& problem : named) {
+      constexpr std::string_view option = "--set ";  // which is how a member is told what the study file says
+      bool const of_file =
+          problem.file.starts_with(option) && !value_in(study.overridden, key_in(problem.file.substr(option.size())));
+      if (of_file) {
+        problem.text = fmt::format("{}: {}", problem.file.substr(option.size()), problem.text);
+        problem.file = study.file.string();
+      }
+      problem.text += fmt::format(" (in the group {} of {})", group.name, study.file.string());
+    }
     throw SceneProblems(std::move(named));
   }
 }
