@@ -113,17 +113,14 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   std::int64_t const budget = scene.test.consolidation_steps,
                      most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (closing_rate * s.time_step)));
   if (mean_stress(s) < 0.95 * stress) {
-    s.loading().x = s.loading().y = AxisDrive::at_rate(closing_rate);
-    s.add_uniform_strain_rate(closing_rate, closing_rate);
+    s.drive(AxisDrive::at_rate(closing_rate), AxisDrive::at_rate(closing_rate), closing_rate, closing_rate);
     while (mean_stress(s) < 0.98 * stress && s.steps() < most_steps) {
       s.step(std::min<std::int64_t>(20, most_steps - s.steps()));
       if (s.steps() % 2000 == 0)
         report(progress, {"consolidate", 0.5 * mean_stress(s) / stress, "compressing", s.steps() * s.discs()});
     }
-    s.add_uniform_strain_rate(-closing_rate, -closing_rate);
+    s.drive(servo_x, servo_y, -closing_rate, -closing_rate);
   }
-  s.loading().x = servo_x;
-  s.loading().y = servo_y;
   at_rest = hold_stress(s, stress, unbalanced_at_rest, budget - s.steps(), progress, "consolidate");
   preparation["consolidation_steps"] = static_cast<double>(s.steps());
   preparation["consolidated_unbalanced"] = s.measures().unbalanced_ratio(s.discs());
@@ -161,10 +158,9 @@ void BiaxialTest::State::begin_shear() {
   rate = rate_numbers(scene, d50, height0, s.void_ratio(), s.added_mass());
   for (std::string const& warning : check_rate(scene, rate)) warnings.push_back(warning);
   if (scene.run.scales_masses_further()) warnings.push_back(text_of_scaling());
-  s.loading().y = AxisDrive::at_rate(rate.strain_rate);
-  s.loading().x = AxisDrive::at_stress(scene.test.confining_stress, largest_lateral_speed * 0.5 * rate.strain_rate * height0);
-  s.loading().x.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.walls().width();
-  s.add_uniform_strain_rate(-elastic_lateral_ratio * rate.strain_rate, rate.strain_rate);
+  AxisDrive lateral = AxisDrive::at_stress(scene.test.confining_stress, largest_lateral_speed * 0.5 * rate.strain_rate * height0);
+  lateral.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.walls().width();
+  s.drive(lateral, AxisDrive::at_rate(rate.strain_rate), -elastic_lateral_ratio * rate.strain_rate, rate.strain_rate);
   if (scene.output.energy) s.set_ledger(true);
   first_step = s.steps();
   start_time = s.time();

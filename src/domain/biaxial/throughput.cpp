@@ -132,8 +132,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
   prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
   RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
-  simulation.loading().y = AxisDrive::at_rate(rate.strain_rate);
-  simulation.add_uniform_strain_rate(-0.25 * rate.strain_rate, rate.strain_rate);
+  simulation.drive(simulation.loading().x, AxisDrive::at_rate(rate.strain_rate), -0.25 * rate.strain_rate, rate.strain_rate);
   if (breaking) {
     // Faster to where bonds break, but platens no faster than those of a small specimen, or large ones burst; then a while for
     // the waves of that to die.

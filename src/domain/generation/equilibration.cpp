@@ -43,8 +43,8 @@ void close_homogeneously(Simulation& simulation, double rate, double present_rat
     simulation.stretch_cell(rate);
     return;
   }
-  simulation.loading().x = simulation.loading().y = AxisDrive::at_rate(rate);
-  simulation.add_uniform_strain_rate(rate - present_rate, rate - present_rate);
+  AxisDrive const closing = AxisDrive::at_rate(rate);
+  simulation.drive(closing, closing, rate - present_rate, rate - present_rate);
 }
 
 /// While an assembly closes its discs turn as heavily as in a test, and step in mixed precision where that resolves the overlaps.

@@ -119,6 +119,13 @@ void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
   add_affine_velocity(particles_, rate_x, rate_y, f.centre_x, f.centre_y);
 }
 
+void Simulation::drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y) {
+  now_.loading.x = x;
+  now_.loading.y = y;
+  now_.loading.steer(now_.box.walls, now_.reactions, time_step);
+  add_uniform_strain_rate(rate_x, rate_y);
+}
+
 Measures Simulation::measures() const {
   return in_range([&] { return measure(particles_, rows_, laws_.contact, wall_contacts_, now_.box.walls, laws_.wall, sums_); });
 }

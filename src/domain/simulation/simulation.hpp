@@ -112,8 +112,11 @@ class Simulation {
   void keep_break_details();                           ///< of events, from now on, with strains that count from now
   void stretch_cell(Real rate) { cell_rate_ = rate; }  ///< periodic cell: isotropic closing strain rate [1/s]
   void stop_discs() { stop_motion(particles_); }
-  void add_uniform_strain_rate(Real rate_x,
-                               Real rate_y);  ///< sets the discs, not only the walls, in motion; closing positive [1/s]
+  /// Adds a homogeneous motion to the discs, closing positive [1/s]; the walls keep theirs.
+  void add_uniform_strain_rate(Real rate_x, Real rate_y);
+  /// Gives the walls new drives and sets walls and discs in motion with the same step: where discs alone moved at once, the first
+  /// step would take them away from the walls. @param rate_x,rate_y  added to the discs, as in add_uniform_strain_rate()
+  void drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y);
   void request_rebuild() { rebuild_pending_ = true; }
   void mark_start();                                  ///< displacements count from here
   void set_decomposition(Decomposition const& cuts);  ///< from the next search on
