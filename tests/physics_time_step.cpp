@@ -107,6 +107,37 @@ TEST(TimeStep, IsNeverAboveTheLimitWhileBondsBreak) {
   }
 }
 
+// As while an assembly is closed, whose friction and rolling width are turned up and down every ten steps.
+TEST(TimeStep, FollowsTheLaws) {
+  Simulation sim = loaded_sand();
+  SimulationLaws laws = sim.laws();
+  laws.contact.grain.shape_factor = 0.5;
+  sim.set_laws(laws);
+  sim.choose_time_step({});
+  double largest = 0;
+  for (int n = 0; n < 80; ++n) {
+    laws.contact.grain.shape_factor *= 1.02;
+    sim.set_laws(laws);
+    sim.step();
+    largest = std::max(largest, sim.time_step / present_limit(sim));
+  }
+  EXPECT_LE(largest, 0.98);
+  EXPECT_GT(sim.time_step_renewals(), 5);
+  std::int64_t const before = sim.time_step_renewals();
+  EXPECT_LT(before, 60) << "not at each of them";
+  laws.contact.grain.shape_factor = 0.5;  // softer
+  sim.set_laws(laws);
+  sim.step();
+  EXPECT_EQ(sim.time_step_renewals(), before);
+  double const undamped = sim.time_step;
+  laws.motion.damping = 0.7;
+  sim.set_laws(laws);
+  sim.step();
+  EXPECT_LE(sim.time_step, 0.97 * present_limit(sim));
+  EXPECT_GT(sim.time_step_renewals(), before);
+  EXPECT_NE(sim.time_step, undamped);
+}
+
 // Velocities lie half a step behind, so a constant force moves a disc along its parabola to the digit, if the kick between two
 // steps of unlike length is the mean of both.
 TEST(TimeStep, MayChangeWithoutAnErrorInTheMotion) {

@@ -21,7 +21,27 @@ bool same_stiffness(ContactLaws const& a, ContactLaws const& b) {
   return a.bond_kind == b.bond_kind && of_grains(a.grain) == of_grains(b.grain) && of_bonds(a.bond) == of_bonds(b.bond);
 }
 
-constexpr Real calm_leeway = 0.3;  // of its skin that a calm disc may stray before the step is chosen anew
+/// How many times as large the square of the largest frequency may become, with the factor of local damping, when laws follow
+/// others: no spring network vibrates faster by more than its springs became stiffer.
+Real stiffening(SimulationLaws const& before, SimulationLaws const& after) {
+  constexpr Real calm_friction = 2;  // sliding vibrates faster above it (stability.hpp)
+  Real most = 1;
+  auto const compare = [&most](Real was, Real is) {
+    if (is > was) most = std::max(most, was > 0 ? is / was : HUGE_VAL);
+  };
+  GrainLaw const &old_grain = before.contact.grain, &grain = after.contact.grain;
+  compare(old_grain.normal_stiffness * old_grain.shape_factor * old_grain.shape_factor,
+          grain.normal_stiffness * grain.shape_factor * grain.shape_factor);
+  compare(std::max(old_grain.friction, calm_friction), std::max(grain.friction, calm_friction));
+  compare(old_grain.damping_ratio, grain.damping_ratio);
+  compare(before.wall.normal_stiffness, after.wall.normal_stiffness);
+  compare(before.wall.shear_stiffness, after.wall.shear_stiffness);
+  if (!same_stiffness(before.contact, after.contact)) return HUGE_VAL;
+  return most * std::max<Real>(1, (1 + after.motion.damping) / (1 + before.motion.damping));
+}
+
+constexpr Real most_stiffening = 1.05;  // that a share of 0.95 of the limit bears without a new choice: it is then 0.973
+constexpr Real calm_leeway = 0.3;       // of its skin that a calm disc may stray before the step is chosen anew
 constexpr int least_steps_of_a_calm_choice = 150;
 
 }  // namespace
@@ -82,6 +102,7 @@ void Simulation::set_laws(SimulationLaws const& laws) {
   else if (before.grain.shape_factor != laws_.contact.grain.shape_factor)
     keep_moments(particles_, rows_, before, laws_.contact);
   if (ledger) open_accounts(losses_, laws_.losses(), particles_.x.extent(0));
+  following_.due |= following_.on && stiffening(laws_of_choice_, laws_) > most_stiffening;
 }
 
 void Simulation::set_ledger(bool on) {
@@ -166,6 +187,7 @@ void Simulation::renew_time_step() {
   following_.leeway = following_.age < least_steps_of_a_calm_choice ? 1 : calm_leeway;
   Real const limit = clathra::stable_limit(springs(), laws_.motion.damping, following_.leeway, across());
   time_step = std::min(following_.share * limit, following_.ceiling);
+  laws_of_choice_ = laws_;
   following_.age = 0;
   following_.due = false;
   ++renewals_;

@@ -102,7 +102,9 @@ class Simulation {
   /// Chooses the time step from the springs to come and from then on follows the limit of stability (step_choice.hpp): renewed
   /// after each neighbour search, whenever a disc has strayed as far as the bound allows for, and every 1000 steps.
   void choose_time_step(StepChoice const& choice);
-  void set_laws(SimulationLaws const& laws);  ///< history that both laws need is kept
+  /// History that both laws need is kept. Where the new ones may lower the limit of stability by more than the chosen step leaves
+  /// room for, the step is chosen anew before the next one.
+  void set_laws(SimulationLaws const& laws);
   void set_skin(Real skin) {
     skin_ = skin;
     rebuild_pending_ = true;
@@ -242,9 +244,10 @@ class Simulation {
   ParticleSoA particles_;
   ContactRows rows_;
   SimulationLaws laws_;
-  StepState now_;      // as it was after the last step that is done
-  DeviceSteps steps_;  // the same on the device, where steps are under way
-  StepGraph graph_;    // of many steps; dropped by whatever gives them other fields or laws
+  SimulationLaws laws_of_choice_;  // under which the time step was chosen
+  StepState now_;                  // as it was after the last step that is done
+  DeviceSteps steps_;              // the same on the device, where steps are under way
+  StepGraph graph_;                // of many steps; dropped by whatever gives them other fields or laws
   WallContacts wall_contacts_;
   PeriodicImages images_;
   Halo halo_;

@@ -125,7 +125,7 @@ SimulationState Simulation::state() {
 }
 
 Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks)
-    : ranks_(std::move(ranks)), laws_(laws), faults_(make_faults()) {
+    : ranks_(std::move(ranks)), laws_(laws), laws_of_choice_(laws), faults_(make_faults()) {
   state.numbers.emplace("keeps_break_events", 1);  // as those did that do not say so
   for_each_later_number(
       [&](std::string const& name, auto const& value) { state.numbers.emplace(name, static_cast<double>(value)); });
