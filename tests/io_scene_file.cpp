@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "domain/scene/sample_design.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -168,6 +169,15 @@ TEST(SceneFile, TheGuardKeepsHostileTextFromTheParser) {
   EXPECT_EQ(load("# sable \xc3\xa0 la m\xc3\xa9thode, \xff nan\r\n" + sized + "layers = 7 # \"nan\" '''\r\n").scene.sample.layers,
             7);
   EXPECT_EQ(load(sized + "file = \"a#nan.h5\"\n").scene.sample.file, "folder/a#nan.h5");
+}
+
+TEST(SceneFile, AMedianDiameterThatIsStatedAsItIsChangesNoBit) {
+  auto const sizes = [](std::string const& grading) {
+    return design_sample(load(sized + "[grading]\n" + grading).scene).grading.diameters(100);
+  };
+  EXPECT_EQ(sizes("d50 = \"0.1694 mm\"\n"), sizes(""));
+  EXPECT_EQ(sizes("d50 = \"0.1694 mm\"\ntable = \"uniform\"\n"), sizes("table = \"uniform\"\n"));
+  EXPECT_NE(sizes("d50 = \"0.1695 mm\"\n"), sizes(""));
 }
 
 TEST(SceneFile, AByteOrderMarkIsOneErrorThatSaysWhatToDo) {

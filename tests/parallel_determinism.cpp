@@ -67,7 +67,7 @@ std::string exact_text(HistoryRow const& row) {
 
 TEST(Determinism, ASpecimenShearedThroughBreakageHasTheGoldenState) {
   EXPECT_GT(sheared().rows.back().broken[BreakMode::rolling], 50);
-  EXPECT_EQ(sheared().hash, 0x2c57f63df22295d0ULL) << std::hex << sheared().hash;
+  EXPECT_EQ(sheared().hash, 0x8a5836618600cc51ULL) << std::hex << sheared().hash;
 }
 
 TEST(Determinism, TheOrderOfTheInputDoesNotShow) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -74,7 +75,13 @@ Grading Grading::of(GradingScene const& scene) {
   Grading const base = !scene.file.empty()        ? from_csv(scene.file)
                        : scene.table == "uniform" ? uniform(scene.d50 > 0 ? scene.d50 : 0.1694e-3)
                                                   : toyoura();
-  return scene.d50 > 0 ? base.scaled(scene.d50 / base.d50()) : base;
+  return base.scaled((scene.d50 > 0 ? scene.d50 : base.stated_d50()) / base.d50());
+}
+
+double Grading::stated_d50() const {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", d50());
+  return parse_number(text);
 }
 
 double Grading::diameter_finer(double fraction) const {

@@ -20,11 +20,13 @@ class Grading {
   static Grading uniform(double diameter);
   /// CSV of two columns, diameter (header names the unit: d_mm, d_um or d_m) and percent finer.
   static Grading from_csv(std::string const& path);
-  /// The grading of a scene, scaled to its d50 where one is given.
+  /// The grading of a scene, scaled to its d50; where it states none, to the curve's own as one would write it (stated_d50()), so
+  /// that stating that changes no bit.
   static Grading of(GradingScene const& scene);
 
   double diameter_finer(double fraction) const;  ///< d_x [m] for a mass fraction x
   double d50() const { return diameter_finer(0.5); }
+  double stated_d50() const;  ///< d50 to nine digits [m]
   double smallest() const { return diameters_.front(); }
   double largest() const { return diameters_.back(); }
   double finer_than(double diameter) const;  ///< mass fraction finer than a diameter [m]
