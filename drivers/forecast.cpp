@@ -36,7 +36,7 @@ RateNumbers rate_of(StageRecord const& n) {
 
 std::string expected_error_text(Scene const& scene, StageRecord const& numbers) {
   ExpectedError const expected = expected_error(scene, rate_of(numbers));
-  if (!expected.peak_q) return fmt::format("not measured ({})", expected.range);
+  if (!expected.peak_q) return "not measured: " + expected.range;
   return fmt::format("{:+.1f} +- {:.1f} % against slow shear in double precision ({})", 100 * expected.peak_q->error,
                      100 * expected.peak_q->half_width, expected.range);
 }

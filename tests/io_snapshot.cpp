@@ -28,7 +28,9 @@ Simulation squeezed_patch() {
   Specimen s = disordered_patch(12, 12, 0.02);
   enclose(s);
   bond_all(s, scene);
-  Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
+  SimulationLaws laws = bonded_laws(scene, s.critical_thickness);
+  laws.wall.friction = 0.5;
+  Simulation sim(s, laws, 0.1 * grain_d50);
   sim.time_step = 2e-8;
   sim.loading().y = AxisDrive::at_rate(1000);
   return sim;
@@ -82,14 +84,16 @@ TEST_F(SnapshotFile, ShowsEveryBondAsIntactOrBrokenOnce) {
 }
 
 TEST_F(SnapshotFile, StressOfTheDiscsAddsUpToThatOfTheSpecimen) {
-  double xx = 0, yy = 0;
+  double xx = 0, yy = 0, xy = 0;
   for (std::size_t i = 0; i < snapshot.id.size(); ++i) {
     double const disc_area = pi * snapshot.radius[i] * double(snapshot.radius[i]);
     xx += snapshot.stress_xx[i] * disc_area;
     yy += snapshot.stress_yy[i] * disc_area;
+    xy += snapshot.stress_xy[i] * disc_area;
   }
   EXPECT_NEAR(yy / measures.stress_area_yy, 1, 1e-5);
   EXPECT_NEAR(xx / measures.stress_area_xx, 1, 1e-5);
+  EXPECT_NEAR(xy / yy, 0.5 * (measures.stress_area_xy + measures.stress_area_yx) / yy, 1e-6) << "with the shear of rough walls";
 }
 
 TEST_F(SnapshotFile, ReadsBackWithinItsStatedResolution) {

@@ -11,6 +11,8 @@ enum Sum : int {
   stress_xy,
   stress_yx,
   stress_yy,
+  shear_xx,
+  shear_yy,
   touching,
   interacting,
   non_rattlers,
@@ -82,6 +84,10 @@ struct WallSums {
       out[upright ? stress_xx : stress_yy] += normal * face.distance;
       // f . t against the disc times the branch: t = (-n_y, n_x), the branch is distance * n.
       out[upright ? stress_yx : stress_xy] += (upright ? -shear : shear) * face.distance;
+      if (upright)
+        out[shear_yy] -= shear * face.nx * (p.y(i) - 0.5 * (walls.position[bottom] + walls.position[top]));
+      else
+        out[shear_xx] += shear * face.ny * (p.x(i) - 0.5 * (walls.position[left] + walls.position[right]));
       out[contact_force] += std::sqrt(normal * normal + shear * shear);
       out[active_contacts] += 1;
       out[elastic] += grain_energy(grain, {normal, shear, 0}, grain_stiffness(grain, overlap, 2 * p.radius(i)));
@@ -104,7 +110,7 @@ struct DeepestOverlap {
 
 void set_units(SumUnits const& scale, Real (&unit)[pair_sums]) {
   for (Real& u : unit) u = 1;  // of numbers of contacts
-  for (int const sum : {stress_xx, stress_xy, stress_yx, stress_yy, kinetic, elastic, elastic_of_bonds})
+  for (int const sum : {stress_xx, stress_xy, stress_yx, stress_yy, shear_xx, shear_yy, kinetic, elastic, elastic_of_bonds})
     unit[sum] = scale.energy();
   for (int const sum : {contact_force, unbalanced}) unit[sum] = scale.force();
 }
@@ -175,6 +181,8 @@ Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactL
   m.stress_area_xy = pairs[stress_xy] + at_walls[stress_xy];
   m.stress_area_yx = pairs[stress_yx] + at_walls[stress_yx];
   m.stress_area_yy = pairs[stress_yy] + at_walls[stress_yy];
+  m.wall_shear_xx = at_walls[shear_xx];
+  m.wall_shear_yy = at_walls[shear_yy];
   m.touching = pairs[touching];
   m.interacting = pairs[interacting];
   m.non_rattlers = pairs[non_rattlers];

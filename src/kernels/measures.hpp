@@ -8,7 +8,10 @@ namespace clathra {
 /// Sums over discs, pairs and wall contacts after a step.
 struct Measures {
   Real stress_area_xx = 0, stress_area_xy = 0, stress_area_yx = 0,
-       stress_area_yy = 0;                                  ///< sum f (x) l [N], stress times area, compression positive
+       stress_area_yy = 0;  ///< sum f (x) l [N], stress times area, compression positive
+  /// sum f (x) x [N] of the shear of rough walls alone, by place from the middle of the box: by so much the mean stress times
+  /// area of a specimen at rest is more than what its walls are pressed with.
+  Real wall_shear_xx = 0, wall_shear_yy = 0;
   Real touching = 0;                                        ///< pairs with u_n > 0
   Real non_rattlers = 0;                                    ///< discs in two interacting pairs or more
   Real contacts_of_non_rattlers = 0;                        ///< their pairs, those between two of them twice

@@ -90,6 +90,24 @@ struct SumLoads {
   }
 };
 
+/// The shear of rough walls, which stands with their contacts.
+struct AddWallShear {
+  ParticleSoA p;
+  WallContacts contacts;
+  Walls walls;
+  Field<float> stress_xy;
+
+  KOKKOS_FUNCTION void operator()(int c) const {
+    int const i = contacts.disc(c);
+    Real xy = 0;
+    for (int wall = 0; wall < wall_count; ++wall) {
+      WallFace const face = wall_face(walls, wall, p.x(i), p.y(i));
+      if (p.radius(i) > face.distance) xy += 0.5 * (face.nx != 0 ? -1 : 1) * contacts.shear(c, wall) * face.distance;
+    }
+    stress_xy(i) += static_cast<float>(xy / (pi * p.radius(i) * p.radius(i)));
+  }
+};
+
 }  // namespace
 
 PairList list_pairs(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws) {
@@ -106,13 +124,16 @@ PairList list_pairs(ParticleSoA const& particles, ContactRows const& rows, Conta
 }
 
 DiscLoads disc_loads(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Walls const& walls,
-                     WallLaw const& wall_law) {
+                     WallContacts const& wall_contacts, WallLaw const& wall_law) {
   auto const size = static_cast<std::size_t>(particles.owned);
   DiscLoads loads;
   for (auto* field : {&loads.stress_xx, &loads.stress_yy, &loads.stress_xy}) *field = Field<float>("disc_loads", size);
   for (auto* field : {&loads.active_contacts, &loads.bonds}) *field = Field<int>("disc_loads", size);
   Kokkos::parallel_for("disc_loads", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
                        SumLoads{particles, rows, laws, walls, wall_law, loads});
+  if (wall_contacts.shear.extent(0) > 0)
+    Kokkos::parallel_for("add_wall_shear", Kokkos::RangePolicy<ExecutionSpace>(0, wall_contacts.size),
+                         AddWallShear{particles, wall_contacts, walls, loads.stress_xy});
   return loads;
 }
 

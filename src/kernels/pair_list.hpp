@@ -28,6 +28,6 @@ struct DiscLoads {
   Field<int> bonds;            ///< [owned] intact bonds
 };
 DiscLoads disc_loads(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Walls const& walls,
-                     WallLaw const& wall_law);
+                     WallContacts const& wall_contacts, WallLaw const& wall_law);
 
 }  // namespace clathra

@@ -31,7 +31,7 @@ void use(Simulation& sim) {
   (void)sim.broken_bonds();
   (void)sim.break_events(0);
   (void)list_pairs(sim.particles(), sim.rows(), sim.laws().contact);
-  (void)disc_loads(sim.particles(), sim.rows(), sim.laws().contact, sim.walls(), sim.laws().wall);
+  (void)disc_loads(sim.particles(), sim.rows(), sim.laws().contact, sim.walls(), sim.wall_contacts(), sim.laws().wall);
 }
 
 /// Nothing so far, and it would have been seen.

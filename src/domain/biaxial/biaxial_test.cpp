@@ -129,12 +129,9 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
 
 /// The specimen did not come to rest: refused, unless the scene has asked for so many steps or forces it.
 void BiaxialTest::State::require_rest(std::int64_t steps) {
-  Simulation const& s = *simulation;
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, ": unbalanced ratio %.2g (at rest below %g), mean stress %.4g of %.4g MPa",
-                s.measures().unbalanced_ratio(s.discs()), unbalanced_at_rest, mean_stress(s) * 1e-6,
-                scene.test.confining_stress * 1e-6);
-  std::string const text = "consolidation did not come to rest within " + std::to_string(steps) + " steps" + numbers;
+  std::string const why = unrest(*simulation, simulation->measures(), scene.test.confining_stress, unbalanced_at_rest);
+  std::string const text = "consolidation did not come to rest within " + std::to_string(steps) +
+                           " steps: " + (why.empty() ? "it rested for fewer than three checks on end" : why);
   if (scene.test.consolidation_steps == TestScene::usual_consolidation_steps && !scene.run.force)
     throw Refused(text + "; test.consolidation_steps = N shears it all the same after N steps");
   warnings.push_back(text + ": the test is not quasi-static from its beginning");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "domain/scene/hydrate.hpp"
 
@@ -30,7 +32,7 @@ constexpr RateEffect heavier_rotation[] = {
     {0.001, {0.0117, 0.0314}, {-0.0080, 0.0031}},
 };
 // clang-format on
-constexpr double stress = 1e6, damping = 0.3, saturation = 0.55, most_inertia = 3, most_wave = 2, slack = 1e-6;
+constexpr double saturation = 0.55, most_inertia = 3, most_wave = 2, slack = 1e-6;
 
 bool is_near(double a, double b) { return std::fabs(a - b) <= slack * std::fabs(b); }
 
@@ -62,23 +64,84 @@ MeasuredError sum(MeasuredError const& a, MeasuredError const& b) {
 
 bool is_faster(double rate, std::span<RateEffect const> table) { return rate > table.back().inertial_number * (1 + slack); }
 
+bool is_same(double a, double b) { return a == b || is_near(a, b); }
+template <class T>
+bool is_same(T const& a, T const& b) {
+  return a == b;
+}
+
+/// A key of the model, and whether it says the same in two scenes.
+struct ModelKey {
+  char const* name;
+  bool (*same)(Scene const& a, Scene const& b);
+  bool of_bonds = false;  ///< has no effect without
+};
+template <auto Section, auto Member>
+constexpr bool same_in(Scene const& a, Scene const& b) {
+  return is_same((a.*Section).*Member, (b.*Section).*Member);
+}
+#define CLATHRA_MODEL(section, member) #section "." #member, same_in < &Scene::section, &decltype(Scene::section)::member>
+
+/// All that was the same in every test of the table, beside what it has columns and rows for.
+constexpr ModelKey model[] = {
+    {CLATHRA_MODEL(grains, density)},
+    {CLATHRA_MODEL(grains, kn)},
+    {CLATHRA_MODEL(grains, ks)},
+    {CLATHRA_MODEL(grains, particle_stiffness_ratio), true},
+    {CLATHRA_MODEL(grains, friction)},
+    {CLATHRA_MODEL(grains, shape_factor)},
+    {CLATHRA_MODEL(grains, contact_damping)},
+    {CLATHRA_MODEL(grading, table)},
+    {CLATHRA_MODEL(grading, file)},
+    {CLATHRA_MODEL(hydrate, temperature), true},
+    {CLATHRA_MODEL(hydrate, pore_pressure), true},
+    {CLATHRA_MODEL(hydrate, density), true},
+    {CLATHRA_MODEL(bond, law), true},
+    {CLATHRA_MODEL(bond, composite), true},
+    {CLATHRA_MODEL(bond, moment_scale), true},
+    {CLATHRA_MODEL(bond, moment_ratio), true},
+    {CLATHRA_MODEL(bond, rod_thickness), true},
+    {CLATHRA_MODEL(bond, friction_floor), true},
+    {CLATHRA_MODEL(bond, coefficients), true},
+    {CLATHRA_MODEL(bond, mode), true},
+    {CLATHRA_MODEL(bond, after_consolidation), true},
+    {CLATHRA_MODEL(bond, stress)},
+    {CLATHRA_MODEL(test, confining_stress)},
+    {CLATHRA_MODEL(test, wall_friction)},
+    {CLATHRA_MODEL(run, damping)},
+    {CLATHRA_MODEL(run, mass_scaling)},
+};
+#undef CLATHRA_MODEL
+
+/// The specimen was made, of void ratio and median diameter of the default.
+std::vector<std::string> other_keys_of_specimen(Scene const& scene) {
+  constexpr double void_ratio = 0.24, d50 = 0.1694e-3;
+  if (scene.sample.generator == Generator::file) return {"sample.file"};
+  std::vector<std::string> keys;
+  bool const box = scene.sample.width > 0 && scene.sample.height > 0 && scene.sample.particles > 0;  // the fourth follows
+  if (scene.sample.void_ratio > 0 ? !is_near(scene.sample.void_ratio, void_ratio) : box) keys.emplace_back("sample.void_ratio");
+  if (scene.grading.d50 > 0 ? !is_near(scene.grading.d50, d50) : box && scene.sample.void_ratio > 0)
+    keys.emplace_back("grading.d50");
+  return keys;
+}
+
 /// Why the table says nothing of a scene; empty where it does.
 std::string out_of_range(Scene const& scene, RateNumbers const& n) {
   Scene const usual;
-  if (scene.bond.reading != usual.bond.reading || scene.bond.composite != usual.bond.composite ||
-      scene.bond.law == BondLawKind::constant_thickness)
-    return "measured for the default law only";
-  if (!is_near(scene.test.confining_stress, stress) || !is_near(scene.grains.kn, usual.grains.kn))
-    return "measured at 1 MPa with kn of 0.3 GPa only";
-  if (!is_near(scene.run.damping, damping) || scene.grains.contact_damping > 0)
-    return "measured with a local damping of 0.3 only";
-  if (has_bonds(scene) && scene.hydrate.saturation > saturation * (1 + slack)) return "measured up to a saturation of 55 %";
-  if (scene.run.mass_scaling > 0 || scene.run.inertia_scaling > most_inertia * (1 + slack))
-    return "measured with moments of inertia times 3 at most and no mass added";
-  if (is_faster(n.inertial_number, rates)) return text_of("measured up to I = %.3g", std::end(rates)[-1].inertial_number);
+  std::vector<std::string> keys = other_keys_of_specimen(scene);
+  for (ModelKey const& key : model)
+    if ((!key.of_bonds || has_bonds(scene)) && !key.same(scene, usual)) keys.emplace_back(key.name);
+  if (!keys.empty()) {
+    std::string names;
+    for (std::string const& key : keys) names += (names.empty() ? "" : ", ") + key;
+    return names;
+  }
+  if (has_bonds(scene) && scene.hydrate.saturation > saturation * (1 + slack)) return "only up to a saturation of 55 %";
+  if (scene.run.inertia_scaling > most_inertia * (1 + slack)) return "only up to moments of inertia times 3";
+  if (is_faster(n.inertial_number, rates)) return text_of("only up to I = %.3g", std::end(rates)[-1].inertial_number);
   if (scene.run.inertia_scaling > 1 && is_faster(n.inertial_number, heavier_rotation))
-    return text_of("measured up to I = %.3g with heavier rotation", std::end(heavier_rotation)[-1].inertial_number);
-  if (n.wave_number > most_wave * (1 + slack)) return text_of("measured up to W = %.3g", most_wave);
+    return text_of("only up to I = %.3g with heavier rotation", std::end(heavier_rotation)[-1].inertial_number);
+  if (n.wave_number > most_wave * (1 + slack)) return text_of("only up to W = %.3g", most_wave);
   return {};
 }
 

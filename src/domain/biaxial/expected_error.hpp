@@ -38,8 +38,8 @@ struct ExpectedError {
 /// The error of the peak of q against slow shear in double precision with true moments of inertia: that of the inertial number,
 /// between the rows of the table (at equal I it does not grow with W up to 5,000 discs), and those of other settings, their
 /// intervals added as those of independent numbers. Moments of inertia between once and three times their own count as three
-/// times. Of saturations between 0 and 55 % the larger error of both. Nothing for scenes out of the measured range: another law,
-/// stiffness, damping or confining stress, faster rates, settings that are not in the table.
+/// times. Of saturations between 0 and 55 % the larger error of both. Nothing for scenes out of the measured range: where any key
+/// of the model is another than in the tests of the table ("grains.friction"), or the rate is faster.
 ExpectedError expected_error(Scene const& scene, RateNumbers const& rate);
 
 }  // namespace clathra

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "domain/scene/scene_laws.hpp"
 
@@ -26,15 +27,6 @@ void steer_cell(Simulation& simulation, double stress, double largest_rate) {
   double const modulus = packing_modulus(simulation.laws().contact.grain);  // a tenth of the error is taken out in a chunk
   double const rate = 0.1 * (stress - mean_stress(simulation)) / (modulus * chunk * simulation.time_step);
   simulation.stretch_cell(std::clamp(rate, -largest_rate, largest_rate));
-}
-
-/// Whether walls and contacts agree on the wanted stress: a wave on its way through the specimen shows in the contacts first.
-bool holds_stress(Simulation const& simulation, Measures const& m, double stress) {
-  constexpr double tolerance = 0.005;
-  auto const near = [&](double value) { return std::abs(value / stress - 1) < tolerance; };
-  double const x = m.stress_area_xx / simulation.area(), y = m.stress_area_yy / simulation.area();
-  if (simulation.periodic()) return near(0.5 * (x + y));
-  return near(x) && near(y) && near(simulation.stress().x) && near(simulation.stress().y);
 }
 
 /// Sets walls and discs, or the periodic cell, closing at a homogeneous isotropic rate [1/s]; 0 stops them.
@@ -126,6 +118,32 @@ double wave_speed(Simulation const& simulation) {
   return std::sqrt(packing_modulus(simulation.laws().contact.grain) / bulk_density);
 }
 
+std::string unrest(Simulation const& simulation, Measures const& m, double stress, double rest) {
+  constexpr double tolerance = 0.005;
+  std::string text;
+  auto const say = [&](char const* format, auto... numbers) {
+    char words[200];
+    std::snprintf(words, sizeof words, format, numbers...);
+    text += (text.empty() ? "" : ", ") + std::string(words);
+  };
+  auto const require = [&](char const* what, double value) {
+    if (std::abs(value / stress - 1) < tolerance) return;
+    say("%s %.4g of %.4g MPa (at rest within %g %%)", what, value * 1e-6, stress * 1e-6, 100 * tolerance);
+  };
+  double const area = simulation.area();
+  if (simulation.periodic()) {
+    require("mean stress of the contacts", 0.5 * (m.stress_area_xx + m.stress_area_yy) / area);
+  } else {
+    require("lateral stress on the walls", simulation.stress().x);
+    require("vertical stress on the walls", simulation.stress().y);
+    require("lateral stress of the contacts less the shear of the walls", (m.stress_area_xx - m.wall_shear_xx) / area);
+    require("vertical stress of the contacts less the shear of the walls", (m.stress_area_yy - m.wall_shear_yy) / area);
+  }
+  double const unbalanced = m.unbalanced_ratio(simulation.discs());
+  if (!(unbalanced < rest)) say("unbalanced ratio %.2g (at rest below %g)", unbalanced, rest);
+  return text;
+}
+
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction) {
   SimulationLaws laws;
   laws.contact.grain = friction.apply(grain_law(scene));
@@ -157,8 +175,7 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
     std::int64_t const steps = std::min<std::int64_t>(chunk, first + most_steps - simulation.steps());
     simulation.step(steps);
     Measures const m = simulation.measures();
-    checks_at_rest =
-        holds_stress(simulation, m, stress) && m.unbalanced_ratio(simulation.discs()) < rest ? checks_at_rest + 1 : 0;
+    checks_at_rest = unrest(simulation, m, stress, rest).empty() ? checks_at_rest + 1 : 0;
     report(progress,
            {stage, static_cast<double>(simulation.steps() - first) / static_cast<double>(most_steps),
             "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),

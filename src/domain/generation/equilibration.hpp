@@ -54,8 +54,12 @@ PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene,
                                       CompressionTarget const& target, double skin, ProgressCallback const& progress,
                                       Ranks const& ranks = {});
 
-/// Steps with walls (or the periodic cell) steered to an isotropic stress until it holds within 0.5 % and the unbalanced ratio is
-/// below `rest`.
+/// What keeps a specimen from resting under an isotropic stress, in words with the numbers; empty where nothing does. It rests
+/// where the walls press with that stress within 0.5 %, the contacts inside with what that comes to (a wave on its way shows in
+/// them first; the shear of rough walls carries its part), and the unbalanced ratio is below `rest`.
+std::string unrest(Simulation const& simulation, Measures const& m, double stress, double rest);
+
+/// Steps with walls (or the periodic cell) steered to an isotropic stress until there is no unrest() in three checks on end.
 /// @return false if that took more than `most_steps`
 bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
                  char const* stage);

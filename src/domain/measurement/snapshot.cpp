@@ -52,7 +52,8 @@ void copy_discs(Snapshot& s, Simulation const& simulation) {
     s.ux[i] = static_cast<float>(s.x[i] - x[i]);
     s.uy[i] = static_cast<float>(s.y[i] - y[i]);
   }
-  DiscLoads const loads = disc_loads(p, simulation.rows(), simulation.laws().contact, simulation.walls(), simulation.laws().wall);
+  DiscLoads const loads = disc_loads(p, simulation.rows(), simulation.laws().contact, simulation.walls(),
+                                     simulation.wall_contacts(), simulation.laws().wall);
   s.stress_xx = listed<float>(loads.stress_xx, n);
   s.stress_yy = listed<float>(loads.stress_yy, n);
   s.stress_xy = listed<float>(loads.stress_xy, n);
