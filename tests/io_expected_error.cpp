@@ -82,6 +82,37 @@ TEST(ExpectedError, IsTheWorseOfBothMaterialsBetweenThem) {
                      std::max(farthest(expected_error(scene_of(0), at(row))), farthest(expected_error(scene_of(0.55), at(row)))));
 }
 
+/// Every key of the model, each alone other than in the tests of the table.
+constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
+    {"grains.density", [](Scene& s) { s.grains.density = 2700; }},
+    {"grains.kn", [](Scene& s) { s.grains.kn = 1e8; }},
+    {"grains.ks", [](Scene& s) { s.grains.ks = 1e6; }},
+    {"grains.particle_stiffness_ratio", [](Scene& s) { s.grains.particle_stiffness_ratio = 1; }},
+    {"grains.shape_factor", [](Scene& s) { s.grains.shape_factor = 0; }},
+    {"grains.contact_damping", [](Scene& s) { s.grains.contact_damping = 0.2; }},
+    {"grading.table", [](Scene& s) { s.grading.table = "uniform"; }},
+    {"grading.file", [](Scene& s) { s.grading.file = "sand.csv"; }},
+    {"grading.d50", [](Scene& s) { s.grading.d50 = 1e-3; }},
+    {"hydrate.temperature", [](Scene& s) { s.hydrate.temperature = -50; }},
+    {"hydrate.pore_pressure", [](Scene& s) { s.hydrate.pore_pressure = 1e7; }},
+    {"hydrate.density", [](Scene& s) { s.hydrate.density = 850; }},
+    {"bond.law", [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; }},
+    {"bond.composite", [](Scene& s) { s.bond.composite = Composite::memory; }},
+    {"bond.moment_scale", [](Scene& s) { s.bond.moment_scale = MomentScale::paper_si; }},
+    {"bond.moment_ratio", [](Scene& s) { s.bond.moment_ratio = 0.1; }},
+    {"bond.rod_thickness", [](Scene& s) { s.bond.rod_thickness = RodThickness::scaled; }},
+    {"bond.friction_floor", [](Scene& s) { s.bond.friction_floor = true; }},
+    {"bond.coefficients", [](Scene& s) { s.bond.coefficients = CoefficientSource::printed; }},
+    {"bond.mode", [](Scene& s) { s.bond.mode = BondingMode::areal_target; }},
+    {"bond.after_consolidation", [](Scene& s) { s.bond.after_consolidation = false; }},
+    {"bond.stress", [](Scene& s) { s.bond.stress = 1e5; }},
+    {"test.confining_stress", [](Scene& s) { s.test.confining_stress = 5e7; }},
+    {"test.wall_friction", [](Scene& s) { s.test.wall_friction = 0.5; }},
+    {"run.damping", [](Scene& s) { s.run.damping = 0.7; }},
+    {"run.mass_scaling", [](Scene& s) { s.run.mass_scaling = 0.1; }},
+    {"sample.file", [](Scene& s) { s.sample.generator = Generator::file; }},
+};
+
 TEST(ExpectedError, IsNotGivenForWhatWasNotMeasured) {
   RateNumbers const slow = at(rate_effects().front());
   auto const why = [&](auto const& change, RateNumbers const& n) {
@@ -96,38 +127,7 @@ TEST(ExpectedError, IsNotGivenForWhatWasNotMeasured) {
   EXPECT_EQ(why(none, at(1e-6, 100)), "only up to W = 2");
   EXPECT_EQ(why([](Scene& s) { s.hydrate.saturation = 0.8; }, slow), "only up to a saturation of 55 %");
   EXPECT_EQ(why([](Scene& s) { s.run.inertia_scaling = 4; }, slow), "only up to moments of inertia times 3");
-  EXPECT_EQ(why([](Scene& s) { s.sample.void_ratio = 0.3, s.grains.friction = 0; }, slow),
-            "sample.void_ratio, grains.friction");
-  // Every key of the model, each alone.
-  std::pair<char const*, void (*)(Scene&)> const others[] = {
-      {"grains.density", [](Scene& s) { s.grains.density = 2700; }},
-      {"grains.kn", [](Scene& s) { s.grains.kn = 1e8; }},
-      {"grains.ks", [](Scene& s) { s.grains.ks = 1e6; }},
-      {"grains.particle_stiffness_ratio", [](Scene& s) { s.grains.particle_stiffness_ratio = 1; }},
-      {"grains.shape_factor", [](Scene& s) { s.grains.shape_factor = 0; }},
-      {"grains.contact_damping", [](Scene& s) { s.grains.contact_damping = 0.2; }},
-      {"grading.table", [](Scene& s) { s.grading.table = "uniform"; }},
-      {"grading.file", [](Scene& s) { s.grading.file = "sand.csv"; }},
-      {"grading.d50", [](Scene& s) { s.grading.d50 = 1e-3; }},
-      {"hydrate.temperature", [](Scene& s) { s.hydrate.temperature = -50; }},
-      {"hydrate.pore_pressure", [](Scene& s) { s.hydrate.pore_pressure = 1e7; }},
-      {"hydrate.density", [](Scene& s) { s.hydrate.density = 850; }},
-      {"bond.law", [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; }},
-      {"bond.composite", [](Scene& s) { s.bond.composite = Composite::memory; }},
-      {"bond.moment_scale", [](Scene& s) { s.bond.moment_scale = MomentScale::paper_si; }},
-      {"bond.moment_ratio", [](Scene& s) { s.bond.moment_ratio = 0.1; }},
-      {"bond.rod_thickness", [](Scene& s) { s.bond.rod_thickness = RodThickness::scaled; }},
-      {"bond.friction_floor", [](Scene& s) { s.bond.friction_floor = true; }},
-      {"bond.coefficients", [](Scene& s) { s.bond.coefficients = CoefficientSource::printed; }},
-      {"bond.mode", [](Scene& s) { s.bond.mode = BondingMode::areal_target; }},
-      {"bond.after_consolidation", [](Scene& s) { s.bond.after_consolidation = false; }},
-      {"bond.stress", [](Scene& s) { s.bond.stress = 1e5; }},
-      {"test.confining_stress", [](Scene& s) { s.test.confining_stress = 5e7; }},
-      {"test.wall_friction", [](Scene& s) { s.test.wall_friction = 0.5; }},
-      {"run.damping", [](Scene& s) { s.run.damping = 0.7; }},
-      {"run.mass_scaling", [](Scene& s) { s.run.mass_scaling = 0.1; }},
-      {"sample.file", [](Scene& s) { s.sample.generator = Generator::file; }},
-  };
+  EXPECT_EQ(why([](Scene& s) { s.sample.void_ratio = 0.3, s.grains.friction = 0; }, slow), "sample.void_ratio, grains.friction");
   for (auto const& [key, change] : others) EXPECT_EQ(why(change, slow), key);
   Scene sand = scene_of(0);
   sand.hydrate.temperature = 7, sand.bond.moment_ratio = 0.1;

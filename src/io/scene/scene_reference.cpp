@@ -124,7 +124,8 @@ std::string allowed_values(Key const& key) {
 
 std::string schema_markdown() {
   std::string text =
-      "# Scene files\n\nA scene is a TOML file, in UTF-8 within quotes and comments, else ASCII. Every quantity is a number with its unit in quotes (`\"1 MPa\"`) "
+      "# Scene files\n\nA scene is a TOML file, in UTF-8 within quotes and comments, else ASCII. Every quantity is a number with "
+      "its unit in quotes (`\"1 MPa\"`) "
       "or a bare "
       "number in SI units (temperatures in degrees Celsius, always with a unit). A key that is not stated has its default; a key "
       "that "
