@@ -6,8 +6,8 @@
 namespace clathra {
 namespace {
 
-// Where discs move one step before the walls do they leave them by the way of a step, which is some per cent of their overlap: the
-// first rows then have q at -1 to -8 % of sigma_3, the more the larger and the faster the specimen is.
+// Where discs move one step before the walls do they leave them by the way of a step, which is some per cent of their overlap:
+// the first rows then have q at -1 to -8 % of sigma_3, the more the larger and the faster the specimen is.
 TEST(ShearStart, TakesNoDiscsAwayFromTheWalls) {
   for (double const saturation : {0.0, 0.55})
     for (double const inertial_number : {2e-4, 1e-3}) {
