@@ -99,7 +99,7 @@ class ReportLikeness : public ReportPageTest {
       test.sigma3 = sigma3;
       test.saturation = wanted.saturation;
       test.peak_q = failure_stress(wanted.cohesion, 0.5, sigma3) - sigma3;
-      test.residual_q = failure_stress(0.1e6, 0.5, sigma3) - sigma3;
+      test.residual_q = failure_stress(0.1e6, 0.4, sigma3) - sigma3;
       if (wanted.both || sigma3 > 2e6) test.overrides = wanted.overrides;
       runs.push_back(made(wanted.name + (sigma3 > 2e6 ? "-3" : "-1"), test));
     }

@@ -12,19 +12,21 @@ namespace {
 
 /// Contraction at a half of the axial strain up to 2 %, then dilation at a planted angle, with a burst in one record.
 struct Planted {
-  std::vector<double> eps1, eps_v, q, sigma3, intact;
+  std::vector<double> eps1, eps_v, q, sigma3, intact, largest_q, largest_q_eps1, dilation;  // the last three: nothing is known
   explicit Planted(double psi, double end = 0.15) {
-    double const s = std::sin(psi), dilation = -2 * s / (1 - s);  // d eps_v / d eps_1 where -d eps_v / d (2 eps_1 - eps_v) = s
+    double const s = std::sin(psi), slope = -2 * s / (1 - s);  // d eps_v / d eps_1 where -d eps_v / d (2 eps_1 - eps_v) = s
     for (int i = 0; i <= 300; ++i) {
       double const e = end * i / 300;
       eps1.push_back(e);
-      eps_v.push_back(e < 0.02 ? e / 2 : 0.01 + dilation * (e - 0.02));
+      eps_v.push_back(e < 0.02 ? e / 2 : 0.01 + slope * (e - 0.02));
       q.push_back(e < 0.02 ? 5e6 * e / 0.02 : 4e6);
       sigma3.push_back(1e6);
       intact.push_back(100.0 - i / 10.0);
+      for (std::vector<double>* const column : {&largest_q, &largest_q_eps1, &dilation})
+        column->push_back(std::numeric_limits<double>::quiet_NaN());
     }
   }
-  TestCurves curves() const { return {eps1, eps_v, q, sigma3, intact}; }
+  TestCurves curves() const { return {eps1, eps_v, q, sigma3, intact, largest_q, largest_q_eps1, dilation}; }
 };
 
 TEST(TestNumbers, HaveTheDilationAngleThatWasPlanted) {
@@ -44,6 +46,31 @@ TEST(TestNumbers, HaveNoDilationAngleOfAShortTest) {
   EXPECT_FALSE(dilation_angle({}, {}));
   std::vector<double> const unknown(test.eps1.size(), std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(dilation_angle(Planted(0.2).eps1, unknown));
+}
+
+TEST(TestNumbers, AreThoseOfAllStepsWhereTheRowsHaveThem) {
+  Planted test(0.2);
+  test.largest_q[41] = 5.5e6;
+  test.largest_q_eps1[41] = 0.0203;  // between the rows at 2 and 2.05 %
+  test.dilation[100] = 13, test.dilation[200] = 17;
+  TestNumbers const n = test_numbers(test.curves());
+  EXPECT_EQ(n.peak, 41u);
+  EXPECT_EQ(n.peak_q, 5.5e6);
+  EXPECT_EQ(n.peak_eps1, 0.0203);
+  EXPECT_NEAR(n.intact_peak, 100 - 4.06, 1e-9) << "between the rows";
+  EXPECT_NEAR(n.eps_v_peak, test.eps_v[40] + 0.6 * (test.eps_v[41] - test.eps_v[40]), 1e-12);
+  EXPECT_NEAR(n.dilation_angle.value(), 17 * std::acos(-1.0) / 180, 1e-12);
+}
+
+TEST(TestNumbers, PassAPeakThatQHasFallenFromByAShare) {
+  for (double const share : {0.981, 0.979}) {
+    Planted test(0.2);
+    double const peak = test_numbers(test.curves()).peak_q;
+    for (std::size_t i = 40; i < test.q.size(); ++i) test.q[i] = share * peak;
+    EXPECT_EQ(test_numbers(test.curves()).passed_peak, share < share_past_peak);
+    test.q.back() = peak * (1 + 1e-9);
+    EXPECT_FALSE(test_numbers(test.curves()).passed_peak) << "still rising";
+  }
 }
 
 TEST(TestNumbers, AreRecordedByTheirNames) {

@@ -75,9 +75,8 @@ struct Loading {
   AxisDrive x, y;
   ServoLaw servo;
 
-  /// Sets the wall velocities for the next step from the reactions of this one.
-  KOKKOS_INLINE_FUNCTION void steer(Walls& walls, WallReactions const& reactions, Real dt) {
-    WallStress const stress = wall_stress(walls, reactions);
+  /// Sets the wall velocities for the next step from the stress and the reactions of this one.
+  KOKKOS_INLINE_FUNCTION void steer(Walls& walls, WallStress const& stress, WallReactions const& reactions, Real dt) {
     int const contacts_x = (reactions.contacts[left] + reactions.contacts[right]) / 2;
     int const contacts_y = (reactions.contacts[bottom] + reactions.contacts[top]) / 2;
     Real const speed_x = x.closing_speed(servo, stress.x, walls.height(), walls.width(), contacts_x, dt);

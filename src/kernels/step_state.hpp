@@ -50,6 +50,11 @@ struct StepOrders {
   bool host_goes_along = true;  ///< the host has a part in each step: other ranks, images of discs, a search
 };
 
+/// The largest sigma_y - sigma_x after any step since somebody asked [Pa], and the height of the box then [m].
+struct LargestDeviator {
+  Real q = -1e300, height = 0;
+};
+
 inline constexpr int numbers_of_survey = 15;
 
 /// The longest of all discs.
@@ -64,6 +69,7 @@ struct StepState {
   WallReactions reactions;
   Loading loading;
   Real time = 0, boundary_work = 0;  ///< [s], [J/m]
+  LargestDeviator largest;
   std::int64_t step = 0;
   Mark search, choice;  ///< of the last neighbour search, of the last choice of dt
   StepOrders orders;
@@ -125,7 +131,7 @@ struct StepState {
     search_is_due = choice_is_due = false;
   }
 
-  /// After the forces of the walls: books their work and steers them.
+  /// After the forces of the walls: books their work, keeps the largest deviator stress and steers them.
   KOKKOS_INLINE_FUNCTION void end_step(WallReactions const& now) {
     // The mean force over the step times the way: what leapfrog's kinetic energy sees to the digit.
     for (int wall = 0; wall < wall_count; ++wall) {
@@ -133,7 +139,9 @@ struct StepState {
       boundary_work -= 0.5 * (reactions.normal[wall] + now.normal[wall]) * outward * box.walls.velocity[wall] * orders.dt;
     }
     reactions = now;
-    loading.steer(box.walls, reactions, orders.dt);
+    WallStress const stress = wall_stress(box.walls, reactions);
+    if (stress.y - stress.x > largest.q) largest = {stress.y - stress.x, box.height()};
+    loading.steer(box.walls, stress, reactions, orders.dt);
     end_step();
   }
   /// The same in a periodic cell.

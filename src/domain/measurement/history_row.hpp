@@ -1,6 +1,7 @@
 #pragma once
 /// One record of a test: a row of history.csv.
 #include <cstdint>
+#include <limits>
 
 #include "kernels/break_mode.hpp"
 
@@ -17,11 +18,14 @@ struct HistoryRow {
   std::int64_t bonds_intact = 0;
   double intact_initial_pct = 0;                ///< of the bonds at installation
   double intact_interacting_pct = 0;            ///< bonded / (touching or bonded), the paper's measure
-  BreakCounts broken;                           ///< bonds since the start of the shear, by mode
+  BreakCounts broken;                           ///< bonds since they formed, by mode: those of consolidation are among them
   double coordination = 0;                      ///< 2 * interacting pairs / discs
   double mechanical_coordination = 0;           ///< the same without rattlers (Thornton 2000)
   double inertial_number = 0, wave_number = 0;  ///< I and W
   double unbalanced = 0;                        ///< mean unbalanced force / mean contact force
+  double largest_q_Pa = 0, largest_q_eps1 = 0;  ///< of all steps since the record before, and the axial strain there
+  /// Largest angle of dilation over a stretch of 1 % strain that ended since the record before; nan before the first one.
+  double dilation_deg = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Visits (column name, value) in file order; values are double or int64.
@@ -47,6 +51,9 @@ void for_each_column(Row& row, Visit&& visit) {
   visit("inertial_number", row.inertial_number);
   visit("wave_number", row.wave_number);
   visit("unbalanced", row.unbalanced);
+  visit("largest_q_Pa", row.largest_q_Pa);
+  visit("largest_q_eps1", row.largest_q_eps1);
+  visit("dilation_deg", row.dilation_deg);
 }
 
 /// The energy ledger at a record [J/m], present only with output.energy: stored energies now, work and losses since the shear

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "domain/measurement/curve_features.hpp"
+
 namespace clathra {
 namespace {
 
@@ -28,40 +30,61 @@ std::optional<double> secant_modulus(std::vector<double> const& eps1, std::vecto
   return std::nullopt;
 }
 
+/// The largest of all steps up to each row since the row before; of a history that has rows alone, theirs.
+std::vector<double> largest_by_row(TestCurves const& curves) {
+  std::vector<double> largest = curves.q;
+  for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::fmax(largest[i], curves.largest_q[i]);
+  return largest;
+}
+
+/// That of the stretches that were followed step by step; of a history without them, by its rows.
+std::optional<double> dilation_angle_of(TestCurves const& curves) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (double const psi : curves.dilation_deg) largest = std::fmax(largest, psi);
+  return std::isfinite(largest) ? largest * std::numbers::pi / 180 : dilation_angle(curves.eps1, curves.eps_v);
+}
+
 }  // namespace
+
+std::optional<double> dilation_angle_of(double eps1, double eps_v) {
+  double const shear = 2 * eps1 - eps_v;
+  return shear > 0 ? std::optional(std::asin(std::clamp(-eps_v / shear, -1.0, 1.0))) : std::nullopt;
+}
 
 std::optional<double> dilation_angle(std::vector<double> const& eps1, std::vector<double> const& eps_v) {
   double largest = -std::numeric_limits<double>::infinity();
   for (std::size_t from = 0, to = 0; to < eps1.size(); ++to) {
     while (from < to && eps1[to] - eps1[from + 1] >= dilation_window) ++from;  // the shortest stretch that is long enough
     if (!(eps1[to] - eps1[from] >= dilation_window)) continue;
-    double const volume = eps_v[to] - eps_v[from], shear = 2 * (eps1[to] - eps1[from]) - volume;
-    if (shear > 0) largest = std::fmax(largest, -volume / shear);
+    if (auto const psi = dilation_angle_of(eps1[to] - eps1[from], eps_v[to] - eps_v[from])) largest = std::fmax(largest, *psi);
   }
-  return std::isfinite(largest) ? std::optional(std::asin(std::clamp(largest, -1.0, 1.0))) : std::nullopt;
+  return std::isfinite(largest) ? std::optional(largest) : std::nullopt;
 }
 
 TestNumbers test_numbers(TestCurves const& curves) {
   TestNumbers n;
   std::size_t const last = curves.q.size() - 1;
-  n.peak = peak_row(curves.q);
-  n.peak_q = curves.q[n.peak];
-  n.peak_eps1 = curves.eps1[n.peak];
-  n.peak_sigma3 = curves.sigma3[n.peak];
+  std::vector<double> const largest_q = largest_by_row(curves);
+  n.peak = peak_row(largest_q);
+  n.peak_q = largest_q[n.peak];
+  n.peak_eps1 = n.peak_q > curves.q[n.peak] ? curves.largest_q_eps1[n.peak] : curves.eps1[n.peak];
+  auto const at_peak = [&](std::vector<double> const& values) { return value_at(curves.eps1, values, n.peak_eps1); };
+  n.peak_sigma3 = at_peak(curves.sigma3);
   n.end_eps1 = curves.eps1[last];
   n.residual_from = residual_from(n.end_eps1);
   n.residual_q = mean_from(curves.eps1, curves.q, n.residual_from);
   n.residual_sigma3 = mean_from(curves.eps1, curves.sigma3, n.residual_from);
   n.secant_modulus = secant_modulus(curves.eps1, curves.q, n.peak_q);
-  n.eps_v_peak = curves.eps_v[n.peak];
+  n.eps_v_peak = at_peak(curves.eps_v);
   n.eps_v_end = curves.eps_v[last];
   std::size_t const densest = peak_row(curves.eps_v);
   n.largest_eps_v = curves.eps_v[densest];
   n.largest_eps_v_eps1 = curves.eps1[densest];
-  n.dilation_angle = dilation_angle(curves.eps1, curves.eps_v);
-  n.intact_peak = curves.intact[n.peak];
+  n.dilation_angle = dilation_angle_of(curves);
+  n.intact_peak = at_peak(curves.intact);
   n.intact_end = curves.intact[last];
-  n.passed_peak = n.peak < last;
+  n.passed_peak = std::any_of(curves.q.begin() + static_cast<std::ptrdiff_t>(n.peak), curves.q.end(),
+                              [&](double q) { return q <= share_past_peak * n.peak_q; });
   return n;
 }
 

@@ -143,7 +143,7 @@ void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
 void Simulation::drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y) {
   now_.loading.x = x;
   now_.loading.y = y;
-  now_.loading.steer(now_.box.walls, now_.reactions, time_step);
+  now_.loading.steer(now_.box.walls, stress(), now_.reactions, time_step);
   add_uniform_strain_rate(rate_x, rate_y);
 }
 

@@ -83,6 +83,8 @@ void Simulation::for_each_later_number(Visit&& visit) {
   visit("time_step_due", following_.due);
   visit("time_step_renewals", renewals_);
   visit_walls("step_wall", now_.choice.box.walls, visit);
+  visit("largest_deviator", now_.largest.q);
+  visit("largest_deviator_height", now_.largest.height);
   visit("break_details_from_height", broken_bonds_.details_from_height);
 }
 

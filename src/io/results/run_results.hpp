@@ -26,7 +26,14 @@ class HistoryTable {
   /// A column; nan in each row where there is none of this name.
   std::vector<double> const& operator[](std::string const& column) const;
   TestCurves curves() const {
-    return {(*this)["eps1"], (*this)["eps_v"], (*this)["q_Pa"], (*this)["sigma3_Pa"], (*this)["intact_initial_pct"]};
+    return {(*this)["eps1"],
+            (*this)["eps_v"],
+            (*this)["q_Pa"],
+            (*this)["sigma3_Pa"],
+            (*this)["intact_initial_pct"],
+            (*this)["largest_q_Pa"],
+            (*this)["largest_q_eps1"],
+            (*this)["dilation_deg"]};
   }
   /// The columns that this one has not and of which something would be drawn; those of the energy ledger only if it has some.
   std::vector<std::string> missing() const;
