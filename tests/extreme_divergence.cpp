@@ -209,6 +209,20 @@ TEST(Diverged, ByMoreNeighboursThanARowHolds) {
   }
 }
 
+/// Equal discs, a disc diameter apart: only the skin makes neighbours of so many.
+TEST(ExtremeSizes, AreNotBlamedForASkinThatListsTooMany) {
+  Specimen s = open_space();
+  for (int n = 0; n < 400; ++n) add_disc(s, 4 * grain_radius * (n % 20), 4 * grain_radius * (n / 20));
+  try {
+    Simulation const sim(s, sand_laws(), 10 * grain_d50);
+    ADD_FAILURE() << "went on";
+  } catch (Diverged const& fault) {
+    EXPECT_TRUE(names(fault.what(), "give a smaller run.skin, or none: ")) << fault.what();
+    EXPECT_TRUE(names(fault.what(), " are 10 of d50, where 0.12 are usual")) << fault.what();
+    EXPECT_FALSE(names(fault.what(), "grading")) << fault.what();
+  }
+}
+
 /// Discs of 1 : 15 squeezed between walls, at rest in the end.
 TEST(ExtremeSizes, RestTogetherUnderStress) {
   Specimen s = open_space();

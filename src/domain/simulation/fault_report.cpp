@@ -73,8 +73,16 @@ Deepest deepest_contact(Simulation const& simulation, Discs const& discs, int i)
   return deepest;
 }
 
+/// Of discs with too many neighbours: a skin that lists far more than touch, or discs of too different sizes.
+std::string advice_on_rows(double skin, double d50) {
+  constexpr double wide = 2 * chosen_skin;
+  if (d50 > 0 && skin > wide * d50)
+    return text_of("give a smaller run.skin, or none: %.3g mm are %.3g of d50, where %g are usual", skin * 1e3, skin / d50,
+                   chosen_skin);
+  return "make the grading's largest disc smaller, or its smallest larger";
+}
+
 std::string advice(Fault what, double share) {
-  if (what == Fault::row_overflow) return "make the grading's largest disc smaller, or its smallest larger";
   if (share > 1) return "shorten the step (run.dt_safety)";
   if (what == Fault::not_finite) return "the step is not why: look at what was read or set before";
   return "the step is not why: the grains are too soft for this stress (grains.kn), or it is loaded too fast "
@@ -84,9 +92,9 @@ std::string advice(Fault what, double share) {
 }  // namespace
 
 std::string fault_text(Simulation const& simulation, ReportedFault const& fault, double (&place)[2]) {
-  static constexpr char const* cause[fault_count] = {
-      "has a position or velocity that is not finite", "overlaps a neighbour or a wall by more than the smaller radius",
-      "has more neighbours than a row holds (the grading's size ratio is too large)"};
+  static constexpr char const* cause[fault_count] = {"has a position or velocity that is not finite",
+                                                     "overlaps a neighbour or a wall by more than the smaller radius",
+                                                     "has more neighbours than a row holds"};
   Ranks const& ranks = simulation.ranks();
   Discs const discs(simulation.particles());
   double found[4] = {nowhere, nowhere, nowhere, nowhere};  // where, overlap, with whom: of the rank that owns the disc
@@ -118,7 +126,8 @@ std::string fault_text(Simulation const& simulation, ReportedFault const& fault,
   if (found[3] == -1) text += text_of("; it is %.3g of its radius deep in a wall", found[2]);
   if (std::isfinite(share) && share > 1e-6)
     text += text_of("; the time step is %.3g of the stable limit of the present contacts", share);
-  return text + ": " + advice(fault.what, share);
+  return text + ": " +
+         (fault.what == Fault::row_overflow ? advice_on_rows(simulation.skin(), simulation.d50()) : advice(fault.what, share));
 }
 
 }  // namespace clathra

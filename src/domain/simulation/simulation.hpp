@@ -120,6 +120,7 @@ class Simulation {
   /// step would take them away from the walls. @param rate_x,rate_y  added to the discs, as in add_uniform_strain_rate()
   void drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y);
   void request_rebuild() { rebuild_pending_ = true; }
+  void watch_deviator() { now_.largest = {}; }        ///< the largest one counts from now
   void mark_start();                                  ///< displacements count from here
   void set_decomposition(Decomposition const& cuts);  ///< from the next search on
   void evaluate_forces();                             ///< forces of the present state without advancing it
@@ -136,6 +137,8 @@ class Simulation {
   Walls const& walls() const { return now_.box.walls; }
   PeriodicCell const& cell() const { return now_.box.cell; }
   bool periodic() const { return now_.box.periodic(); }
+  Real skin() const { return skin_; }                                   ///< of discs at rest [m]
+  Real d50() const { return d50_; }                                     ///< [m]
   Real density() const { return density_; }                             ///< of the grains [kg/m^3]
   Real added_mass() const { return added_mass_; }                       ///< by MassScaling, over the mass of all discs
   Real moving_density() const { return density_ * (1 + added_mass_); }  ///< what inertia and wave number go by [kg/m^3]
@@ -145,6 +148,7 @@ class Simulation {
   Real void_ratio() const { return area() / solid_area_ - 1; }  ///< nominal
   WallReactions const& reactions() const { return now_.reactions; }
   WallStress stress() const { return wall_stress(now_.box.walls, now_.reactions); }
+  LargestDeviator const& largest_deviator() const { return now_.largest; }  ///< after any step since watch_deviator()
   Real boundary_work() const { return now_.boundary_work; }
   Measures measures() const;
   LossTotals losses() const;
