@@ -248,5 +248,21 @@ TEST(BondLaw, WithFloorsIsNeverWeakerThanAGrainContact) {
   EXPECT_EQ(with.test(with.compression, 0, 0), BreakMode::compression);
 }
 
+TEST(Hydrate, SaysWhatItsStrengthWasNotFittedTo) {
+  HydrateScene hydrate;
+  EXPECT_EQ(fit_warning(hydrate), "") << "the state of the paper";
+  for (double const inside : {-30.0, 8.0}) {
+    hydrate.temperature = inside;
+    EXPECT_EQ(fit_warning(hydrate), "") << inside;
+  }
+  hydrate.temperature = -50;
+  EXPECT_NE(fit_warning(hydrate).find("not fitted to -50 degC (-30 degC and warmer)"), std::string::npos) << fit_warning(hydrate);
+  hydrate.pore_pressure = 1.49e6;
+  hydrate.density = 901;
+  EXPECT_NE(fit_warning(hydrate).find(", 1.49 MPa of pore pressure (1.5 to 8 MPa), 901 kg/m^3 (720 to 900 kg/m^3)"),
+            std::string::npos)
+      << fit_warning(hydrate);
+}
+
 }  // namespace
 }  // namespace clathra

@@ -103,6 +103,24 @@ std::string hydrate_problem(HydrateScene const& hydrate) {
   return {};
 }
 
+std::string fit_warning(HydrateScene const& hydrate) {
+  constexpr double slack = 1e-9;
+  auto const is_outside = [](double value, double least, double most) {
+    double const margin = slack * (most - least);
+    return !(value >= least - margin && value <= most + margin);
+  };
+  std::string outside;
+  auto const look = [&](bool is_out, std::string const& value, char const* range) {
+    if (is_out) outside.append(outside.empty() ? "" : ", ").append(value).append(range);
+  };
+  look(is_outside(hydrate.temperature, -30, 1e3), format_number(hydrate.temperature), " degC (-30 degC and warmer)");
+  look(is_outside(hydrate.pore_pressure, 1.5e6, 8e6), format_quantity(hydrate.pore_pressure, Dimension::pressure),
+       " of pore pressure (1.5 to 8 MPa)");
+  look(is_outside(hydrate.density, 720, 900), format_quantity(hydrate.density, Dimension::density), " (720 to 900 kg/m^3)");
+  if (outside.empty()) return outside;
+  return outside.insert(0, "strength and stiffness of hydrate are extrapolated: Eqs. 13 and 18 were not fitted to ");
+}
+
 bool has_bonds(Scene const& scene) { return scene.hydrate.saturation > 0 && scene.bond.law != BondLawKind::none; }
 
 BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness) {

@@ -39,6 +39,11 @@ double stability_temperature(double pore_pressure);
 /// positive), or an empty string.
 std::string hydrate_problem(HydrateScene const& hydrate);
 
+/// What of this state Eqs. 13 and 18 were not fitted to, in words; empty where nothing is. The data that are known to us begin at
+/// -30 degC and have 1.5 to 8 MPa and 720 to 840 kg/m^3; the seed paper itself takes 900 kg/m^3, which counts as inside. Where
+/// they end on the warm side is not known; there hydrate_problem() sees to it that hydrate is stable.
+std::string fit_warning(HydrateScene const& hydrate);
+
 /// True where a scene can have bonds at all: there is hydrate, and a law for it. Nothing of bonds is allocated or launched
 /// elsewhere.
 bool has_bonds(Scene const& scene);

@@ -146,6 +146,7 @@ void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
   HydrateScene gated = scene.hydrate;
   gated.allow_unstable = false;
   if (std::string const problem = hydrate_problem(gated); !problem.empty()) check.warn(problem);
+  if (std::string const warning = fit_warning(scene.hydrate); !warning.empty()) check.warn(warning);
   if (scene.bond.mode == BondingMode::given_thickness && scene.bond.critical_thickness == 0)
     return check.error({"bond.mode"}, "mode 'given_thickness' needs 'bond.critical_thickness'");
   if (scene.bond.mode != BondingMode::given_thickness && scene.bond.critical_thickness > 0)
