@@ -56,22 +56,30 @@ std::vector<Setting> keys_of_rung(TuneSetting const& s) {
   return {{"test.inertial_number", share_text(s.inertial_number)},
           {"test.wave_number", "0"},
           {"run.precision", precision_names[static_cast<int>(s.precision)]},
-          {"run.dt_safety", share_text(s.dt_safety)},
+          {"run.dt_safety", s.dt_safety > 0 ? share_text(s.dt_safety) : ""},
           {"run.inertia_scaling", share_text(s.inertia_scaling)},
           {"run.mass_scaling", share_text(s.mass_scaling)}};
 }
 
 /// The size of a rung: that of the scene, in smaller.
 std::vector<std::string> sample_of_rung(Scene const& scene, SampleDesign const& design, std::int64_t discs) {
+  double const smaller = std::sqrt(static_cast<double>(discs) / static_cast<double>(design.particles));
   std::vector<std::string> overrides = {"sample.generator=under_compaction",
-                                        fmt::format("sample.particles={}", discs),
-                                        "sample.width=0",
-                                        "sample.height=0",
+                                        "sample.particles=",
+                                        fmt::format("sample.width={}", design.width * smaller),
+                                        fmt::format("sample.height={}", design.height * smaller),
                                         fmt::format("sample.void_ratio={}", design.void_ratio),
-                                        fmt::format("sample.aspect_ratio={}", design.height / design.width),
                                         fmt::format("grading.d50={}", design.grading.d50())};
   if (scene.sample.layers > 5) overrides.emplace_back("sample.layers=5");
   return overrides;
+}
+
+/// Of a rung whose narrower side has grains enough across.
+std::int64_t fewest_discs(SampleDesign const& design) {
+  double const side = std::min(design.width, design.height),
+               share = std::pow(fewest_grains_across * design.grading.largest() / side, 2);
+  constexpr double spare = 1.05;  // the number of discs is whole, the box follows
+  return std::llround(std::ceil(spare * share * static_cast<double>(design.particles)));
 }
 
 std::string group_name(std::int64_t discs, TuneSetting const& s) {
@@ -132,6 +140,7 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
   if (base.sample.generator == Generator::file)
     throw Refused("rungs need specimens of several seeds: a specimen from a file (sample.generator) is one only");
   SampleDesign const design = design_sample(base);
+  discs = std::max(discs, fewest_discs(design));
   plan.reduced = discs < design.particles;
   plan.discs = std::min(discs, design.particles);
   for (double const rate : ladder_rates)

@@ -239,7 +239,9 @@ TEST(SceneFile, AStrainRateReplacesTheDefaultInertialNumberButNotAStatedOne) {
   EXPECT_EQ(load(sized + "[test]\ninertial_number = 1e-5\n", {"test.strain_rate=5 %/min"}).scene.test.inertial_number, 0);
   EXPECT_EQ(load(sized + "[test]\nstrain_rate = 10\n", {"test.inertial_number=1e-5"}).scene.test.strain_rate, 0);
   problems_of(sized, {"test.strain_rate=10", "test.inertial_number=1e-5"});
-  expect_problem(sized + "[test]\ninertial_number = 0\n", "one of 'test.inertial_number' and 'test.strain_rate' must be given");
+  expect_problem(
+      sized + "[test]\ninertial_number = 0\n",
+      "'inertial_number' must lie between 1e-12 and 1, got 0; where the key is left out: strain_rate is given instead");
 }
 
 TEST(SceneFile, AWaveNumberBoundsTheRateOfAnInertialNumberNotAStatedRate) {

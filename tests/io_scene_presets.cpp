@@ -45,7 +45,7 @@ TEST(ScenePresets, APresetStandsInForTheDefaultsThatAreNotStated) {
         EXPECT_EQ(said.key, group->presets.front().keys[static_cast<std::size_t>(&said - preset.keys.data())].key);
         Key const& key = *find_key(said.key);
         Scene wanted;
-        set_from_text(key, wanted, said.value);
+        set_stated(key, wanted, said.value);
         EXPECT_EQ(value_text(key, scene), value_text(key, wanted)) << preset.name << ": " << said.key;
         if (std::none_of(stated.begin(), stated.end(), [&](auto const& text) { return text.starts_with(said.key); })) {
           EXPECT_EQ(value_text(key, other), value_text(key, wanted)) << preset.name << ": " << said.key;
@@ -130,7 +130,7 @@ TEST(ScenePresets, EachAccuracyRunsAndIsResumedInItsOwnOnly) {
     EXPECT_EQ(record["scene"]["run"]["accuracy"], accuracy);
     for (PresetKey const& said : accuracies().of(accuracy).keys) {
       Scene wanted;
-      set_from_text(*find_key(said.key), wanted, said.value);
+      set_stated(*find_key(said.key), wanted, said.value);
       Scene const resolved = load_scene(folder / "out" / "resolved.toml").scene;
       EXPECT_EQ(value_text(*find_key(said.key), resolved), value_text(*find_key(said.key), wanted)) << said.key;
     }

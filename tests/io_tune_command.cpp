@@ -82,6 +82,15 @@ TEST_F(TuneCommand, SaysSoWhereTheBudgetDoesNotTellAndWritesNothing) {
   EXPECT_FALSE(fs::exists(tuned));
 }
 
+/// 20,000 discs, six of the largest grains high: a rung of 60 would be two high.
+TEST_F(TuneCommand, GivesFlatSpecimensRungsOfEnoughGrainsAcross) {
+  std::ofstream(scene) << "[sample]\nwidth = \"210 mm\"\nheight = \"1.81 mm\"\nvoid_ratio = 0.26\nlayers = 2\n[test]\n"
+                          "axial_strain = \"0.2 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
+  CommandResult const result = tune("--tolerance 0.001% --budget 1s --discs 60");
+  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_NE(result.output.find("undetermined: the first 5 seeds need about "), std::string::npos) << result.output;
+}
+
 TEST_F(TuneCommand, RefusesWhatItCannotTune) {
   CommandResult const tolerance = tune("--tolerance 1mm");
   EXPECT_EQ(tolerance.code, 65);

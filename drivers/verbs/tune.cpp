@@ -262,7 +262,8 @@ void add_tune(CLI::App& program, Verb& chosen) {
   verb->add_option("--folder", options->folder, "folder of the runs (default: out/NAME-tune)")
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
-  verb->add_option("--discs", options->discs, "discs of a rung; the scene's own number where that is smaller")
+  verb->add_option("--discs", options->discs,
+                   "discs of a rung; the scene's own number where that is smaller, more where they would be too few across")
       ->capture_default_str()
       ->check(CLI::Range(16, 1000000000))
       ->type_name("N");

@@ -77,8 +77,9 @@ class SceneReader {
     if (name == "sample.generator" && value == "file") leave_out_sizes();
     Key const* const key = find_key(name);
     if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
-    set(*key, place, true, [&] { set_from_text(*key, scene_, value); });
     overridden_.push_back(key->name);
+    if (takes_back(*key, value)) return take_back(*key);
+    set(*key, place, true, [&] { set_from_text(*key, scene_, value); });
   }
 
   /// Cross-checks, then the scene; throws if anything is wrong.
@@ -157,12 +158,14 @@ class SceneReader {
 
   /// A specimen that is read takes the place of the one that the file describes.
   void leave_out_sizes() {
-    for (std::string_view const name :
-         {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"}) {
-      if (std::find(overridden_.begin(), overridden_.end(), name) != overridden_.end()) continue;
-      places_.erase(name);
-      set_from_number(*find_key(name), scene_, 0);
-    }
+    for (std::string_view const name : {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"})
+      if (std::find(overridden_.begin(), overridden_.end(), name) == overridden_.end()) take_back(*find_key(name));
+  }
+
+  /// As if the file had not stated the key.
+  void take_back(Key const& key) {
+    places_.erase(key.name);
+    set_from_text(key, scene_, unquoted(value_text(key, Scene{})));
   }
 
   template <class Set>
@@ -170,6 +173,7 @@ class SceneReader {
     places_.insert_or_assign(key.name, place);
     try {
       assign();
+      if (is_not_given(key, scene_)) throw std::invalid_argument(zero_problem(key));
     } catch (std::invalid_argument const& problem) {
       spoilt_.emplace_back(key.name);
       return report(place, fmt::format("'{}' {}", from_override ? key.name : key.leaf(), problem.what()));
@@ -261,14 +265,17 @@ LoadedScene load_scene(std::filesystem::path const& path, std::vector<std::strin
 }
 
 std::string resolved_scene(Scene const& scene, std::filesystem::path const& folder) {
-  std::string text = "# The scene as it is run, with every key. A value of 0 or \"\" means: not given.\n";
+  std::string text = "# The scene as it is run, with every key; what is not given says what holds instead.\n";
   std::string_view section;
   Scene relative = scene;
   for (std::string* const path : {&relative.sample.file, &relative.grading.file})
     if (!path->empty()) *path = std::filesystem::proximate(*path, folder).string();
   for (Key const& key : schema()) {
     if (key.section() != section) text += fmt::format("\n[{}]\n", section = key.section());
-    text += fmt::format("{} = {}\n", key.leaf(), value_text(key, relative));
+    if (is_not_given(key, scene))
+      text += fmt::format("# {} is not given: {}\n", key.leaf(), key.zero);
+    else
+      text += fmt::format("{} = {}\n", key.leaf(), value_text(key, relative));
   }
   return text;
 }

@@ -67,7 +67,7 @@ Json key_json(Key const& key) {
   if (!is_absent(key, Scene{})) json["default"] = default_json(key);
   Json const text = {{"type", "string"}}, truth = {{"type", "boolean"}};
   Json number = {{"type", key.kind == Kind::integer ? "integer" : "number"},
-                 {"minimum", key.zero.empty() ? key.least : std::min(0.0, key.least)},
+                 {"minimum", key.takes_zero ? std::min(0.0, key.least) : key.least},
                  {"maximum", key.most}};
   switch (key.kind) {
     case Kind::quantity:

@@ -31,7 +31,7 @@ void check_range(Key const& key, double value, bool bare) {
   if (value >= key.least && value <= key.most) return;
   std::string text = fmt::format("must lie between {} and {}, got {}", limit_text(key, key.least), limit_text(key, key.most),
                                  is_quantity(key) ? format_quantity(value, key.dimension) : format_number(value));
-  if (!key.zero.empty()) text += fmt::format(" (0: {})", key.zero);
+  if (key.takes_zero) text += fmt::format(" (0: {})", key.zero);
   if (is_quantity(key) && key.dimension == Dimension::ratio) {
     if (bare && key.most <= 1 && value > 1 && value <= 100)
       text += fmt::format("; this looks like percent: write {} or \"{} %\"", format_number(value / 100), format_number(value));
@@ -191,6 +191,16 @@ void set_from_boolean(Key const& key, Scene& scene, bool value) {
   std::get<bool& (*)(Scene&)>(key.field)(scene) = value;
 }
 
+void set_stated(Key const& key, Scene& scene, std::string_view text) {
+  if (takes_back(key, text)) return set_from_text(key, scene, unquoted(value_text(key, Scene{})));
+  set_from_text(key, scene, text);
+  if (is_not_given(key, scene)) refuse(zero_problem(key));
+}
+
+bool takes_back(Key const& key, std::string_view text) {
+  return text.empty() && key.kind != Kind::text && key.kind != Kind::path;
+}
+
 bool is_zero(Key const& key, Scene const& scene) {
   struct Visitor {
     Scene const& scene;
@@ -204,6 +214,13 @@ bool is_zero(Key const& key, Scene const& scene) {
     bool operator()(ChoiceField const&) const { return false; }
   };
   return std::visit(Visitor{scene}, key.field);
+}
+
+bool is_not_given(Key const& key, Scene const& scene) { return !key.zero.empty() && !key.takes_zero && is_zero(key, scene); }
+
+std::string zero_problem(Key const& key) {
+  return fmt::format("must lie between {} and {}, got 0; where the key is left out: {}", limit_text(key, key.least),
+                     limit_text(key, key.most), key.zero);
 }
 
 std::string value_text(Key const& key, Scene const& scene) {

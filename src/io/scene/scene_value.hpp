@@ -16,8 +16,17 @@ void set_from_number(Key const& key, Scene& scene, double value);
 void set_from_integer(Key const& key, Scene& scene, std::int64_t value);
 void set_from_boolean(Key const& key, Scene& scene, bool value);
 
-/// True where the field has the value that the schema calls "not given" (0 or no text).
+/// What a user states beside a file: as set_from_text(), but an empty text takes the key back to its default, and 0 is no value
+/// where it would mean that.
+void set_stated(Key const& key, Scene& scene, std::string_view text);
+bool takes_back(Key const& key, std::string_view text);
+
+/// True where the field is 0 or has no text.
 bool is_zero(Key const& key, Scene const& scene);
+
+/// True where a scene was not given the key; 0 stands for that. What a scene file may not state, see zero_problem().
+bool is_not_given(Key const& key, Scene const& scene);
+std::string zero_problem(Key const& key);
 
 /// The value as a scene file states it, with quotes and unit; reads back to the same bits.
 std::string value_text(Key const& key, Scene const& scene);

@@ -92,7 +92,7 @@ Key const table[] = {
   {"test.axial_strain", quantity, CLATHRA_FIELD(test, axial_strain), "natural axial strain to reach", ratio, 1e-6, 0.5},
   {"test.inertial_number", quantity, CLATHRA_FIELD(test, inertial_number), "rate of the test as I = strain rate * d50 * sqrt(density / pressure); measured against I = 1e-5, the peak of q of sand +5.6 +- 0.8 % at 1e-3, +2.5 +- 0.6 at 5e-4, +0.7 +- 0.5 at 2e-4, with 55 % of hydrate +2.5 +- 0.8, +1.3 +- 0.6, +0.6 +- 0.5", ratio, 1e-12, 1, "strain_rate is given instead"},
   {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, instead of inertial_number", rate, 1e-12, 1e6, "test.inertial_number decides"},
-  {"test.wave_number", quantity, CLATHRA_FIELD(test, wave_number), "largest W, the stress of the wave that a platen sends out over sigma_3: the rate of inertial_number is lowered where the height of the specimen asks for it; measured on 20,000 discs with 55 %: peak of q +1.4 +- 0.5 % at I = 2e-4, where W is 0.26, +1.0 +- 0.5 % with W of 0.2 and +0.3 +- 0.5 % with 0.13; a stated inertial_number is bounded by a stated wave_number only", ratio, 1e-6, 1000, "the rate is that of inertial_number"},
+  {"test.wave_number", quantity, CLATHRA_FIELD(test, wave_number), "largest W, the stress of the wave that a platen sends out over sigma_3: the rate of inertial_number is lowered where the height of the specimen asks for it; measured on 20,000 discs with 55 %: peak of q +1.4 +- 0.5 % at I = 2e-4, where W is 0.26, +1.0 +- 0.5 % with W of 0.2 and +0.3 +- 0.5 % with 0.13; a stated inertial_number is bounded by a stated wave_number only", ratio, 1e-6, 1000, "the rate is that of inertial_number", {}, true},
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5},
   {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of consolidation; a specimen that has not come to rest by then is refused, with another number than this sheared with a warning", ratio, 0, 1e9},
 
@@ -110,7 +110,7 @@ Key const table[] = {
 
   {"output.folder", text, CLATHRA_FIELD(output, folder), "folder of the results"},
   {"output.records", integer, CLATHRA_FIELD(output, records), "rows of history.csv over the whole strain", ratio, 1, 1e6},
-  {"output.snapshots", integer, CLATHRA_FIELD(output, snapshots), "snapshots for ParaView and the report over the whole strain, besides the one at its start", ratio, 1, 1e5, "none at all"},
+  {"output.snapshots", integer, CLATHRA_FIELD(output, snapshots), "snapshots for ParaView and the report over the whole strain, besides the one at its start", ratio, 1, 1e5, "none at all", {}, true},
   {"output.snapshots_at", quantities, CLATHRA_FIELD(output, snapshots_at), "axial strains at which snapshots are taken besides, at the very step, as in [\"2.54 %\", \"3.38 %\"]", ratio, 1e-6, 0.5},
   {"output.energy", boolean, CLATHRA_FIELD(output, energy), "keep the energy ledger in history.csv"},
   {"output.events", boolean, CLATHRA_FIELD(output, events), "write every broken bond to events.csv"},

@@ -31,11 +31,12 @@ struct Key {
   std::string_view name;  ///< dotted: "test.confining_stress"
   Kind kind;
   SceneField field;
-  std::string_view help;                   ///< a sentence without full stop
-  Dimension dimension = Dimension::ratio;  ///< of a quantity
-  double least = 0, most = 0;              ///< allowed, both included; of quantities (SI) and integers
-  std::string_view zero = {};              ///< what 0 means where it stands for "not given"; it is then allowed besides the range
+  std::string_view help;                        ///< a sentence without full stop
+  Dimension dimension = Dimension::ratio;       ///< of a quantity
+  double least = 0, most = 0;                   ///< allowed, both included; of quantities (SI) and integers
+  std::string_view zero = {};                   ///< what holds where a Scene has 0 for it: where it is not given, or where 0 is
   std::span<std::string_view const> choices{};  ///< names of a choice, in the order of the enumerators
+  bool takes_zero = false;                      ///< 0 may be stated besides the range
 
   std::string_view section() const { return name.substr(0, name.find('.')); }
   std::string_view leaf() const { return name.substr(name.find('.') + 1); }

@@ -209,7 +209,7 @@ class StudyReader {
       return report(node, fmt::format("'{}' needs one value here", key.name)), std::nullopt;
     try {
       Scene scratch;
-      set_from_text(key, scratch, text);
+      set_stated(key, scratch, text);
     } catch (std::invalid_argument const& problem) {
       return report(node, fmt::format("'{}' {}", key.name, problem.what())), std::nullopt;
     }

@@ -20,7 +20,7 @@ std::string echoed(std::string const& key_name, std::string const& text) {
   Key const* const key = find_key(key_name);
   Scene scene;
   try {
-    set_from_text(*key, scene, text);
+    set_stated(*key, scene, text);
   } catch (std::invalid_argument const&) {
     return text;
   }
@@ -43,7 +43,7 @@ std::string problem_of(Study const& study, std::string const& text) {
                        study.file.string());
   try {
     Scene scratch;
-    set_from_text(*key, scratch, text.substr(equals + 1));
+    set_stated(*key, scratch, text.substr(equals + 1));
   } catch (std::invalid_argument const& problem) {
     return fmt::format("'{}' {}", name, problem.what());
   }
@@ -141,7 +141,7 @@ std::string si_text(Setting const& setting) {
   auto const* const number = key ? std::get_if<double& (*)(Scene&)>(&key->field) : nullptr;
   if (!number) return setting.second;
   Scene scene;
-  set_from_text(*key, scene, setting.second);
+  set_stated(*key, scene, setting.second);
   return fmt::format("{}", (*number)(scene));
 }
 

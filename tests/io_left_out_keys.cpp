@@ -1,0 +1,71 @@
+/// Keys that a scene leaves out: 0 does not say so, an empty override does, and the resolved scene says what holds instead.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "io/scene/scene_file.hpp"
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
+
+namespace clathra {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+std::string const sized = "[sample]\nparticles = 2000\n";
+
+LoadedScene load(std::string const& text, Texts const& overrides = {}) {
+  return parse_scene(text, "my.toml", "folder", overrides);
+}
+
+std::string problems_of(std::string const& text, Texts const& overrides = {}) {
+  try {
+    (void)load(text, overrides);
+  } catch (SceneProblems const& problems) {
+    return problems.what();
+  }
+  return "none";
+}
+
+TEST(LeftOutKeys, AreNotStatedAsZeroButWhereZeroMeansSomething) {
+  int keys = 0;
+  for (Key const& key : schema()) {
+    if (key.zero.empty() || key.least <= 0) continue;
+    ++keys;
+    std::string const said = std::string(key.name) + "=0", problem = problems_of(sized, {said});
+    if (key.takes_zero)
+      EXPECT_EQ(problem, "none") << said;
+    else
+      EXPECT_NE(problem.find("'" + std::string(key.name) + "' must lie between "), std::string::npos) << said << problem;
+  }
+  EXPECT_GE(keys, 12);
+  EXPECT_EQ(problems_of("[sample]\nparticles = 0\nwidth = \"10 mm\"\n"),
+            "my.toml:2:13: error: 'particles' must lie between 16 and 1000000000, got 0; where the key is left out: it follows "
+            "from the others");
+  EXPECT_EQ(load(sized + "[test]\nwave_number = 0\n[output]\nsnapshots = 0\n").scene.test.wave_number, 0);
+}
+
+TEST(LeftOutKeys, AreTakenBackByAnEmptyOverride) {
+  std::string const file =
+      "[sample]\nparticles = 2000\nvoid_ratio = 0.3\nlayers = 3\n[grains]\nfriction = 0.3\n[run]\n"
+      "accuracy = \"draft\"\nforce = true\nskin = \"0.02 mm\"\n[output]\nsnapshots_at = [\"1 %\"]\n";
+  Scene const scene = load(file, {"sample.void_ratio=", "sample.layers=", "grains.friction=", "run.accuracy=", "run.force=",
+                                  "run.skin=", "output.snapshots_at="})
+                          .scene;
+  Scene const plain = load(sized).scene;
+  for (Key const& key : schema()) EXPECT_EQ(value_text(key, scene), value_text(key, plain)) << key.name;
+  EXPECT_EQ(load(file, {"sample.particles=", "sample.width=10 mm"}).scene.sample.particles, 0);
+}
+
+TEST(LeftOutKeys, AreCommentsOfTheResolvedScene) {
+  std::string const text = resolved_scene(load(sized).scene, ".");
+  EXPECT_NE(text.find("# width is not given: it follows from the others\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("# skin is not given: chosen\n"), std::string::npos) << text;
+  for (Key const& key : schema()) EXPECT_NE(text.find(std::string(key.leaf())), std::string::npos) << key.name;
+  EXPECT_EQ(problems_of(text), "none");
+}
+
+}  // namespace
+}  // namespace clathra
