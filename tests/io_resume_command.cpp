@@ -122,6 +122,30 @@ TEST_F(RunFolder, NamesADamagedCheckpointThatItPassesOver) {
   expect_as_left_alone();
 }
 
+TEST_F(RunFolder, NamesTheNewestManifestWhereItIsMissing) {
+  copy_of("stopped");
+  fs::path manifest = newest().file;
+  fs::remove(manifest.replace_extension("json"));
+  CommandResult const resumed = run("copy", "--resume");
+  EXPECT_EQ(resumed.code, 0) << resumed.output;
+  EXPECT_TRUE(says(resumed, "warning: a checkpoint is passed over: " + manifest.string() + ": is missing, so "));
+  EXPECT_NE(record("copy")["warnings"].dump().find("is missing, so "), std::string::npos);
+  expect_as_left_alone();
+}
+
+TEST_F(RunFolder, IsRidOfWhatAKillLeftHalfWritten) {
+  fs::path const folder = copy_of("stopped");
+  for (char const* const name : {"run.json.tmp-17", "ckpt/0.h5.tmp-17", "snap/000000000003.h5.tmp-17"})
+    put(folder / name, "half");
+  put(folder / ".lock.tmp-17", "of another program that waits");
+  ASSERT_EQ(run("copy", "--resume --max-walltime 0.001s").code, 75);
+  for (char const* const name : {"run.json.tmp-17", "ckpt/0.h5.tmp-17", "snap/000000000003.h5.tmp-17"})
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+  EXPECT_TRUE(fs::exists(folder / ".lock.tmp-17"));
+  EXPECT_EQ(run("copy", "--resume").code, 0);
+  expect_as_left_alone();
+}
+
 TEST_F(RunFolder, NoticesRowsThatWereChangedBehindItsBack) {
   for (char const* const name : {"history.csv", "events.csv"}) {
     fs::path const folder = copy_of("stopped");

@@ -88,6 +88,19 @@ FoundCheckpoint read_manifest(std::filesystem::path const& run_folder, int gener
   return c;
 }
 
+/// Removes what a kill left half written: files under the names that they have until they are whole.
+void remove_half_written(std::filesystem::path const& run_folder) {
+  std::error_code ignored;
+  for (char const* const folder : {"", "ckpt", "snap"}) {
+    for (auto entry = std::filesystem::directory_iterator(run_folder / folder, ignored);
+         entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
+      std::string const name = entry->path().filename().string();
+      bool const is_lock = name.starts_with(".lock");  // which another program may be waiting for
+      if (!is_lock && name.find(".tmp-") != std::string::npos) std::filesystem::remove(entry->path(), ignored);
+    }
+  }
+}
+
 /// Removes these generations, the file of a manifest after it, and what a kill left half written.
 void remove_generations(std::filesystem::path const& run_folder, std::initializer_list<int> generations) {
   std::error_code ignored;
@@ -95,13 +108,7 @@ void remove_generations(std::filesystem::path const& run_folder, std::initialize
     for (char const* const extension : {"json", "h5"})
       std::filesystem::remove(file_of(run_folder, generation, extension), ignored);
   }
-  // What a kill left half written goes too.
-  for (char const* const folder : {"ckpt", "snap"}) {
-    for (auto entry = std::filesystem::directory_iterator(run_folder / folder, ignored);
-         entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
-      if (entry->path().filename().string().find(".tmp-") != std::string::npos) std::filesystem::remove(entry->path(), ignored);
-    }
-  }
+  remove_half_written(run_folder);
   std::filesystem::remove(run_folder / "ckpt", ignored);  // only if it is empty now
 }
 
@@ -110,6 +117,7 @@ void remove_generations(std::filesystem::path const& run_folder, std::initialize
 CheckpointSeries::CheckpointSeries(std::filesystem::path run_folder, Ranks ranks, std::optional<FoundCheckpoint> const& last)
     : folder_(std::move(run_folder)), ranks_(std::move(ranks)) {
   if (!last) return;
+  on_root(ranks_, [&] { remove_half_written(folder_); });
   generation_ = 1 - last->generation;
   sequence_ = last->sequence + 1;
 }
@@ -140,9 +148,13 @@ namespace {
 
 FoundCheckpoints look_for_checkpoints(std::filesystem::path const& run_folder) {
   FoundCheckpoints found;
+  std::vector<int> without_manifest;
   for (int generation : {0, 1}) {
     std::error_code ignored;
-    if (!std::filesystem::exists(file_of(run_folder, generation, "json"), ignored)) continue;
+    if (!std::filesystem::exists(file_of(run_folder, generation, "json"), ignored)) {
+      if (std::filesystem::exists(file_of(run_folder, generation, "h5"), ignored)) without_manifest.push_back(generation);
+      continue;
+    }
     try {
       found.usable.push_back(read_manifest(run_folder, generation));
     } catch (FileProblem const& problem) {
@@ -152,6 +164,13 @@ FoundCheckpoints look_for_checkpoints(std::filesystem::path const& run_folder) {
   std::sort(found.usable.begin(), found.usable.end(), [](auto const& a, auto const& b) { return a.sequence > b.sequence; });
   if (found.usable.empty() && !found.damaged.empty())
     throw FileProblem(ExitCode::file_missing, run_folder / "ckpt", no_checkpoint_text(found.damaged));
+  // Where there is no other, a kill may have come before the first manifest.
+  for (int const generation : without_manifest)
+    if (!found.usable.empty())
+      found.damaged.emplace_back(ExitCode::file_missing, file_of(run_folder, generation, "json"),
+                                 fmt::format("is missing, so {}.h5 is not used: the run was ended while it wrote that "
+                                             "checkpoint, or the file is lost",
+                                             generation));
   return found;
 }
 

@@ -33,7 +33,8 @@ struct FoundCheckpoint {
 /// Writes under RUN/ckpt/ by turns; the older generation stays until the newer one is whole.
 class CheckpointSeries {
  public:
-  /// @param last  the checkpoint that the run goes on from, if any: it is not overwritten first
+  /// @param last  the checkpoint that the run goes on from, if any: it is not overwritten first, and what a kill of that run left
+  /// half written is removed
   CheckpointSeries(std::filesystem::path run_folder, Ranks ranks, std::optional<FoundCheckpoint> const& last);
   /// @throws FileProblem
   void write(Scene const& scene, TestState const& state, std::int64_t step, RunProgress const& progress);
