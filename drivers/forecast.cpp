@@ -102,7 +102,7 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
   std::string const lowered =
       n.at("rate_share") < 1 ? fmt::format("lowered from {:.3g} by test.wave_number; ", scene.test.inertial_number) : "";
   text += row("inertial number I",
-              fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning));
+              fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning(scene)));
   text += row("wave number W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("wave_number"), wave_limit));
   text += row("error of peak q", expected_error_text(scene, n));
   text += row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));

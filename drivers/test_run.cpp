@@ -105,7 +105,8 @@ class TestRun::Running {
         remove_checkpoints(folder_);  // last: what is finished and on the disk needs them no more
     });
     line_.repeat_warnings();
-    print_result(summary_->text() + fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
+    print_result(summary_->text(record_.stages.at("shear").at("sigma3_held")) +
+                 fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
     return ExitCode::done;
   }
 
@@ -190,7 +191,7 @@ class TestRun::Running {
 
   /// Bonds, consolidates, shears and writes what comes out.
   void shear() {
-    summary_.emplace(scene_.test.confining_stress);
+    summary_.emplace();
     Speedometer const preparing;
     std::unique_ptr<BiaxialTest> const test = prepared_test();
     bool const generated = !resumed_ && record_.wall_seconds.contains("generate");

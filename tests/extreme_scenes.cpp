@@ -115,7 +115,7 @@ TEST(ExtremeScenes, FromOneKilopascalToAHundredMegapascals) {
   scene.test.confining_stress = 1e7;
   expect_row("sigma_3 = 10 MPa, k_n/p = 30", "peak q/p", expect_sound("sigma_3 = 10 MPa", scene).peak_ratio, 0.05, 1.5);
   scene.test.confining_stress = 1e8;
-  expect_refusal<Refused>("sigma_3 = 100 MPa, k_n/p = 3", "kn / sigma_3", [&] { shear(scene); });
+  expect_refusal<Refused>("sigma_3 = 100 MPa, k_n/p = 3", "kn / sigma_1", [&] { shear(scene); });
 }
 
 // Nothing but k_n/p and I counts: the same digits until round-off has grown.

@@ -99,8 +99,8 @@ TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
     EXPECT_EQ(fast.quasi_static, 0);
     EXPECT_EQ(fast.checks, 100);
     EXPECT_GT(fast.unbalanced, 1);
-    ASSERT_EQ(fast.warnings.size(), 1u);
-    EXPECT_NE(fast.warnings[0].find("of 100 checks"), std::string::npos) << fast.warnings[0];
+    ASSERT_GE(fast.warnings.size(), 1u);
+    EXPECT_NE(fast.warnings[0].find("out of balance on the way to the peak of q"), std::string::npos) << fast.warnings[0];
   }
 }
 

@@ -17,20 +17,20 @@ Snapshot BiaxialTest::snapshot() const {
   snapshot.step = s.steps() - state_->first_step;
   snapshot.time = s.time() - state_->start_time;
   snapshot.eps1 = state_->eps1();
-  snapshot.eps_v = std::log(state_->area0 / s.area());
+  snapshot.eps_v = state_->eps_v();
   snapshot.d50 = state_->d50;
   return snapshot;
 }
 
 HistoryRow BiaxialTest::record() {
-  Simulation const& s = *state_->simulation;
+  Simulation& s = *state_->simulation;
   Measures const& m = state_->measures();
   WallStress const stress = s.stress();
   HistoryRow row;
   row.step = s.steps() - state_->first_step;
   row.time_s = s.time() - state_->start_time;
   row.eps1 = state_->eps1();
-  row.eps_v = std::log(state_->area0 / s.area());
+  row.eps_v = state_->eps_v();
   row.sigma1_Pa = stress.y;
   row.sigma3_Pa = stress.x;
   row.q_Pa = stress.y - stress.x;
@@ -48,6 +48,13 @@ HistoryRow BiaxialTest::record() {
   row.wave_number = wave_number(state_->scene, state_->rate.strain_rate, s.walls().height(), row.void_ratio,
                                 state_->scene.grains.density * (1 + s.added_mass()));
   row.unbalanced = m.unbalanced_ratio(s.discs());
+  LargestDeviator const& largest = s.largest_deviator();
+  bool const between = largest.q > row.q_Pa;
+  row.largest_q_Pa = between ? largest.q : row.q_Pa;
+  row.largest_q_eps1 = between ? std::log(state_->height0 / largest.height) : row.eps1;
+  row.dilation_deg = state_->dilation.largest();
+  s.watch_deviator();
+  state_->dilation.begin_record();
   return row;
 }
 
@@ -104,12 +111,14 @@ void BiaxialTest::State::for_each_number(Visit&& visit) {
   visit("record_interval", record_interval);
   visit("first_step", first_step);
   visit("start_time", start_time);
+  visit("began_quasi_static", began_quasi_static);
   visit("disc_steps", disc_steps);
   visit("strain_rate", rate.strain_rate);
   visit("inertial_number", rate.inertial_number);
   visit("wave_number", rate.wave_number);
   for_each_energy_column(start, [&](std::string const& name, double& value) { visit("start_" + name, value); });
   watch.for_each_number(visit);
+  dilation.for_each_number(visit);
 }
 
 TestState BiaxialTest::state() const {
@@ -129,8 +138,12 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   t.scene = scene;
   t.ranks = ranks;
   // Checkpoints from before there were checks hold none.
-  t.watch.for_each_number(
-      [&](std::string const& name, auto const& value) { state.numbers.emplace(name, static_cast<double>(value)); });
+  auto const unless_there = [&](std::string const& name, auto const& value) {
+    state.numbers.emplace(name, static_cast<double>(value));
+  };
+  unless_there("began_quasi_static", state.preparation.at("quasi_static"));
+  t.watch.for_each_number(unless_there);
+  t.dilation.for_each_number(unless_there);
   // Earlier ones had one step for all time, and counted records in steps.
   bool const counted_in_steps = state.numbers.count("steps_per_record") > 0;
   if (counted_in_steps) state.numbers.insert({{"records_due", 0}, {"record_interval", 0}, {"start_time", 0}});

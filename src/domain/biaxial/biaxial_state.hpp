@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "domain/biaxial/biaxial_test.hpp"
+#include "domain/biaxial/dilation_watch.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
 #include "domain/parallel/ranks.hpp"
@@ -26,10 +27,11 @@ struct BiaxialTest::State {
   std::int64_t bonds0 = 0, records_due = 0, first_step = 0;
   double record_interval = 0, start_time = 0;  // of axial strain; of the shear [s]
   std::int64_t disc_steps = 0;
-  int events_taken = 0;  // of those that this rank has seen
-  bool at_rest = false;  // when the shear began
+  int events_taken = 0;                              // of those that this rank has seen
+  bool at_rest = false, began_quasi_static = false;  // when the shear began
   EnergyRow start;
   ShearWatch watch;
+  DilationWatch dilation;
   Measures measured;
   std::int64_t measured_after = -1;  ///< steps
 
@@ -38,6 +40,7 @@ struct BiaxialTest::State {
   MassScaling mass_scaling(std::vector<double> const& radii) const;
   void consolidate(double stress, ProgressCallback const& progress);
   void require_rest(std::int64_t steps);
+  void require_grains(double deep_share) const;
   void begin_shear();
   double next_record() const { return static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }
   bool record_is_due() const { return eps1() >= next_record(); }
@@ -47,6 +50,7 @@ struct BiaxialTest::State {
     return height0 * std::exp(-std::min({watch.next(), next_record(), last, pause_at})) * (1 + 1e-12);
   }
   double eps1() const { return std::log(height0 / simulation->walls().height()); }
+  double eps_v() const { return std::log(area0 / simulation->area()); }
   void check();
   /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.
   Measures const& measures();

@@ -33,6 +33,16 @@ namespace {
 /// Cap on the speed of the servo walls over that of a platen. A brittle specimen that fails widens ten times as fast as the
 /// platens close it; at 4 such walls let sigma_3 rise by 70 % over a burst of breaking bonds.
 constexpr double largest_lateral_speed = 40;
+std::string overshoot_text(double reached, double wanted) {
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "the test ends at an axial strain of %.4g %%, %.4g %% were asked for: a single step strains it that far, lower the "
+      "rate",
+      100 * reached, 100 * wanted);
+  return text;
+}
+
 constexpr double elastic_lateral_ratio = 0.25;  // lateral expansion per axial compression at the start: the servo's first guess
 
 BondKind bond_kind(Scene const& scene) {
@@ -86,6 +96,8 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     }
   }
   preparation["void_ratio_after_consolidation"] = simulation->void_ratio();
+  Measures const m = simulation->measures();
+  require_grains(m.touching > 0 ? m.deep / m.touching : 0);
 }
 
 std::string BiaxialTest::State::text_of_scaling() const {
@@ -167,11 +179,13 @@ void BiaxialTest::State::begin_shear() {
   int const broken = s.broken_bonds();
   bonds0 = std::llround(s.measures().bonded) + broken;
   if (scene.output.takes_snapshots()) s.mark_start();
+  s.watch_deviator();
   preparation["broken_in_consolidation"] = broken;
   preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
   if (rate.share < 1) preparation["rate_share"] = rate.share;
-  preparation["quasi_static"] = at_rest && is_quasi_static(rate) ? 1 : 0;
+  began_quasi_static = at_rest && is_quasi_static(scene, rate);
+  preparation["quasi_static"] = began_quasi_static ? 1 : 0;
 }
 
 BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback const& progress, Ranks const& ranks)
@@ -238,20 +252,36 @@ Measures const& BiaxialTest::State::measures() {
   return measured;
 }
 
+/// A specimen whose grains have mostly moved into each other is none: such a test ends.
+void BiaxialTest::State::require_grains(double deep_share) const {
+  if (scene.run.force) return;
+  if (std::string const problem = collapse(simulation->void_ratio(), deep_share); !problem.empty())
+    throw Refused(problem + ": the grains are too soft for this stress, raise grains.kn (--force goes on)");
+}
+
 /// Masses scaled further than usual must not carry the loads that contacts should: such a test ends.
 void BiaxialTest::State::check() {
-  watch.check(*simulation, measures(), eps1());
-  if (!watch.balanced()) preparation["quasi_static"] = 0;
+  ShearCheck const seen = look_at_shear(*simulation, measures(), eps1());
+  watch.add(seen);
+  dilation.check(eps1(), eps_v());
+  preparation["quasi_static"] = began_quasi_static && watch.balanced(bonds0 > 0) ? 1 : 0;
+  require_grains(seen.deep_share);
   if (!scene.run.scales_masses_further() || watch.is_slow(scene.test.axial_strain) || scene.run.force) return;
   throw Refused(watch.of_kinetic_energy() + "; scale less (run.inertia_scaling, run.mass_scaling) or shear slower");
 }
 
-std::vector<std::string> BiaxialTest::shear_warnings() const { return state_->watch.warnings(); }
+std::vector<std::string> BiaxialTest::shear_warnings() const {
+  State const& t = *state_;
+  std::vector<std::string> warnings = t.watch.warnings(t.bonds0 > 0);
+  if (std::string const soft = stiffness_warning_at(t.scene, t.watch.largest_sigma1()); !soft.empty()) warnings.push_back(soft);
+  constexpr double said = 1.01;  // of the strain that was asked for
+  if (finished() && strain_fraction() > said) warnings.push_back(overshoot_text(t.eps1(), t.scene.test.axial_strain));
+  return warnings;
+}
 
 StageRecord BiaxialTest::shear_checks() const {
-  StageRecord checks;
+  StageRecord checks = state_->watch.record();
   checks["time_step_renewals"] = static_cast<double>(state_->simulation->time_step_renewals());
-  state_->watch.for_each_number([&](char const* name, auto const& value) { checks[name] = static_cast<double>(value); });
   return checks;
 }
 

@@ -38,7 +38,7 @@ class BiaxialTest {
   /// Makes at most so many steps towards the next history row. @param pause_at  axial strain at which it returns before
   /// @return whether the row is due;  @throws Diverged
   bool advance(std::int64_t most_steps, double pause_at = std::numeric_limits<double>::infinity());
-  HistoryRow record();             ///< measured now
+  HistoryRow record();             ///< measured now; what a row has of all steps since the row before begins anew
   EnergyRow energy();              ///< only with scene.output.energy
   BreakEvents take_events();       ///< broken bonds since the last call (none without output.events and snapshots), sorted
                                    ///< by (step, id_a, id_b); on rank 0 only

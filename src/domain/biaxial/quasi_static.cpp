@@ -1,9 +1,11 @@
 #include "domain/biaxial/quasi_static.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "domain/generation/equilibration.hpp"
+#include "domain/scene/hydrate.hpp"
 #include "domain/scene/scene_laws.hpp"
 #include "domain/scene/stage.hpp"
 
@@ -25,10 +27,49 @@ int digits_of_rate(RateNumbers const& n) { return n.share < 1 ? digits_of_wave :
 
 /// A rate that was asked for as the limit itself may come back a bit above it.
 bool is_too_fast(RateNumbers const& n) { return n.inertial_number > (1 + 1e-9) * inertial_limit; }
+bool has_rate_effects(Scene const& scene, RateNumbers const& n) {
+  return n.inertial_number > (1 + 1e-9) * inertial_warning(scene);
+}
 
-double stiffness_number(Scene const& scene) { return scene.grains.kn / scene.test.confining_stress; }
+std::string stiffness_text(Scene const& scene, double sigma1) {
+  return "kn / sigma_1 = " + short_number(scene.grains.kn / sigma1) + " with a sigma_1 of " + short_number(sigma1 * 1e-6) +
+         " MPa";
+}
 
 }  // namespace
+
+double inertial_warning(Scene const& scene) { return has_bonds(scene) ? inertial_warning_of_bonds : inertial_warning_of_sand; }
+
+bool is_quasi_static(Scene const& scene, RateNumbers const& n) {
+  return !has_rate_effects(scene, n) && n.wave_number < wave_limit;
+}
+
+double expected_sigma1(Scene const& scene) {
+  struct Envelope {
+    double saturation, slope, at_zero;  // sigma_1 = slope sigma_3 + at_zero [Pa]
+  };
+  static constexpr Envelope measured[] = {{0, 2.91, 0.41e6}, {0.26, 2.33, 2.41e6}, {0.41, 2.07, 6.71e6}, {0.55, 2.22, 8.44e6}};
+  double const saturation = has_bonds(scene) ? std::min(scene.hydrate.saturation, measured[3].saturation) : 0;
+  int k = 1;
+  while (measured[k].saturation < saturation) ++k;
+  Envelope const &a = measured[k - 1], &b = measured[k];
+  double const part = (saturation - a.saturation) / (b.saturation - a.saturation), stress = scene.test.confining_stress;
+  return (1 - part) * (a.slope * stress + a.at_zero) + part * (b.slope * stress + b.at_zero);
+}
+
+std::string collapse(double void_ratio, double deep_share) {
+  if (!(void_ratio >= least_void_ratio))
+    return "the void ratio has fallen to " + short_number(void_ratio) + ", below " + short_number(least_void_ratio);
+  if (deep_share > most_deep)
+    return short_number(100 * deep_share) + " % of the contacts overlap by more than a tenth of the smaller radius";
+  return {};
+}
+
+std::string stiffness_warning_at(Scene const& scene, double sigma1) {
+  bool const was_said = scene.grains.kn < stiffness_warning * expected_sigma1(scene);
+  if (was_said || !(sigma1 > 0) || scene.grains.kn >= stiffness_warning * sigma1) return {};
+  return stiffness_text(scene, sigma1) + " was below " + short_number(stiffness_warning) + ": grains overlapped noticeably";
+}
 
 double wave_number(Scene const& scene, double strain_rate, double height, double void_ratio, double density) {
   double const bulk_density = density / (1 + void_ratio), speed = std::sqrt(packing_modulus(grain_law(scene)) / bulk_density);
@@ -55,11 +96,12 @@ std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n)
   if (is_too_fast(n))
     refusals.push_back("inertial number I = " + short_number(n.inertial_number, digits_of_rate(n)) + " is above " +
                        short_number(inertial_limit) + ": the loading is not quasi-static");
-  if (double const stiffness = stiffness_number(scene); stiffness < stiffness_limit)
-    refusals.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_limit) +
-                       ": grains overlap by more than a tenth of their diameter, which no contact law here describes");
+  double const sigma1 = expected_sigma1(scene);
+  if (scene.grains.kn < stiffness_limit * sigma1)
+    refusals.push_back(stiffness_text(scene, sigma1) + ", as is to be expected, is below " + short_number(stiffness_limit) +
+                       ": grains overlap by a fifth of their diameter, which no contact law here describes");
   if (scene.run.precision == Precision::mixed && !mixed_precision_resolves(scene))
-    refusals.push_back("kn / sigma_3 = " + short_number(stiffness_number(scene)) + " is above " +
+    refusals.push_back("kn / sigma_3 = " + short_number(scene.grains.kn / scene.test.confining_stress) + " is above " +
                        short_number(stiffness_resolved) +
                        ": mixed precision does not resolve such small overlaps; take run.precision = \"double\"");
   return refusals;
@@ -67,9 +109,9 @@ std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n)
 
 std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> warnings;
-  if (n.inertial_number > inertial_warning && !is_too_fast(n))
-    warnings.push_back("inertial number I = " + short_number(n.inertial_number, digits_of_rate(n)) +
-                       " is above 1e-3: rate effects of several percent");
+  if (has_rate_effects(scene, n) && !is_too_fast(n))
+    warnings.push_back("inertial number I = " + short_number(n.inertial_number, digits_of_rate(n)) + " is above " +
+                       short_number(inertial_warning(scene)) + ": the peak of q is likely to be more than 2 % too high");
   if (n.wave_number > wave_limit) {
     warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
                        " is above 0.5: this run is not quasi-static, lower the inertial number");
@@ -77,8 +119,9 @@ std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n)
     warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) + " is above " +
                        short_number(wave_warning) + ": stress varies along the specimen");
   }
-  if (double const stiffness = stiffness_number(scene); stiffness < stiffness_warning && stiffness >= stiffness_limit)
-    warnings.push_back("kn / sigma_3 = " + short_number(stiffness) + " is below " + short_number(stiffness_warning) +
+  double const sigma1 = expected_sigma1(scene);
+  if (double const stiffness = scene.grains.kn / sigma1; stiffness < stiffness_warning && stiffness >= stiffness_limit)
+    warnings.push_back(stiffness_text(scene, sigma1) + ", as is to be expected, is below " + short_number(stiffness_warning) +
                        ": grains overlap noticeably");
   return warnings;
 }
