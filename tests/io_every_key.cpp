@@ -1,0 +1,157 @@
+/// Each key of a scene, away from its default: 300 discs are sheared to 1 % with it, and it moves the specimen or leaves its
+/// bits.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "file_content.hpp"
+#include "io/scene/scene_file.hpp"
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a key does to the state in which a test of the same seed ends.
+enum class Effect { moves, leaves };
+
+struct KeyTest {
+  std::string key, value;
+  Effect effect;
+  std::string with = "";      ///< other settings that it needs, which may differ from the base too
+  bool new_specimen = false;  ///< one is made with the key; else the base's is read
+};
+
+using enum Effect;
+std::vector<KeyTest> const key_tests = {
+    {"sample.generator", "tiled", moves, "sample.tile_particles=100", true},
+    {"sample.particles", "320", moves, "", true},
+    {"sample.void_ratio", "0.26", moves, "", true},
+    {"sample.width", "2 mm", moves, "sample.particles=", true},
+    {"sample.height", "3.8 mm", moves, "sample.particles=", true},
+    {"sample.aspect_ratio", "1.5", moves, "", true},
+    {"sample.layers", "2", moves, "", true},
+    {"sample.tile_particles", "150", moves, "sample.generator=tiled", true},
+    {"sample.file", "specimen.h5", leaves, "", false},
+    {"grains.density", "2700", moves, "", true},
+    {"grains.kn", "0.4 GPa", moves},
+    {"grains.ks", "0.3 GPa", moves},
+    {"grains.particle_stiffness_ratio", "1", moves},
+    {"grains.friction", "0.4", moves},
+    {"grains.shape_factor", "1.5", moves},
+    {"grains.contact_damping", "0.1", moves},
+    {"grading.table", "uniform", moves, "sample.void_ratio=0.22", true},
+    {"grading.file", "sizes.csv", moves, "", true},
+    {"grading.d50", "0.2 mm", moves, "", true},
+    {"hydrate.saturation", "41 %", moves},
+    {"hydrate.temperature", "2 degC", moves},
+    {"hydrate.pore_pressure", "6 MPa", moves},
+    {"hydrate.density", "850", moves},
+    {"hydrate.allow_unstable", "true", leaves},
+    {"bond.reading", "long_lever", moves},
+    {"bond.law", "constant_thickness", moves},
+    {"bond.composite", "replace", moves},
+    {"bond.moment_scale", "paper_si", moves},
+    {"bond.moment_ratio", "0.1", moves},
+    {"bond.rod_thickness", "scaled", moves},
+    {"bond.friction_floor", "true", moves},
+    {"bond.coefficients", "printed", moves},
+    {"bond.mode", "areal_target", moves},
+    {"bond.critical_thickness", "15 um", moves, "bond.mode=given_thickness"},
+    {"bond.plate_thickness", "10 um", moves, "bond.law=constant_thickness"},
+    {"bond.stress", "100 kPa", moves, "", true},
+    {"bond.after_consolidation", "false", moves},
+    {"test.confining_stress", "1.5 MPa", moves},
+    {"test.axial_strain", "0.8 %", moves},
+    {"test.inertial_number", "9e-4", moves},
+    {"test.strain_rate", "50", moves},
+    {"test.wave_number", "0.02", moves},
+    {"test.wall_friction", "0.3", moves},
+    {"test.consolidation_steps", "100000", leaves},
+    {"run.accuracy", "reference", moves},
+    {"run.seed", "2", moves, "", true},
+    {"run.threads", "2", leaves},
+    {"run.precision", "double", moves},
+    {"run.time_step", "bound", moves},
+    {"run.dt_safety", "0.5", moves},
+    {"run.damping", "0.2", moves},
+    {"run.inertia_scaling", "2", moves},
+    {"run.mass_scaling", "0.1", moves},
+    {"run.skin", "0.03 mm", moves},
+    {"run.force", "true", leaves},
+    {"output.folder", "elsewhere", leaves},
+    {"output.records", "7", leaves},
+    {"output.snapshots", "2", leaves},
+    {"output.snapshots_at", "0.5 %", leaves},
+    {"output.energy", "true", leaves},
+    {"output.events", "false", leaves},
+    {"output.event_details", "true", leaves},
+    {"output.full_precision", "true", leaves, "output.snapshots=2"},
+    {"output.keep_checkpoint", "false", leaves},
+};
+
+class EveryKey : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    fs::create_directories(folder());
+    std::ofstream(folder() / "base.toml")
+        << "[sample]\nparticles = 300\n[hydrate]\nsaturation = \"55 %\"\n[test]\naxial_strain = \"1 %\"\n"
+           "inertial_number = 8e-4\n[bond]\nmoment_ratio = 0.02\n[output]\nrecords = 5\nsnapshots = 0\n";
+    std::ofstream(folder() / "sizes.csv") << "d_mm,percent_finer\n0.12,0\n0.16,50\n0.28,100\n";
+    ASSERT_EQ(run_clathra("generate " + scene() + " -o " + (folder() / "specimen.h5").string()).code, 0);
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder()); }
+  static fs::path folder() { return fs::temp_directory_path() / ("clathra_keys_" + std::to_string(::getpid())); }
+  static std::string scene() { return (folder() / "base.toml").string(); }
+  static std::string set(std::string const& text) { return text.empty() ? "" : " --set '" + text + "'"; }
+
+  /// run.json of the base, or with a key.
+  static nlohmann::json sheared(KeyTest const& test) {
+    fs::path const out = folder() / (test.key.empty() ? "base" : test.key);
+    std::string const specimen = (folder() / "specimen.h5").string();
+    std::string command = "run " + scene() + " --output " + out.string() + set(test.with);
+    if (!test.new_specimen) command += set("sample.generator=file") + set("sample.file=" + specimen);
+    bool const is_file = test.key == "sample.file" || test.key == "grading.file";
+    if (!test.key.empty()) command += set(test.key + "=" + (is_file ? (folder() / test.value).string() : test.value));
+    CommandResult const result = run_clathra(command);
+    EXPECT_EQ(result.code, 0) << command << "\n" << result.output;
+    return nlohmann::json::parse(content(out / "run.json"), nullptr, false);
+  }
+};
+
+TEST_F(EveryKey, IsTested) {
+  for (Key const& key : schema())
+    EXPECT_EQ(std::count_if(key_tests.begin(), key_tests.end(), [&](KeyTest const& test) { return test.key == key.name; }), 1)
+        << key.name;
+}
+
+TEST_F(EveryKey, RunsAwayFromItsDefaultAndMovesTheSpecimenOrLeavesItsBits) {
+  nlohmann::json const base = sheared({"", "", leaves});
+  for (KeyTest const& test : key_tests) {
+    nlohmann::json const run = sheared(test);
+    ASSERT_TRUE(run.is_object()) << test.key;
+    EXPECT_EQ(run["exit"]["reason"], "finished") << test.key;
+    EXPECT_EQ(run["state_hash"] == base["state_hash"], test.effect == leaves) << test.key << " = " << test.value;
+    double const strain = run["stages"]["shear"]["end_eps1"], wanted = run["scene"]["test"]["axial_strain"];
+    EXPECT_NEAR(strain, wanted, 0.01 * wanted) << test.key;
+    EXPECT_GT(run["stages"]["shear"]["peak_q_Pa"].get<double>(), 1e5) << test.key;
+    // What was stated is what is recorded, and what the resolved scene says; only the folder is that of --output.
+    if (test.key == "output.folder") continue;
+    Key const& key = *find_key(test.key);
+    fs::path const resolved = folder() / test.key / "resolved.toml";
+    EXPECT_NE(value_text(key, load_scene(resolved).scene), value_text(key, load_scene(scene()).scene)) << test.key;
+  }
+}
+
+}  // namespace
+}  // namespace clathra
