@@ -33,8 +33,7 @@ def rows(folder):
         yield {"group": group, "specimen": specimen, "error": error, "inertial_number": run["stages"]["plan"]["inertial_number"],
                "unbalanced": shear.get("mean_unbalanced_to_peak", 0), "mismatch": shear.get("stress_mismatch_to_peak", 0),
                "held": shear.get("sigma3_held_to_peak", 1), "sigma3_error": shear.get("sigma3_error", 0), "deep": shear["deep_overlap_share"],
-               "said": " ".join(name for name, words in WORDS.items() if any(words in text for text in run["warnings"])),
-               "quasi_static": run["stages"]["prepare"]["quasi_static"]}
+               "said": " ".join(name for name, words in WORDS.items() if any(words in text for text in run["warnings"]))}
 
 
 def share(part, whole):
@@ -45,7 +44,7 @@ def main(folder, table=None):
     tests = list(rows(folder))
     wrong, right = [t for t in tests if abs(t["error"]) > WRONG], [t for t in tests if abs(t["error"]) <= WRONG]
     for name, alarm in [(name, lambda t, name=name: name in t["said"].split()) for name in WORDS] + [
-            ("any warning of these", lambda t: t["said"]), ("quasi_static = 0", lambda t: t["quasi_static"] == 0)]:
+            ("any warning of these", lambda t: t["said"])]:
         print(f"{name:22} finds {share([t for t in wrong if alarm(t)], wrong)} of the wrong, "
               f"blames {share([t for t in right if alarm(t)], right)} of the right")
     if table:

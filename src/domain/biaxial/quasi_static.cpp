@@ -48,7 +48,7 @@ double expected_sigma1(Scene const& scene) {
   struct Envelope {
     double saturation, slope, at_zero;  // sigma_1 = slope sigma_3 + at_zero [Pa]
   };
-  static constexpr Envelope measured[] = {{0, 2.91, 0.41e6}, {0.26, 2.33, 2.41e6}, {0.41, 2.07, 6.71e6}, {0.55, 2.22, 8.44e6}};
+  static constexpr Envelope measured[] = {{0, 3.3, 0}, {0.26, 2.33, 2.41e6}, {0.41, 2.07, 6.71e6}, {0.55, 2.22, 8.44e6}};
   double const saturation = has_bonds(scene) ? std::min(scene.hydrate.saturation, measured[3].saturation) : 0;
   int k = 1;
   while (measured[k].saturation < saturation) ++k;

@@ -37,7 +37,7 @@ inline bool mixed_precision_resolves(Scene const& scene) {
 double wave_number(Scene const& scene, double strain_rate, double height, double void_ratio, double density);
 
 /// The largest sigma_1 that a test of this saturation and confining stress is expected to reach [Pa]: on the envelopes that
-/// docs/examples.md measures, linear between their saturations.
+/// docs/examples.md measures, of sand without its cohesion, linear between their saturations.
 double expected_sigma1(Scene const& scene);
 
 /// Why a specimen is none any more: its void ratio is below 0.05, or more than half of its contacts are deep; else empty.
