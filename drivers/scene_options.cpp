@@ -9,7 +9,9 @@ namespace clathra {
 
 void SceneOptions::add_to(CLI::App& verb) {
   verb.add_option("scene", file, "scene file (TOML)")->required();
-  verb.add_option("--set", overrides, "override a key of the scene, as in --set test.confining_stress=\"2 MPa\"; may be repeated")
+  verb.add_option(
+          "--set", overrides,
+          "override a key of the scene, as in --set test.confining_stress=\"2 MPa\"; KEY= takes one back; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   verb.add_option("--threads", threads, "threads; results do not depend on them")->check(CLI::Range(1, 4096))->type_name("N");
