@@ -153,7 +153,7 @@ TEST(MixedPrecision, RefusesToSearchFurtherThanPlacesAreToldApart) {
   try {
     pair_at(two_discs(-1e-5), 20 * grain_radius);
     FAIL() << "not refused";
-  } catch (std::invalid_argument const& refusal) {
+  } catch (Refused const& refusal) {
     EXPECT_NE(std::string(refusal.what()).find("further than mixed precision tells places apart"), std::string::npos);
   }
 }

@@ -65,8 +65,9 @@ void Simulation::rebuild(Survey const& all, bool skin_by_speed, AuxiliaryFields 
 /// Mixed precision knows differences of places modulo 2^32 ticks.
 void Simulation::require_places_told_apart() const {
   if (particles_.precision == Precision::full || particles_.mirror.reaches(reach_)) return;
-  throw std::invalid_argument("neighbours are searched for up to " + std::to_string(1e3 * reach_) +
-                              " mm away, further than mixed precision tells places apart: give a smaller skin, or take double");
+  throw Refused(
+      "neighbours are searched for up to " + std::to_string(1e3 * reach_) +
+      " mm away, further than mixed precision tells places apart: give a smaller run.skin, or take run.precision = \"double\"");
 }
 
 void Simulation::find_rows_and_walls(SearchReach const& reach, OldRows& old, Field<int> const& slot,
