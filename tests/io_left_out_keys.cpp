@@ -59,6 +59,17 @@ TEST(LeftOutKeys, AreTakenBackByAnEmptyOverride) {
   EXPECT_EQ(load(file, {"sample.particles=", "sample.width=10 mm"}).scene.sample.particles, 0);
 }
 
+/// A rate that is taken back takes nothing else along, as one that is stated does.
+TEST(LeftOutKeys, LeaveTheOtherRateOfTheFile) {
+  std::string const slow = sized + "[test]\ninertial_number = 1e-5\nwave_number = 0.02\n",
+                    lab = sized + "[test]\nstrain_rate = 10\n";
+  Scene const kept = load(slow, {"test.strain_rate="}).scene;
+  EXPECT_EQ(kept.test.inertial_number, 1e-5);
+  EXPECT_EQ(kept.test.wave_number, 0.02);
+  EXPECT_EQ(load(lab, {"test.inertial_number="}).scene.test.strain_rate, 10);
+  EXPECT_EQ(load(lab, {"test.strain_rate="}).scene.test.inertial_number, load(sized).scene.test.inertial_number);
+}
+
 TEST(LeftOutKeys, AreCommentsOfTheResolvedScene) {
   std::string const text = resolved_scene(load(sized).scene, ".");
   EXPECT_NE(text.find("# width is not given: it follows from the others\n"), std::string::npos) << text;

@@ -73,12 +73,12 @@ class SceneReader {
     std::string const name = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-    replace_rates(name);
-    if (name == "sample.generator" && value == "file") leave_out_sizes();
     Key const* const key = find_key(name);
     if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
     overridden_.push_back(key->name);
     if (takes_back(*key, value)) return take_back(*key);
+    replace_rates(name);
+    if (name == "sample.generator" && value == "file") leave_out_sizes();
     set(*key, place, true, [&] { set_from_text(*key, scene_, value); });
   }
 
@@ -165,7 +165,7 @@ class SceneReader {
   /// As if the file had not stated the key.
   void take_back(Key const& key) {
     places_.erase(key.name);
-    set_from_text(key, scene_, unquoted(value_text(key, Scene{})));
+    set_stated(key, scene_, "");
   }
 
   template <class Set>
