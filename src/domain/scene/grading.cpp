@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <stdexcept>
 
-#include "domain/scene/csv_rows.hpp"
+#include "domain/scene/grading_file.hpp"
 #include "domain/scene/units.hpp"
 
 namespace clathra {
@@ -28,12 +26,19 @@ Grading::Grading(std::vector<double> diameters, std::vector<double> finer)
   if (finer_.back() != 1 || (diameters_.size() > 1 && finer_.front() != 0)) {
     throw std::invalid_argument("a grading must begin at 0 % finer and end at 100 % finer");
   }
+  cut_empty_ends();
   // Between two points dF is uniform in s = ln d, and the number of discs is dF / d^2: its integral is known.
   number_.assign(diameters_.size(), 0);
   for (std::size_t k = 1; k < diameters_.size(); ++k) {
     double const slope = (finer_[k] - finer_[k - 1]) / std::log(diameters_[k] / diameters_[k - 1]);
     number_[k] = number_[k - 1] + 0.5 * slope * (std::pow(diameters_[k - 1], -2) - std::pow(diameters_[k], -2));
   }
+}
+
+void Grading::cut_empty_ends() {
+  auto const some = std::upper_bound(finer_.begin(), finer_.end(), 0.0), all = std::lower_bound(some, finer_.end(), 1.0);
+  auto const first = std::max<std::ptrdiff_t>(some - finer_.begin() - 1, 0), end = all - finer_.begin() + 1;
+  for (auto* const values : {&diameters_, &finer_}) *values = {values->begin() + first, values->begin() + end};
 }
 
 Grading Grading::toyoura() {
@@ -43,36 +48,8 @@ Grading Grading::toyoura() {
 
 Grading Grading::uniform(double diameter) { return Grading({diameter}, {1}); }
 
-Grading Grading::from_csv(std::string const& path) {
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument("grading file '" + path + "' cannot be read");
-  std::string const text{std::istreambuf_iterator<char>(file), {}};
-  CsvRows rows(text);
-  std::string_view const header = rows.next_or_rest() ? rows.text() : "";
-  double const unit = header.starts_with("d_mm") ? 1e-3 : header.starts_with("d_um") ? 1e-6 : header.starts_with("d_m,") ? 1 : 0;
-  auto const quoted = [&] { return "'" + std::string(rows.text().substr(0, 60)) + "'"; };
-  if (unit == 0)
-    throw std::invalid_argument(path + ":1: the header must be 'd_mm,percent_finer' (or d_um, d_m), got " + quoted());
-  std::vector<double> diameters, finer;
-  while (rows.next_or_rest()) {
-    if (rows.text().empty() || rows.text()[0] == '#') continue;
-    try {
-      diameters.push_back(parse_number(rows.cells().at(0)) * unit);
-      finer.push_back(parse_number(rows.cells().at(1)) / 100);
-    } catch (std::logic_error const&) {
-      throw std::invalid_argument(path + ":" + std::to_string(rows.line()) + ": expected 'diameter,percent finer', got " +
-                                  quoted());
-    }
-  }
-  try {
-    return Grading(diameters, finer);
-  } catch (std::invalid_argument const& problem) {
-    throw std::invalid_argument(path + ": " + problem.what());
-  }
-}
-
 Grading Grading::of(GradingScene const& scene) {
-  Grading const base = !scene.file.empty()        ? from_csv(scene.file)
+  Grading const base = !scene.file.empty()        ? read_grading(scene.file)
                        : scene.table == "uniform" ? uniform(scene.d50 > 0 ? scene.d50 : 0.1694e-3)
                                                   : toyoura();
   return base.scaled((scene.d50 > 0 ? scene.d50 : base.stated_d50()) / base.d50());

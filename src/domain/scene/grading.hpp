@@ -11,6 +11,7 @@ namespace clathra {
 class Grading {
  public:
   /// @param diameters increasing [m];  @param finer fraction finer, from 0 to 1, not decreasing
+  /// Points at 0 % below the last of these, and at 100 % above the first of those, are cut: no disc has such a size.
   /// @throws std::invalid_argument with the offending row
   Grading(std::vector<double> diameters, std::vector<double> finer);
 
@@ -18,8 +19,6 @@ class Grading {
   static Grading toyoura();
   /// All discs of one diameter [m].
   static Grading uniform(double diameter);
-  /// CSV of two columns, diameter (header names the unit: d_mm, d_um or d_m) and percent finer.
-  static Grading from_csv(std::string const& path);
   /// The grading of a scene, scaled to its d50; where it states none, to the curve's own as one would write it (stated_d50()), so
   /// that stating that changes no bit.
   static Grading of(GradingScene const& scene);
@@ -39,6 +38,8 @@ class Grading {
   std::vector<double> diameters(std::size_t count) const;
 
  private:
+  void cut_empty_ends();
+
   std::vector<double> diameters_, finer_;
   std::vector<double> number_;  // number of discs finer, up to a factor, at each point
 };

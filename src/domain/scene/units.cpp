@@ -65,13 +65,6 @@ constexpr std::array<DimensionEntry, 8> dimensions = {{
 
 DimensionEntry const& entry(Dimension dimension) { return dimensions[static_cast<std::size_t>(dimension)]; }
 
-std::string quoted(std::string_view text) {
-  std::string shown(text.substr(0, 40));
-  for (char& c : shown)
-    if (c < ' ' || c > '~') c = '?';
-  return "'" + shown + (text.size() > 40 ? "...'" : "'");
-}
-
 std::string_view trimmed(std::string_view text) {
   auto const first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -203,8 +196,21 @@ bool fits(Powers powers, Dimension dimension) {
   return powers == entry(dimension).powers;
 }
 
-/// The signs that people copy from elsewhere, in the letters of our units: two kinds of mu, degrees, powers, the space that does
-/// not break.
+/// "write 55.0 %" for a number with a decimal comma; nothing for others.
+std::string comma_hint(std::string_view number, std::string_view rest) {
+  if (rest.size() < 2 || rest[0] != ',' || rest[1] < '0' || rest[1] > '9') return {};
+  return "has a decimal comma; write a point: " + std::string(number) + "." + std::string(rest.substr(1));
+}
+
+}  // namespace
+
+std::string quoted(std::string_view text) {
+  std::string shown(text.substr(0, 40));
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return "'" + shown + (text.size() > 40 ? "...'" : "'");
+}
+
 std::string in_ascii(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> signs[] = {
       {"\xc2\xb5", "u"},  {"\xce\xbc", "u"}, {"\xc2\xb0", "deg"},  {"\xc2\xb2", "^2"},
@@ -215,14 +221,6 @@ std::string in_ascii(std::string_view text) {
       plain.replace(at, sign.size(), letters);
   return plain;
 }
-
-/// "write 55.0 %" for a number with a decimal comma; nothing for others.
-std::string comma_hint(std::string_view number, std::string_view rest) {
-  if (rest.size() < 2 || rest[0] != ',' || rest[1] < '0' || rest[1] > '9') return {};
-  return "has a decimal comma; write a point: " + std::string(number) + "." + std::string(rest.substr(1));
-}
-
-}  // namespace
 
 double parse_quantity(std::string_view text, Dimension dimension) {
   std::string const plain = in_ascii(text);

@@ -33,6 +33,13 @@ std::string format_quantity(double value, Dimension dimension);
 /// The shortest text of a number that reads back to the same bits.
 std::string format_number(double value);
 
+/// A text in quotes for a message: no more than 40 of its bytes, question marks for those that a terminal may not show.
+std::string quoted(std::string_view text);
+
+/// The signs that people copy from elsewhere, in the letters of our units: two kinds of mu, degrees, powers, the space that does
+/// not break.
+std::string in_ascii(std::string_view text);
+
 /// "a pressure", with its article.
 std::string_view dimension_name(Dimension dimension);
 /// The unit of a bare number: "Pa"; empty for a ratio.

@@ -65,7 +65,7 @@ Key const table[] = {
   {"grains.contact_damping", quantity, CLATHRA_FIELD(grains, contact_damping), "viscous damping of contacts, as a part of the critical one; measured at 55 %: 0.2 in place of run.damping lowers the peak of q by 5 to 7 % at every rate", ratio, 0, 1},
 
   {"grading.table", choice, CLATHRA_FIELD(grading, table), "grain sizes: Toyoura sand, or all discs of size d50", ratio, 0, 0, {}, tables},
-  {"grading.file", path, CLATHRA_FIELD(grading, file), "CSV file of grain sizes: diameter, percent finer by mass"},
+  {"grading.file", path, CLATHRA_FIELD(grading, file), "CSV file of grain sizes: diameter, percent finer by mass (docs/grading.md)"},
   {"grading.d50", quantity, CLATHRA_FIELD(grading, d50), "median diameter to which the table is scaled", length, 1e-7, 0.1, "that of the table"},
 
   {"hydrate.saturation", quantity, CLATHRA_FIELD(hydrate, saturation), "part of the pores that hydrate fills; 0 is clean sand", ratio, 0, 1},
