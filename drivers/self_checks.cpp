@@ -9,6 +9,7 @@
 
 #include "domain/generation/bonding.hpp"
 #include "domain/generation/random.hpp"
+#include "domain/measurement/specimen_facts.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/simulation/simulation.hpp"
 #include "io/results/specimen_file.hpp"
@@ -105,7 +106,9 @@ Specimen awkward_specimen() {
     if (i > 0) s.contacts.push_back({i - 1, i, 1.0 / i, -1.0 / 3, -1e-6 / i, 0.1 * i, 7.0 / i});
   }
   s.top = 3e-4 * 101;
-  s.d50 = s.critical_thickness = 1e-5 / 3;
+  s.critical_thickness = 1e-5 / 3;
+  SpecimenOutline const outline = outline_of(s);
+  s.d50 = outline.d50, s.void_ratio = outline.void_ratio;
   return s;
 }
 

@@ -4,6 +4,8 @@
 
 #include "domain/generation/generation.hpp"
 #include "io/formats/digest.hpp"
+#include "io/results/specimen_check.hpp"
+#include "io/results/specimen_file.hpp"
 #include "io/results/specimen_label.hpp"
 #include "stage_progress.hpp"
 
@@ -17,6 +19,16 @@ Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress,
   record.layer_void_ratios = generated.layer_void_ratios;
   generated.specimen.provenance = provenance_text(record, specimen_label(scene, false));
   return std::move(generated.specimen);
+}
+
+Specimen read_for_test(LoadedScene& input, Ranks const& ranks) {
+  std::filesystem::path const file = input.scene.sample.file;
+  CheckedSpecimen read = read_checked_specimen(file, ranks);
+  require_walls(file, read.specimen);
+  for (auto const& found : {compare_with_scene(file, read.specimen, input.scene), oddities(file, read.specimen, read.facts),
+                            stress_oddities(file, read.specimen, read.facts, input.scene)})
+    input.warnings.insert(input.warnings.end(), found.begin(), found.end());
+  return std::move(read.specimen);
 }
 
 std::string provenance_text(RunRecord const& record, SceneTexts const& label) {

@@ -6,12 +6,17 @@
 #include "domain/scene/stage.hpp"
 #include "io/results/run_record.hpp"
 #include "io/scene/scene_comparison.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace clathra {
 
 /// Generates the specimen of a scene; Kokkos must have been started. Numbers, layers and wall time go into the record.
 /// @throws Refused, Diverged, Stopped
 Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record, Ranks const& ranks);
+
+/// Reads the specimen of `sample.file` for a test by the scene and adds what is odd about it to the warnings. Collective.
+/// @return this rank's part;  @throws FileProblem bad_input, file_missing, refused
+Specimen read_for_test(LoadedScene& input, Ranks const& ranks = {});
 
 /// JSON text: program, digest of the scene, what the specimen is made of; what a specimen file says of its making.
 std::string provenance_text(RunRecord const& record, SceneTexts const& label);

@@ -12,6 +12,7 @@
 #include "io/formats/digest.hpp"
 #include "io/results/earlier_run.hpp"
 #include "io/results/output_folder.hpp"
+#include "io/results/specimen_check.hpp"
 #include "io/results/specimen_file.hpp"
 #include "io/results/specimen_label.hpp"
 #include "io/scene/scene_comparison.hpp"
@@ -61,6 +62,7 @@ SpecimenSize const& size_of(StudyPlan& plan, std::string const& file) {
   auto found = plan.sizes.find(file);
   if (found != plan.sizes.end()) return found->second;
   Specimen const specimen = read_specimen(file);
+  require_walls(file, specimen);
   SpecimenSize size{{}, static_cast<std::int64_t>(specimen.size()), {}};
   size.outline.left = specimen.left, size.outline.right = specimen.right;
   size.outline.bottom = specimen.bottom, size.outline.top = specimen.top;

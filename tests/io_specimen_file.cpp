@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "io/formats/digest.hpp"
@@ -40,19 +41,27 @@ class SpecimenFile : public testing::Test {
     return "taken";
   }
 
+  /// Discs that do not touch, in rows.
   static Specimen small(int count = 5) {
+    constexpr double pitch = 1.8e-4;
+    int const columns = static_cast<int>(std::ceil(std::sqrt(count))), rows = (count + columns - 1) / columns;
     Specimen s;
-    s.left = -1e-3, s.right = 1e-3, s.bottom = 0, s.top = 2e-3;
-    s.d50 = 0.1694e-3, s.stress = 5e4, s.void_ratio = 0.24, s.critical_thickness = 1.5e-5;
+    s.left = -1e-3, s.right = s.left + columns * pitch, s.bottom = 0, s.top = rows * pitch;
+    s.d50 = 0.1640e-3, s.stress = 5e4, s.critical_thickness = 1.5e-5;
     s.separate_bonds = true;
     s.provenance = "{\"seed\":1}";
     std::mt19937 random(1);
     std::uniform_real_distribution<double> number(-1, 1);
+    double solid = 0;
     for (int i = 0; i < count; ++i) {
-      s.id.push_back((i * 3 + 1) % count);  // in any order
-      for (auto* column : {&s.x, &s.y, &s.angle, &s.vx, &s.vy, &s.omega}) column->push_back(number(random) * 1e-3);
-      s.radius.push_back(8e-5 + 1e-6 * i);
+      s.id.push_back(static_cast<int>((i * std::int64_t{7} + 1) % count));  // in any order
+      s.x.push_back(s.left + (i % columns + 0.5) * pitch + number(random) * 5e-6);
+      s.y.push_back((i / columns + 0.5) * pitch + number(random) * 5e-6);
+      for (auto* column : {&s.angle, &s.vx, &s.vy, &s.omega}) column->push_back(number(random) * 1e-3);
+      s.radius.push_back(8e-5 + 1e-6 * (i % 5));
+      solid += std::numbers::pi * s.radius.back() * s.radius.back();
     }
+    s.void_ratio = s.width() * s.height() / solid - 1;
     s.contacts = {{0, 1, 1.5, -2e-5, 1e300, 0, 0}, {1, 4, 0.1, 3e-6, -1e-6, 7.5, 8e-5}};
     return s;
   }
@@ -141,7 +150,7 @@ TEST_F(SpecimenFile, RefusesOtherAndDamagedFiles) {
   EXPECT_NE(complaint().find("not an HDF5 file"), std::string::npos);
   hid_t const other = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   H5Fclose(other);
-  EXPECT_NE(complaint().find("attribute format is missing"), std::string::npos);
+  EXPECT_NE(complaint().find("lacks what a specimen file must hold: the attributes format, version, left"), std::string::npos);
 }
 
 TEST_F(SpecimenFile, AFlippedByteOrATruncationNeverPassesForAnotherState) {

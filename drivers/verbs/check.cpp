@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "forecast.hpp"
-#include "io/results/specimen_file.hpp"
-#include "io/results/specimen_label.hpp"
 #include "print.hpp"
 #include "scene_options.hpp"
+#include "specimen_source.hpp"
 #include "verbs.hpp"
 
 namespace clathra {
@@ -25,9 +24,7 @@ ExitCode check(CheckOptions const& options) {
   Scene scene = input.scene;
   std::optional<Specimen> specimen;
   if (scene.sample.generator == Generator::file) {
-    specimen = read_specimen(scene.sample.file);
-    std::vector<std::string> const found = compare_with_scene(scene.sample.file, *specimen, scene);
-    input.warnings.insert(input.warnings.end(), found.begin(), found.end());
+    specimen = read_for_test(input);
     scene = sized_by(scene, *specimen, static_cast<std::int64_t>(specimen->size()));
   }
   Forecast result = forecast(scene, options.ranks);

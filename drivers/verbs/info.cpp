@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <numeric>
 
 #include "domain/biaxial/scene_needs.hpp"
 #include "domain/measurement/disc_grading.hpp"
@@ -19,6 +17,7 @@
 #include "io/results/export.hpp"
 #include "io/results/run_record.hpp"
 #include "io/results/snapshot_file.hpp"
+#include "io/results/specimen_check.hpp"
 #include "io/results/specimen_file.hpp"
 #include "io/scene/scene_file.hpp"
 #include "print.hpp"
@@ -33,12 +32,6 @@ struct InfoOptions {
 };
 
 constexpr std::size_t largest_record = std::size_t{64} << 20;
-
-/// Area of the discs [m^2], overlaps counted twice.
-double solid_area(Specimen const& specimen) {
-  return std::accumulate(specimen.radius.begin(), specimen.radius.end(), 0.0,
-                         [](double sum, double r) { return sum + std::numbers::pi * r * r; });
-}
 
 /// One line of a text: what it is, and its value.
 std::string row(char const* name, std::string const& value) { return fmt::format("{:<18} {}\n", name, value); }
@@ -82,16 +75,15 @@ std::string provenance_text(std::string const& provenance) {
   return text;
 }
 
-std::string specimen_text(Specimen const& specimen) {
+std::string specimen_text(Specimen const& specimen, SpecimenFacts const& facts) {
   auto const bonds =
       std::count_if(specimen.contacts.begin(), specimen.contacts.end(), [](SpecimenContact const& c) { return c.bonded(); });
-  double const area = specimen.width() * specimen.height();
   auto const diameter = [&](double part) { return diameter_finer(specimen.radius, part) * 1e3; };
   std::string text;
   text += row("discs", fmt::format("{}", specimen.size()));
   text += row("box", fmt::format("{:.6g} mm x {:.6g} mm{}", specimen.width() * 1e3, specimen.height() * 1e3,
                                  specimen.periodic ? ", periodic" : ""));
-  text += row("void ratio", fmt::format("{:.5g}", area / solid_area(specimen) - 1));
+  text += row("void ratio", fmt::format("{:.5g}", facts.outline.void_ratio));
   text += row("grading", fmt::format("d10 {:.4g} mm, d50 {:.4g} mm, d60 {:.4g} mm", diameter(0.1), diameter(0.5), diameter(0.6)));
   text += row("grain density", fmt::format("{:g} kg/m^3", specimen.density));
   text += row("rests under", fmt::format("{:.6g} MPa", specimen.stress * 1e-6));
@@ -173,9 +165,11 @@ ExitCode info(InfoOptions const& options) {
                                            : fmt::format("{:<18} {}\n{:<18} {}\n", "checkpoint of",
                                                          file.parent_path().parent_path().string(), "state hash", hash));
   }
-  Specimen const specimen = read_specimen(file);
+  auto const [specimen, facts] = read_checked_specimen(file);
   if (options.state_hash) return print_result(hash_text(specimen_hash(specimen)) + "\n");
-  return print_result(specimen_text(specimen));
+  std::string text = specimen_text(specimen, facts);
+  for (std::string const& warning : oddities(file, specimen, facts)) text += "warning: " + warning + "\n";
+  return print_result(text);
 }
 
 }  // namespace

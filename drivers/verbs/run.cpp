@@ -7,12 +7,11 @@
 #include "duration.hpp"
 #include "forecast.hpp"
 #include "interrupt.hpp"
-#include "io/results/specimen_file.hpp"
-#include "io/results/specimen_label.hpp"
 #include "machine_speed.hpp"
 #include "print.hpp"
 #include "rank_checks.hpp"
 #include "scene_options.hpp"
+#include "specimen_source.hpp"
 #include "test_run.hpp"
 #include "threads.hpp"
 #include "verbs.hpp"
@@ -34,9 +33,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, RunLimits const& 
   std::optional<Specimen> specimen;
   Scene sized = input.scene;
   if (input.scene.sample.generator == Generator::file) {
-    specimen = read_specimen(input.scene.sample.file, ranks);
-    std::vector<std::string> const found = compare_with_scene(input.scene.sample.file, *specimen, input.scene);
-    input.warnings.insert(input.warnings.end(), found.begin(), found.end());
+    specimen = read_for_test(input, ranks);
     sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
   }
   Forecast cost = forecast(sized, launched_ranks());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace clathra {
 
@@ -46,6 +47,10 @@ double diameter_finer(std::vector<double> const& radii, double fraction, Ranks c
   found = ranks.min(found);
   if (found < 1e300) return 2 * found;
   return 2 * ranks.max(sorted.empty() ? 0 : sorted.back());
+}
+
+double solid_area(std::vector<double> const& radii, Ranks const& ranks) {
+  return std::numbers::pi * total_area(ranks.sorted_part(radii), ranks);
 }
 
 double radius_above(std::vector<double> const& radii, double share, Ranks const& ranks) {

@@ -13,6 +13,9 @@ double grading_distance(Grading const& grading, std::vector<double> const& radii
 /// d_x [m] of given discs by area fraction.
 double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks = {});
 
+/// Area of all discs [m^2], overlaps counted twice. Collective.
+double solid_area(std::vector<double> const& radii, Ranks const& ranks = {});
+
 /// The smallest radius [m] that a share of all discs, by number, lies below. Collective.
 /// @param radii  of this rank's discs [m];  @param share  0 to 1
 double radius_above(std::vector<double> const& radii, double share, Ranks const& ranks = {});

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -93,6 +94,26 @@ bool read_attribute(hid_t object, char const* name, hid_t type, void* value) {
   Id const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
   return space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, type, value) >= 0;
+}
+
+/// One string of fixed or variable length. @param read  fills a value of the type of the file;  @return nothing where it is no
+/// such thing, is longer than `longest` [bytes] or cannot be read
+std::optional<std::string> read_string(hid_t type, hid_t space, hsize_t longest, std::function<herr_t(void*)> const& read) {
+  if (type < 0 || space < 0 || H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
+  std::string text;
+  if (H5Tis_variable_str(type) > 0) {
+    char* value = nullptr;
+    if (read(&value) < 0) return {};
+    if (value) text = value;
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, &value);
+  } else {
+    if (H5Tget_size(type) > longest) return {};
+    text.resize(H5Tget_size(type));
+    if (read(text.data()) < 0) return {};
+    text.resize(std::min(text.size(), text.find('\0')));
+  }
+  if (text.size() > longest) return {};
+  return text;
 }
 
 #ifdef H5_HAVE_PARALLEL
@@ -238,13 +259,15 @@ Hdf5File::OpenColumn Hdf5File::open_column(std::string const& name, std::size_t 
   hsize_t shape[2] = {0, 1};
   int const rank = width == 1 ? 1 : 2;
   if (H5Sget_simple_extent_ndims(space) != rank || H5Sget_simple_extent_dims(space, shape, nullptr) < 0 || shape[1] != width)
-    damaged(fmt::format("is no table of {} columns", width));
+    damaged(width == 1 ? "is not one column of numbers" : fmt::format("is no table of {} columns", width));
   if (size == any_size && shape[0] > most_rows) damaged(fmt::format("claims {} rows", shape[0]));
   if (size != any_size && shape[0] != size) damaged(fmt::format("has {} rows instead of {}", shape[0], size));
   return {std::move(column), std::move(space), shape[0]};
 }
 
 bool Hdf5File::has(std::string const& name) const { return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0; }
+
+bool Hdf5File::has_attribute(std::string const& name) const { return H5Aexists(file_, name.c_str()) > 0; }
 
 std::size_t Hdf5File::rows_of(std::string const& name) const { return open_column(name, any_size, 1).rows; }
 
@@ -282,6 +305,12 @@ CLATHRA_COLUMN(std::uint8_t)
 #undef CLATHRA_COLUMN
 
 std::string Hdf5File::read_text(std::string const& name) const {
+  Id const set(has(name) ? H5Dopen2(file_, name.c_str(), H5P_DEFAULT) : -1, H5Dclose);
+  Id const type(set >= 0 ? H5Dget_type(set) : -1, H5Tclose), space(set >= 0 ? H5Dget_space(set) : -1, H5Sclose);
+  if (auto text = read_string(type, space, longest_text,
+                              [&](void* value) { return H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value); }))
+    return *text;
+  if (type >= 0 && H5Tget_class(type) == H5T_STRING) fail(ExitCode::bad_input, name + " is not one text, or too long");
   std::vector<char> const text = read<char>(name, any_size);
   if (text.size() > longest_text) fail(ExitCode::bad_input, name + " is too long");
   return {text.begin(), text.end()};
@@ -303,13 +332,9 @@ std::string Hdf5File::text_attribute(std::string const& name) const {
   Id const attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose);
   Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
   Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
-  bool const plain = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
-                     H5Tget_size(type) <= 4096 && H5Sget_simple_extent_npoints(space) == 1;
-  std::string text(plain ? H5Tget_size(type) : 0, '\0');
-  if (!plain || H5Aread(attribute, type, text.data()) < 0)
-    fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
-  text.resize(std::min(text.size(), text.find('\0')));
-  return text;
+  std::optional<std::string> text = read_string(type, space, 4096, [&](void* value) { return H5Aread(attribute, type, value); });
+  if (!text) fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
+  return *text;
 }
 
 namespace {

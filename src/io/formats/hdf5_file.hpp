@@ -48,10 +48,12 @@ class Hdf5File {
   template <class T>
   std::vector<T> read(std::string const& name, std::size_t size, std::size_t width = 1) const;
   bool has(std::string const& name) const;             ///< whether there is a column of this name, in a group that there is
+  bool has_attribute(std::string const& name) const;   ///< of the file
   std::size_t rows_of(std::string const& name) const;  ///< of a column; @throws FileProblem bad_input
   /// Some rows of a column.
   template <class T>
   std::vector<T> read(std::string const& name, RowRange const& rows) const;
+  /// A text: one string, of fixed or variable length, or a column of characters, as write_text() makes it.
   std::string read_text(std::string const& name) const;
   double double_attribute(std::string const& name) const;
   std::int64_t integer_attribute(std::string const& name) const;

@@ -221,6 +221,9 @@ std::optional<std::string> checkpoint_state_hash(std::filesystem::path const& pa
   return file.text_attribute("state_hash");
 }
 
-bool is_checkpoint(std::filesystem::path const& path) { return Hdf5File::open(path).text_attribute("format") == format_name; }
+bool is_checkpoint(std::filesystem::path const& path) {
+  Hdf5File const file = Hdf5File::open(path);
+  return file.has_attribute("format") && file.text_attribute("format") == format_name;
+}
 
 }  // namespace clathra

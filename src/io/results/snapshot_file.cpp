@@ -215,7 +215,10 @@ Snapshot read_snapshot(std::filesystem::path const& path) {
   return s;
 }
 
-bool is_snapshot(std::filesystem::path const& path) { return Hdf5File::open(path).text_attribute("format") == format_name; }
+bool is_snapshot(std::filesystem::path const& path) {
+  Hdf5File const file = Hdf5File::open(path);
+  return file.has_attribute("format") && file.text_attribute("format") == format_name;
+}
 
 std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& run_folder) {
   std::vector<std::filesystem::path> files;

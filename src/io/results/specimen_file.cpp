@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "io/errors/rank_errors.hpp"
 #include "io/formats/former_names.hpp"
 #include "io/formats/hdf5_file.hpp"
+#include "io/results/specimen_check.hpp"
 
 namespace clathra {
 namespace {
@@ -22,19 +25,31 @@ constexpr std::int64_t format_version = 2;  // 1 knew nothing of the strain and 
 
 constexpr double not_known = -1;  // an axial strain
 
-/// Visits every scalar of a specimen: name, value, unit.
-template <class Any, class Visit>
-void for_each_scalar(Any& specimen, Visit&& visit) {
-  visit("left", specimen.left, "m");
-  visit("right", specimen.right, "m");
-  visit("bottom", specimen.bottom, "m");
-  visit("top", specimen.top, "m");
-  visit("density", specimen.density, "kg/m^3");
-  visit("d50", specimen.d50, "m");
-  visit("stress", specimen.stress, "Pa");
-  visit("void_ratio", specimen.void_ratio, "");
-  visit("critical_thickness", specimen.critical_thickness, "m");
+constexpr double of_the_discs = std::numeric_limits<double>::quiet_NaN();
+
+/// A number of a specimen, and what it is where a file does not state it.
+struct SpecimenNumber {
+  char const* name;
+  double Specimen::*of;
+  char const* unit;
+  std::optional<double> left_out;  ///< nothing: a file must state it
+};
+constexpr SpecimenNumber specimen_numbers[] = {{"left", &Specimen::left, "m", {}},
+                                               {"right", &Specimen::right, "m", {}},
+                                               {"bottom", &Specimen::bottom, "m", {}},
+                                               {"top", &Specimen::top, "m", {}},
+                                               {"density", &Specimen::density, "kg/m^3", {}},
+                                               {"d50", &Specimen::d50, "m", of_the_discs},
+                                               {"stress", &Specimen::stress, "Pa", 0},
+                                               {"void_ratio", &Specimen::void_ratio, "", of_the_discs},
+                                               {"critical_thickness", &Specimen::critical_thickness, "m", 0}};
+
+/// Whether a file must hold a column of the discs; motion is 0 where it is left out.
+bool is_needed(ParticleColumn const& column) {
+  return column.of == &Specimen::x || column.of == &Specimen::y || column.of == &Specimen::radius;
 }
+
+std::string path_of(ParticleColumn const& column) { return std::string("particles/") + column.name; }
 
 void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks) {
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
@@ -45,11 +60,10 @@ void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks)
   file.set_attribute("periodic", std::int64_t{specimen.periodic});
   file.set_attribute("separate_bonds", std::int64_t{specimen.separate_bonds});
   file.set_attribute("axial_strain", specimen.axial_strain.value_or(not_known), "");
-  for_each_scalar(specimen, [&](char const* name, double value, char const* unit) { file.set_attribute(name, value, unit); });
+  for (SpecimenNumber const& number : specimen_numbers) file.set_attribute(number.name, specimen.*number.of, number.unit);
   file.write_text("provenance", specimen.provenance);
   file.write("particles/id", specimen.id, "");
-  for (ParticleColumn const& column : particle_columns)
-    file.write(std::string("particles/") + column.name, specimen.*column.of, column.unit);
+  for (ParticleColumn const& column : particle_columns) file.write(path_of(column), specimen.*column.of, column.unit);
   std::size_t const count = specimen.contacts.size();
   std::vector<std::int32_t> ids(count);
   for (std::size_t i = 0; i < count; ++i) ids[i] = specimen.contacts[i].id_a;
@@ -68,12 +82,9 @@ void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks)
 }
 
 void check_box(std::filesystem::path const& path, Specimen const& specimen) {
-  for_each_scalar(specimen, [&](char const* name, double value, char const*) {
-    if (!std::isfinite(value)) damaged(path, fmt::format("{} is not a finite number", name));
-  });
   if (!(specimen.right > specimen.left) || !(specimen.top > specimen.bottom)) damaged(path, "the walls enclose no area");
   if (!(specimen.density > 0)) damaged(path, "the density is not above 0");
-  if (!(specimen.d50 > 0)) damaged(path, "d50 is not above 0");
+  if (specimen.d50 <= 0) damaged(path, "d50 is not above 0");
 }
 
 /// @param discs  of the whole specimen, of which this is a part
@@ -115,27 +126,68 @@ void check_contacts(std::filesystem::path const& path, Specimen const& specimen,
 }
 
 void read_discs(Hdf5File const& file, Specimen& part, RowRange const& rows) {
-  part.id = file.read<std::int32_t>("particles/id", rows);
+  if (file.has("particles/id")) {
+    part.id = file.read<std::int32_t>("particles/id", rows);
+  } else {
+    for (std::size_t i = rows.begin; i < rows.end; ++i) part.id.push_back(static_cast<int>(i));
+  }
   for (ParticleColumn const& column : particle_columns)
-    part.*column.of = file.read<double>(std::string("particles/") + column.name, rows);
+    part.*column.of = is_needed(column) || file.has(path_of(column)) ? file.read<double>(path_of(column), rows)
+                                                                     : std::vector<double>(rows.end - rows.begin, 0.0);
 }
 
 void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
+  if (rows.size == 0) return;
   std::vector<std::int32_t> const id_a = file.read<std::int32_t>("contacts/id_a", rows);
   std::vector<std::int32_t> const id_b = file.read<std::int32_t>("contacts/id_b", rows);
   part.contacts.resize(id_a.size());
   for (std::size_t i = 0; i < id_a.size(); ++i) part.contacts[i].id_a = id_a[i], part.contacts[i].id_b = id_b[i];
   for (ContactNumber const& number : contact_numbers) {
     std::string const name = std::string("contacts/") + number.name, before = "contacts/" + former_name(number.name);
+    if (!file.has(name) && !file.has(before)) continue;
     std::vector<double> const column = file.read<double>(file.has(name) ? name : before, rows);
     for (std::size_t i = 0; i < column.size(); ++i) part.contacts[i].*number.of = column[i];
   }
+}
+
+/// Everything that a file must hold and does not, at once.
+void require_complete(Hdf5File const& file) {
+  std::string attributes, sets;
+  auto const note = [](bool there, std::string const& name, std::string& missing) {
+    if (!there) missing += (missing.empty() ? "" : ", ") + name;
+  };
+  for (char const* const name : {"format", "version"}) note(file.has_attribute(name), name, attributes);
+  for (SpecimenNumber const& number : specimen_numbers)
+    if (!number.left_out) note(file.has_attribute(number.name), number.name, attributes);
+  for (ParticleColumn const& column : particle_columns)
+    if (is_needed(column)) note(file.has(path_of(column)), path_of(column), sets);
+  if (attributes.empty() && sets.empty()) return;
+  if (!attributes.empty()) attributes = "the attributes " + attributes;
+  if (!sets.empty()) sets = "the data sets " + sets;
+  file.fail(ExitCode::bad_input, fmt::format("lacks what a specimen file must hold: {}{}{} (docs/specimen-file.md lists all)",
+                                             attributes, attributes.empty() || sets.empty() ? "" : ", and ", sets));
+}
+
+double read_number(Hdf5File const& file, SpecimenNumber const& number) {
+  if (number.left_out && !file.has_attribute(number.name)) return *number.left_out;
+  double const value = file.double_attribute(number.name);
+  if (!std::isfinite(value)) file.fail(ExitCode::bad_input, fmt::format("{} is not a finite number", number.name));
+  return value;
+}
+
+bool read_switch(Hdf5File const& file, char const* name) { return file.has_attribute(name) && file.integer_attribute(name) != 0; }
+
+/// A count that the file states, else the rows of a column.
+std::int64_t read_count(Hdf5File const& file, char const* attribute, std::string const& column) {
+  if (file.has_attribute(attribute)) return file.integer_attribute(attribute);
+  return file.has(column) ? static_cast<std::int64_t>(file.rows_of(column)) : 0;
 }
 
 /// A file of version 1 tells only of a specimen that was just generated that nobody has sheared it.
 std::optional<double> axial_strain_of(Hdf5File const& file, std::int64_t version, std::string const& provenance) {
   if (version == 1)
     return nlohmann::json::parse(provenance, nullptr, false).contains("generate") ? std::optional(0.0) : std::nullopt;
+  if (!file.has_attribute("axial_strain")) return 0;
   double const strain = file.double_attribute("axial_strain");
   if (!std::isfinite(strain)) file.fail(ExitCode::bad_input, "axial_strain is not a finite number");
   return strain == not_known ? std::nullopt : std::optional(strain);
@@ -144,18 +196,20 @@ std::optional<double> axial_strain_of(Hdf5File const& file, std::int64_t version
 /// This rank's rows of a specimen file, checked as far as they can be without the others'.
 Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std::int64_t& discs) {
   Hdf5File const file = Hdf5File::open(path);
-  if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
+  if (file.has_attribute("format") && file.text_attribute("format") != format_name)
+    file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
+  require_complete(file);
   std::int64_t const version = file.integer_attribute("version");
   if (version < 1 || version > format_version)
     file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads 1 to {}", version, format_version));
   Specimen part;
-  for_each_scalar(part, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
-  part.periodic = file.integer_attribute("periodic") != 0;
-  part.separate_bonds = file.integer_attribute("separate_bonds") != 0;
-  part.provenance = file.read_text("provenance");
+  for (SpecimenNumber const& number : specimen_numbers) part.*number.of = read_number(file, number);
+  part.periodic = read_switch(file, "periodic");
+  part.separate_bonds = read_switch(file, "separate_bonds");
+  if (file.has("provenance")) part.provenance = file.read_text("provenance");
   part.axial_strain = axial_strain_of(file, version, part.provenance);
-  discs = file.integer_attribute("particles");
-  std::int64_t const contacts = file.integer_attribute("contacts");
+  discs = read_count(file, "particles", path_of(particle_columns[0]));
+  std::int64_t const contacts = read_count(file, "contacts", "contacts/id_a");
   if (discs < 0 || discs > 1'000'000'000 || contacts < 0 || contacts > 10'000'000'000)
     file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", discs, contacts));
   if (discs == 0) damaged(path, "there are no discs");
@@ -175,7 +229,7 @@ void write_specimen(std::filesystem::path const& path, Specimen share, Ranks con
       path, [&](Hdf5File& file) { write_content(file, share, ranks); }, ranks, existing);
 }
 
-Specimen read_specimen(std::filesystem::path const& path, Ranks const& ranks) {
+CheckedSpecimen read_checked_specimen(std::filesystem::path const& path, Ranks const& ranks) {
   Specimen part;
   std::int64_t discs = 0;
   on_each(ranks, [&] { part = read_rows_of(path, ranks, discs); });
@@ -184,12 +238,17 @@ Specimen read_specimen(std::filesystem::path const& path, Ranks const& ranks) {
     check_ids_once(path, part.id);
     check_pairs_once(path, part);
   });
-  return part;
+  SpecimenFacts const facts = require_sound(path, part, ranks);
+  return {std::move(part), facts};
+}
+
+Specimen read_specimen(std::filesystem::path const& path, Ranks const& ranks) {
+  return read_checked_specimen(path, ranks).specimen;
 }
 
 std::uint64_t specimen_hash(Specimen const& specimen) {
   std::vector<double> numbers;
-  for_each_scalar(specimen, [&](char const*, double value, char const*) { numbers.push_back(value); });
+  for (SpecimenNumber const& number : specimen_numbers) numbers.push_back(specimen.*number.of);
   std::size_t const count = specimen.size(), start = numbers.size();
   constexpr std::size_t columns = std::size(particle_columns);
   numbers.resize(start + columns * count);
