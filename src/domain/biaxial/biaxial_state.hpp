@@ -40,6 +40,7 @@ struct BiaxialTest::State {
   MassScaling mass_scaling(std::vector<double> const& radii) const;
   void consolidate(double stress, ProgressCallback const& progress);
   void require_rest(std::int64_t steps);
+  void warn_of_density(double before, double made_under);
   void require_grains(double deep_share) const;
   void begin_shear();
   double next_record() const { return static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }

@@ -21,6 +21,7 @@
 #include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/scene_laws.hpp"
+#include "domain/scene/short_number.hpp"
 #include "domain/scene/specimen.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/break_event.hpp"
@@ -67,6 +68,7 @@ SimulationLaws test_laws(Scene const& scene, double d50, double h_max) {
 /// Bonds first and consolidates then, or the other way round (`bond.after_consolidation`).
 void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallback const& progress) {
   bool const bond = has_bonds(scene) && specimen.critical_thickness == 0;
+  double const made_under = specimen.stress;
   if (bond && !scene.bond.after_consolidation) {
     // Bonds reach across ranks: discs must first be where they belong.
     specimen = by_place(ranks, std::move(specimen));
@@ -96,8 +98,20 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     }
   }
   preparation["void_ratio_after_consolidation"] = simulation->void_ratio();
+  warn_of_density(preparation.at("void_ratio_before_consolidation"), made_under);
   Measures const m = simulation->measures();
   require_grains(m.touching > 0 ? m.deep / m.touching : 0);
+}
+
+/// A specimen that is packed denser by its consolidation, beyond what is elastic, has no longer the void ratio it was made with.
+void BiaxialTest::State::warn_of_density(double before, double made_under) {
+  constexpr double plastic = 0.01, bulk_modulus = 0.5;  // the latter of a dense packing, over k_n
+  double const after = simulation->void_ratio(),
+               elastic = (1 + before) * (scene.test.confining_stress - made_under) / (bulk_modulus * scene.grains.kn);
+  if (before - after <= elastic + plastic) return;
+  warnings.push_back("under the confining stress the void ratio fell from " + short_number(before, 4) + " to " +
+                     short_number(after, 4) + ", of which some " + short_number(elastic, 2) +
+                     " are elastic: what is tested is denser than what was made");
 }
 
 std::string BiaxialTest::State::text_of_scaling() const {
@@ -181,6 +195,10 @@ void BiaxialTest::State::begin_shear() {
   if (scene.output.takes_snapshots()) s.mark_start();
   s.watch_deviator();
   preparation["broken_in_consolidation"] = broken;
+  constexpr double many = 0.2;
+  if (broken > many * static_cast<double>(bonds0))
+    warnings.push_back(short_number(100.0 * broken / static_cast<double>(bonds0)) +
+                       " % of the bonds broke before the test: the specimen is no longer the one that was bonded");
   preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
   if (rate.share < 1) preparation["rate_share"] = rate.share;
@@ -274,6 +292,8 @@ std::vector<std::string> BiaxialTest::shear_warnings() const {
   State const& t = *state_;
   std::vector<std::string> warnings = t.watch.warnings(t.bonds0 > 0);
   if (std::string const soft = stiffness_warning_at(t.scene, t.watch.largest_sigma1()); !soft.empty()) warnings.push_back(soft);
+  if (std::string const problem = collapse(t.simulation->void_ratio(), 0); t.scene.run.force && !problem.empty())
+    warnings.push_back("forced: " + problem);
   constexpr double said = 1.01;  // of the strain that was asked for
   if (finished() && strain_fraction() > said) warnings.push_back(overshoot_text(t.eps1(), t.scene.test.axial_strain));
   return warnings;

@@ -7,17 +7,12 @@
 #include "domain/generation/equilibration.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/scene_laws.hpp"
+#include "domain/scene/short_number.hpp"
 #include "domain/scene/stage.hpp"
 
 namespace clathra {
 
 namespace {
-
-std::string short_number(double value, int digits = 3) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
 
 /// W follows the void ratio, which is known only when the specimen is consolidated: with these digits the forecast says the same.
 constexpr int digits_of_wave = 2;

@@ -252,6 +252,12 @@ double parse_number(std::string_view text) {
   return shifted_number(whole, 0);
 }
 
+double parse_written_number(std::string_view text) {
+  double value = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : parse_number(text);
+}
+
 std::string format_number(double value) {
   std::array<char, 32> buffer;
   auto const [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

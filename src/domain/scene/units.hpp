@@ -27,6 +27,10 @@ double parse_quantity(std::string_view text, Dimension dimension);
 /// @throws std::invalid_argument "needs a number, got 'x'"
 double parse_number(std::string_view text);
 
+/// Reads a number as a program wrote it: the same without blanks, and nan or inf where a test has no value.
+/// @throws std::invalid_argument, as parse_number()
+double parse_written_number(std::string_view text);
+
 /// The shortest text that parse_quantity() reads back to the same bits, with a unit fit to be read where one does ("1 MPa").
 std::string format_quantity(double value, Dimension dimension);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -35,20 +34,12 @@ struct Cells {
   std::string line() const { return fmt::format("{}\n", fmt::join(cells, ",")); }
 };
 
-/// A number, or nan or inf where a test has none for it. @throws std::invalid_argument
-double number_of(std::string_view cell) {
-  double value = 0;
-  auto const [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error == std::errc() && end == cell.data() + cell.size()) return value;
-  return parse_number(cell);  // which says what is wrong
-}
-
 /// Takes values from the cells of the columns that have their names. Those that a file has not stay as they are.
 struct Parse {
   std::vector<std::string> const& columns;
   std::vector<std::string_view> const& cells;
   void operator()(char const* name, double& value) {
-    if (auto const at = place(name); at < cells.size()) value = number_of(cells[at]);
+    if (auto const at = place(name); at < cells.size()) value = parse_written_number(cells[at]);
   }
   void operator()(char const* name, std::int64_t& value) {
     if (auto const at = place(name); at < cells.size()) value = std::llround(parse_number(cells[at]));

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
+#include <stdexcept>
 #include <string_view>
 
 #include "domain/measurement/history_row.hpp"
 #include "domain/scene/csv_rows.hpp"
+#include "domain/scene/units.hpp"
 #include "io/formats/former_names.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/snapshot_file.hpp"
@@ -19,11 +20,11 @@ namespace {
 constexpr std::size_t largest_file = std::size_t{1} << 30;
 
 double number_in(std::string_view cell, std::string const& column, std::size_t line, std::filesystem::path const& path) {
-  double value = 0;
-  auto const [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size())
+  try {
+    return parse_written_number(cell);
+  } catch (std::invalid_argument const&) {
     throw FileProblem(ExitCode::bad_input, path, fmt::format("line {}: '{}' in column {} is no number", line, cell, column));
-  return value;
+  }
 }
 
 /// Names of the columns of a history that are of use here.
