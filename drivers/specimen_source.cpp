@@ -11,9 +11,10 @@
 
 namespace clathra {
 
-Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record, Ranks const& ranks) {
+Specimen generate_recorded(Scene const& scene, ProgressLine& line, RunRecord& record, Ranks const& ranks) {
   Speedometer const clock;
-  GeneratedSpecimen generated = generate_specimen(scene, progress, ranks);
+  GeneratedSpecimen generated = generate_specimen(scene, show_stage(line, ranks), ranks);
+  for (std::string const& warning : generated.warnings) line.warn(warning);
   record.wall_seconds["generate"] = clock.seconds();
   record.stages["generate"] = generated.record;
   record.layer_void_ratios = generated.layer_void_ratios;

@@ -7,12 +7,14 @@
 #include "io/results/run_record.hpp"
 #include "io/scene/scene_comparison.hpp"
 #include "io/scene/scene_file.hpp"
+#include "progress_line.hpp"
 
 namespace clathra {
 
 /// Generates the specimen of a scene; Kokkos must have been started. Numbers, layers and wall time go into the record.
+/// Warnings go to the line.
 /// @throws Refused, Diverged, Stopped
-Specimen generate_recorded(Scene const& scene, ProgressCallback const& progress, RunRecord& record, Ranks const& ranks);
+Specimen generate_recorded(Scene const& scene, ProgressLine& line, RunRecord& record, Ranks const& ranks);
 
 /// Reads the specimen of `sample.file` for a test by the scene and adds what is odd about it to the warnings. Collective.
 /// @return this rank's part;  @throws FileProblem bad_input, file_missing, refused

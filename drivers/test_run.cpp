@@ -155,7 +155,7 @@ class TestRun::Running {
 
   void make_specimen() {
     if (specimen_) return;
-    specimen_ = generate_recorded(scene_, show_stage(line_, ranks_), record_, ranks_);
+    specimen_ = generate_recorded(scene_, line_, record_, ranks_);
     write_specimen(folder_ / (replaces_ ? next_specimen : "specimen.h5"), *specimen_, ranks_);
   }
 

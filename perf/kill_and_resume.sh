@@ -4,14 +4,14 @@
 #   perf/kill_and_resume.sh [DISCS [KILLS]]        about ten minutes on 2 free cores
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-clathra="$root/build/release/drivers/clathra" scene=("$root/perf/tiled_bonded.toml")
+clathra="$root/build/release/drivers/clathra" scene=("$root/perf/large_bonded.toml")
 discs=${1:-200000} kills=${2:-10}
 source "$root/perf/ranks_environment.sh"
 source "$root/tests/kill_session.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-for key in sample.particles=$discs sample.tile_particles=5000 test.axial_strain=0.03 output.records=100 output.snapshots=2; do scene+=(--set "$key"); done
+for key in sample.particles=$discs test.axial_strain=0.03 output.records=100 output.snapshots=2; do scene+=(--set "$key"); done
 mpirun -n 2 "$clathra" generate "${scene[@]}" -o specimen.h5 2>log >/dev/null
 given=(run "${scene[@]}" --set sample.generator=file --set sample.file=specimen.h5)
 begin=$SECONDS

@@ -4,7 +4,7 @@
 #   perf/ten_million.sh [DISCS [SPECIMEN]]        about an hour on 2 free cores and 16 GiB of memory, a third of it for a specimen made before
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-clathra="$root/build/release/drivers/clathra" scene=("$root/perf/tiled_bonded.toml")
+clathra="$root/build/release/drivers/clathra" scene=("$root/perf/large_bonded.toml")
 discs=${1:-10000000} specimen=${2:+$(realpath "$2")}
 source "$root/perf/ranks_environment.sh"
 folder=$(mktemp -d)

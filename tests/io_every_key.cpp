@@ -34,14 +34,13 @@ struct KeyTest {
 
 using enum Effect;
 std::vector<KeyTest> const key_tests = {
-    {"sample.generator", "tiled", moves, "sample.tile_particles=100", true},
+    {"sample.generator", "compression", moves, "", true},
     {"sample.particles", "320", moves, "", true},
     {"sample.void_ratio", "0.26", moves, "", true},
     {"sample.width", "2 mm", moves, "sample.particles=", true},
     {"sample.height", "3.8 mm", moves, "sample.particles=", true},
     {"sample.aspect_ratio", "1.5", moves, "", true},
     {"sample.layers", "2", moves, "", true},
-    {"sample.tile_particles", "150", moves, "sample.generator=tiled", true},
     {"sample.file", "specimen.h5", leaves, "", false},
     {"grains.density", "2700", moves, "", true},
     {"grains.kn", "0.4 GPa", moves},

@@ -9,7 +9,7 @@
 #include <regex>
 #include <sstream>
 
-#include "domain/generation/tiled.hpp"
+#include "domain/generation/periodic_cell.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "file_content.hpp"
 #include "io/formats/hdf5_file.hpp"

@@ -58,7 +58,7 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   for (std::string const& warning : record.input.warnings) line.warn(warning);
   if (std::string const warning = thread_warning(scene.run.threads); !warning.empty()) line.warn(warning);
   KokkosSession const kokkos;
-  Specimen const specimen = generate_recorded(scene, show_stage(line, ranks), record, ranks);
+  Specimen const specimen = generate_recorded(scene, line, record, ranks);
   write_specimen(output, specimen, ranks, options.overwrite ? Existing::replaced : Existing::kept);
   line.repeat_warnings();
   return print_result(fmt::format("{}: {:.0f} discs\n{}", output, record.stages.at("generate").at("discs"), record_text(record)));

@@ -31,12 +31,11 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
 }
 
 /// Disc-steps until a specimen is packed and at rest, to about 20 %: fitted to specimens of 300 to 20,000 discs at a void
-/// ratio of 0.24. Larger ones take longer to come to rest. Of tiles one cell is packed, then all come to rest together.
+/// ratio of 0.24. Larger ones take longer to come to rest.
 double generation_disc_steps(Scene const& scene, double discs) {
-  constexpr double at_rest = 3000, packed_in_cell = 145e3;  // a disc
   if (scene.sample.generator == Generator::file) return 0;
-  if (scene.sample.generator == Generator::under_compaction) return 20e3 * discs * std::pow(discs, 0.146);
-  return packed_in_cell * std::min(discs, static_cast<double>(scene.sample.tile_particles)) + at_rest * discs;
+  if (scene.sample.generator == Generator::compression) return 10.7e3 * discs * std::pow(discs / 1500, 0.1);
+  return 20e3 * discs * std::pow(discs, 0.146);
 }
 
 /// The largest resident memory of all ranks together [bytes], as measured with samples of 1,000,000 discs.

@@ -7,7 +7,7 @@
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/generation/bonding.hpp"
 #include "domain/generation/equilibration.hpp"
-#include "domain/generation/tiled.hpp"
+#include "domain/generation/periodic_cell.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/parallel/redistribution.hpp"
 #include "domain/scene/hydrate.hpp"

@@ -29,6 +29,33 @@ void steer_cell(Simulation& simulation, double stress, double largest_rate) {
   simulation.stretch_cell(std::clamp(rate, -largest_rate, largest_rate));
 }
 
+/// Closing rates of the box [1/s], positive inwards.
+struct BoxRates {
+  double x = 0, y = 0;
+};
+
+/// Stretches box and discs together with these rates instead of the present ones.
+void stretch(Simulation& simulation, BoxRates const& wanted, BoxRates& present) {
+  if (simulation.periodic())
+    simulation.stretch_cell(0.5 * (wanted.x + wanted.y));
+  else
+    simulation.drive(AxisDrive::at_rate(wanted.x), AxisDrive::at_rate(wanted.y), wanted.x - present.x, wanted.y - present.y);
+  present = wanted;
+}
+
+/// Rates that take a part of what the stresses lack out in a chunk: of their mean by the bulk modulus, of their difference by the
+/// shear modulus of a dense packing.
+BoxRates rates_towards(Simulation const& simulation, Measures const& m, double stress) {
+  constexpr double part = 0.4, twice_bulk = 1.0, twice_shear = 0.25;  // moduli over k_n
+  double const per_strain = part / (simulation.laws().contact.grain.normal_stiffness * chunk * simulation.time_step),
+               largest = 0.02 / (1000 * simulation.time_step);
+  double const lacking_x = stress - m.stress_area_xx / simulation.area(),
+               lacking_y = stress - m.stress_area_yy / simulation.area();
+  double const mean = 0.5 * (lacking_x + lacking_y) / twice_bulk, difference = 0.5 * (lacking_x - lacking_y) / twice_shear;
+  auto const rate = [&](double lacking) { return std::clamp(per_strain * lacking, -largest, largest); };
+  return {rate(mean + difference), rate(mean - difference)};
+}
+
 /// Sets walls and discs, or the periodic cell, closing at a homogeneous isotropic rate [1/s]; 0 stops them.
 void close_homogeneously(Simulation& simulation, double rate, double present_rate) {
   if (simulation.periodic()) {
@@ -153,6 +180,17 @@ SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& fri
   return laws;
 }
 
+SimulationLaws flowing_laws(SimulationLaws laws, double stress, Grading const& grading) {
+  constexpr double stiffness = 240;  // k_n over the stress
+  laws.scaling = {4, 0.5 * grading.diameter_finer(0.3)};
+  double const share = std::min(1.0, stiffness * stress / laws.contact.grain.normal_stiffness);
+  for (auto* spring : {&laws.contact.grain.normal_stiffness, &laws.contact.grain.shear_stiffness, &laws.wall.normal_stiffness,
+                       &laws.wall.shear_stiffness})
+    *spring *= share;
+  laws.precision = Precision::mixed;
+  return laws;
+}
+
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step) {
   simulation.choose_time_step(step);
   if (simulation.periodic()) return;
@@ -185,6 +223,23 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
   return checks_at_rest >= 3;
 }
 
+bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress) {
+  BoxRates present;
+  int checks_at_rest = 0;
+  std::int64_t const first = simulation.steps();
+  while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
+    stretch(simulation, rates_towards(simulation, simulation.measures(), stress), present);
+    simulation.step(chunk);
+    checks_at_rest = unrest(simulation, simulation.measures(), stress, rest).empty() ? checks_at_rest + 1 : 0;
+    report(progress,
+           {"generate", 0.8,
+            "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),
+            simulation.steps() * simulation.discs()});
+  }
+  stretch(simulation, {}, present);
+  return checks_at_rest >= 3;
+}
+
 PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
                                       CompressionTarget const& target, double skin, ProgressCallback const& progress,
                                       Ranks const& ranks) {
@@ -196,19 +251,30 @@ PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene,
     p.disc_steps += closed.steps * resting.discs();
     return !progress || progress(p);
   };
-  hold_stress(resting, target.stress, 1e-3, 200000, counted, "generate");
+  constexpr std::int64_t most_steps = 200'000;
+  constexpr double rest = 1e-3;
+  bool const rests = hold_stress(resting, target.stress, rest, most_steps, counted, "generate");
   if (resting.void_ratio() < target.void_ratio - target.void_tolerance) {
     throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains pack to a void ratio of " +
                   std::to_string(resting.void_ratio()) + " with a friction of " + std::to_string(friction.friction) +
                   " and a shape factor of " + std::to_string(friction.shape_factor) + "; " + std::to_string(target.void_ratio) +
                   " is looser than they can hold");
   }
+  if (resting.void_ratio() > target.void_ratio + target.void_tolerance) {
+    throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains came to rest at a void ratio of " +
+                  std::to_string(resting.void_ratio()) + "; " + std::to_string(target.void_ratio) + " is denser than they pack");
+  }
+  if (!rests)
+    throw Refused("the specimen did not come to rest within " + std::to_string(most_steps) +
+                  " steps: " + unrest(resting, resting.measures(), target.stress, rest));
   PackedSpecimen packed;
   packed.specimen = resting.specimen();
   packed.specimen.stress = target.stress;
   packed.friction = friction.friction * closed.share;
   packed.shape_factor = friction.shape_factor * closed.share;
-  packed.unbalanced = resting.measures().unbalanced_ratio(resting.discs());
+  Measures const m = resting.measures();
+  packed.unbalanced = m.unbalanced_ratio(resting.discs());
+  packed.deep_overlap_share = m.touching > 0 ? m.deep / m.touching : 0;
   if (!resting.periodic()) {
     packed.stress_x = resting.stress().x;
     packed.stress_y = resting.stress().y;

@@ -3,6 +3,7 @@
 ///
 /// The void ratio is reached by closing the box at a rate with the friction as a knob, not by waiting for a servo: a servo at
 /// constant friction stops wherever the grains jam, and says so only after the whole compression.
+#include "domain/scene/grading.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/simulation.hpp"
@@ -34,11 +35,17 @@ struct GenerationFriction {
 /// The laws of generation for a scene: frictionless walls, no bonds, strong local damping (0.7).
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction);
 
+/// Laws for discs that only meet or flow, for time steps that are far longer: springs that are just stiff enough for the stress
+/// (overlaps of half a percent), the finest 30 % (by mass) of the grading as heavy as the next disc, moments of inertia times 4,
+/// mixed precision.
+SimulationLaws flowing_laws(SimulationLaws laws, double stress, Grading const& grading);
+
 /// A packed specimen (this rank's share), resting under the stress of the design, with its generation friction.
 struct PackedSpecimen {
   Specimen specimen;
   double friction = 0, shape_factor = 0;  ///< in generation, at its end
   double unbalanced = 0;
+  double deep_overlap_share = 0;      ///< of the contacts: overlaps above 10 % of the smaller radius
   double stress_x = 0, stress_y = 0;  ///< on the walls [Pa]; of a periodic cell 0
   std::int64_t disc_steps = 0;
 };
@@ -49,7 +56,8 @@ struct PackedSpecimen {
 /// creeps no further. No search for a friction is needed. It closes with the moments of inertia of a test and in mixed precision
 /// where that resolves the overlaps, and rests with true ones in double precision.
 /// @param skin [m] of the neighbour search
-/// @throws Refused where the target is denser than frictionless grains pack, or looser than full friction holds
+/// @throws Refused where the target is denser than frictionless grains pack, or looser than full friction holds, or where it does
+/// not come to rest
 PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
                                       CompressionTarget const& target, double skin, ProgressCallback const& progress,
                                       Ranks const& ranks = {});
@@ -63,6 +71,11 @@ std::string unrest(Simulation const& simulation, Measures const& m, double stres
 /// @return false if that took more than `most_steps`
 bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
                  char const* stage);
+
+/// The same for an assembly that is about to rest: box and discs stretch together, either direction by what its stress in the
+/// contacts lacks. No wall sends waves through it, so that large ones come to rest in as many steps as small ones. In the end the
+/// box is held.
+bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress);
 
 /// Sets time step, servo constants and speed caps of a simulation for an isotropic stress.
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step);

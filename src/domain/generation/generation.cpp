@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
+#include "domain/generation/compression.hpp"
 #include "domain/generation/packing.hpp"
-#include "domain/generation/tiled.hpp"
 #include "domain/measurement/disc_grading.hpp"
 #include "domain/scene/sample_design.hpp"
+#include "domain/scene/short_number.hpp"
 
 namespace clathra {
 
@@ -19,14 +22,70 @@ double standard_deviation(std::vector<double> const& values) {
   return std::sqrt(square);
 }
 
+PackedSpecimen pack(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
+  bool const layered = scene.sample.generator == Generator::under_compaction;
+  return (layered ? pack_by_under_compaction : pack_by_compression)(scene, design_sample(scene), progress, ranks);
+}
+
+/// A void ratio of three digits that this scene's grains do rest at when it is asked for: the nearest that is found by making
+/// such specimens, since what one specimen came to rest at depends on what was asked of it. Nothing where none is found.
+std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& missed, ProgressCallback const& progress,
+                                           Ranks const& ranks) {
+  constexpr int most_attempts = 6;
+  double const way = missed.denser ? 1 : -1;
+  auto const rounded_away = [&](double ratio) { return way * std::ceil(way * ratio * 1000 - 1e-6) / 1000; };
+  double step = 0.002, reached = missed.reached;
+  for (int attempt = 0; attempt < most_attempts; ++attempt, step *= 2) {
+    scene.sample.void_ratio = rounded_away(reached);
+    try {
+      (void)pack(scene, progress, ranks);
+      return scene.sample.void_ratio;
+    } catch (VoidRatioMissed const& again) {
+      double const further = scene.sample.void_ratio + way * step;
+      reached = again.denser == missed.denser ? way * std::max(way * further, way * again.reached) : further;
+    }
+  }
+  return {};
+}
+
+/// @throws Refused where the void ratio is missed, with one that is not
+PackedSpecimen pack_or_refuse(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
+  try {
+    return pack(scene, progress, ranks);
+  } catch (VoidRatioMissed const& missed) {
+    if (scene.sample.void_ratio == 0)
+      throw Refused(std::string(missed.what()) + "; it follows from sample.particles and the box: change one of these");
+    std::optional<double> const instead = reachable_void_ratio(scene, missed, progress, ranks);
+    throw Refused(std::string(missed.what()) + (instead
+                                                    ? "; sample.void_ratio = " + short_number(*instead) + " was tried and works"
+                                                    : "; none near it was found that works"));
+  }
+}
+
+/// What a user should know of a specimen that was made as it was asked for.
+std::vector<std::string> warnings_of(StageRecord const& made) {
+  constexpr double most_deep = 0.001, farthest = 0.05;
+  std::vector<std::string> warnings;
+  if (double const share = made.at("deep_overlap_share"); share > most_deep)
+    warnings.push_back(
+        "under the preparation stress " + short_number(100 * share) +
+        " % of the contacts overlap by more than 10 % of the smaller radius: the grains are soft for it (grains.kn, "
+        "bond.stress)");
+  if (double const distance = made.at("grading_distance"); distance > farthest)
+    warnings.push_back("the discs miss the grading curve by " + short_number(100 * distance) +
+                       " % at most: they are too few for it (sample.particles), or for so many layers (sample.layers)");
+  return warnings;
+}
+
 }  // namespace
 
 GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
   SampleDesign const design = design_sample(scene);
-  PackedSpecimen packed = scene.sample.generator == Generator::tiled ? pack_by_tiling(scene, design, progress, ranks)
-                                                                     : pack_by_under_compaction(scene, design, progress, ranks);
+  PackedSpecimen packed = pack_or_refuse(scene, progress, ranks);
   GeneratedSpecimen generated;
-  generated.layer_void_ratios = layer_void_ratios(packed.specimen, std::max(1, scene.sample.layers), ranks);
+  int const layers =
+      scene.sample.generator == Generator::under_compaction ? compaction_layers(scene, design) : scene.sample.layers;
+  generated.layer_void_ratios = layer_void_ratios(packed.specimen, layers, ranks);
   StageRecord& r = generated.record;
   r["discs"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(packed.specimen.size())));
   r["void_ratio"] = packed.specimen.void_ratio;
@@ -40,9 +99,11 @@ GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& 
   r["stress_x_Pa"] = packed.stress_x;
   r["stress_y_Pa"] = packed.stress_y;
   r["unbalanced"] = packed.unbalanced;
+  r["deep_overlap_share"] = packed.deep_overlap_share;
   r["disc_steps"] = static_cast<double>(packed.disc_steps);
   r["width_m"] = packed.specimen.width();
   r["height_m"] = packed.specimen.height();
+  generated.warnings = warnings_of(r);
   generated.specimen = std::move(packed.specimen);
   return generated;
 }

@@ -1,5 +1,6 @@
 #pragma once
 /// From a scene to a specimen at rest.
+#include <string>
 #include <vector>
 
 #include "domain/parallel/ranks.hpp"
@@ -15,10 +16,13 @@ struct GeneratedSpecimen {
   Specimen specimen;
   StageRecord record;
   std::vector<double> layer_void_ratios;
+  std::vector<std::string> warnings;
 };
 
 /// Generates by scene.sample.generator (not `file`). Same scene, same bits, for any thread count.
-/// @throws Refused where the void ratio cannot be reached, Diverged, Stopped
+/// @throws Refused where it does not come to rest, or at another void ratio than that of the scene (by 0.004; `compression`: by
+/// 0.001, with one that it does come to rest at);
+/// Diverged, Stopped
 /// @return this rank's share of the specimen, and the record of the whole
 GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks = {});
 

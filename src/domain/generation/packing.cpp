@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "domain/generation/compression.hpp"
+#include "domain/generation/loose_discs.hpp"
 #include "domain/generation/random.hpp"
 #include "domain/generation/random_sequential_addition.hpp"
 
@@ -12,11 +14,9 @@ namespace clathra {
 namespace {
 
 constexpr double loose_solid_fraction = 0.46;    // of the random placement
-constexpr double unjammed = 0.04;                // in void ratio: how far above e_(i) a layer's compaction stops
 constexpr double slowing_range = 0.15;           // in void ratio: the wall slows down as the layers are about to jam
 constexpr std::int64_t most_in_patch = 100'000;  // discs placed one after the other
 constexpr double loose_skin = 0.2;               // in d50, while discs still fly
-constexpr double loose_stiffness = 240;          // k_n over the stress while discs still fly: overlaps of half a percent
 
 /// The loose discs of a layer. Wide layers are placed in patches side by side, whatever the number of ranks.
 struct Layer {
@@ -70,19 +70,6 @@ double highest_point(Specimen const& specimen, Ranks const& ranks) {
   return ranks.max(highest);
 }
 
-/// Laws for layers that only meet, for time steps that are far longer: springs that are just stiff enough for the stress, the
-/// finest 30 % (by mass) of the grading as heavy as the next disc, moments of inertia times 4, mixed precision. The closing that
-/// follows has the scene's own stiffness and true masses.
-SimulationLaws loose_laws(SimulationLaws laws, double stress, Grading const& grading) {
-  laws.scaling = {4, 0.5 * grading.diameter_finer(0.3)};
-  double const share = std::min(1.0, loose_stiffness * stress / laws.contact.grain.normal_stiffness);
-  for (auto* stiffness : {&laws.contact.grain.normal_stiffness, &laws.contact.grain.shear_stiffness, &laws.wall.normal_stiffness,
-                          &laws.wall.shear_stiffness})
-    *stiffness *= share;
-  laws.precision = Precision::mixed;
-  return laws;
-}
-
 /// Drives the top wall down, ever slower as the assembly is about to jam, until it has the void ratio or resists with twenty
 /// times the stress.
 void compact(Simulation& simulation, StepChoice const& step, double void_ratio, double stress, double speed,
@@ -113,8 +100,7 @@ Specimen compacted_layers(Scene const& scene, SampleDesign const& design, Simula
   specimen.density = scene.grains.density;
   specimen.d50 = design.grading.d50();
   double const speed = 0.5 * std::sqrt(scene.bond.stress / scene.grains.density);
-  int const layers =
-      static_cast<int>(std::min<std::int64_t>(scene.sample.layers, std::max<std::int64_t>(1, design.particles / 50)));
+  int const layers = compaction_layers(scene, design);
   for (int layer = 1; layer <= layers; ++layer) {
     std::int64_t const upto = design.particles * layer / layers, before = design.particles * (layer - 1) / layers;
     Layer const loose{before, upto - before, scene.run.seed, static_cast<std::uint64_t>(layer)};
@@ -155,7 +141,7 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
     p.disc_steps += of_layers;
     return !progress || progress(p);
   };
-  SimulationLaws const laws = loose_laws(generation_laws(scene, friction), scene.bond.stress, design.grading);
+  SimulationLaws const laws = flowing_laws(generation_laws(scene, friction), scene.bond.stress, design.grading);
   Specimen const layers = compacted_layers(scene, design, laws, counted, of_layers, ranks);
   CompressionTarget target;
   target.stress = scene.bond.stress;
@@ -164,6 +150,16 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   PackedSpecimen packed = compress_to_void_ratio(layers, scene, friction, target, 0.1 * d50, counted, ranks);
   packed.disc_steps += of_layers;
   return packed;
+}
+
+PackedSpecimen pack_by_compression(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+                                   Ranks const& ranks) {
+  Specimen loose;
+  loose.right = design.width * std::sqrt((1 + design.void_ratio + unjammed) / (1 + design.void_ratio));
+  loose.density = scene.grains.density;
+  loose.d50 = design.grading.d50();
+  LooseDiscs(design.grading, design.particles, 1, scene.run.seed).add_layer(loose, 0, 0, 0, ranks);
+  return compress(loose, scene, design, progress, ranks);
 }
 
 double disc_area_below(double radius, double offset) {

@@ -17,6 +17,10 @@ double under_compaction_void_ratio(double target, int layer, int layers, double 
 PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
                                         Ranks const& ranks = {});
 
+/// All discs at once, for specimens of any size: the same process everywhere (compress()).
+PackedSpecimen pack_by_compression(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+                                   Ranks const& ranks = {});
+
 /// Nominal void ratio of `layers` horizontal bands of equal height; discs on a border are shared by their exact area.
 std::vector<double> layer_void_ratios(Specimen const& specimen, int layers, Ranks const& ranks = {});
 

@@ -26,7 +26,7 @@ class Occupancy {
     for (int r = row - 1; r <= row + 1; ++r) {
       for (int c = column - 1; c <= column + 1; ++c) {
         if (!region_.periodic && (r < 0 || r >= rows_ || c < 0 || c >= columns_)) continue;
-        for (Disc const& d : cells_[index((c + columns_) % columns_, (r + rows_) % rows_)]) {
+        for (PlacedDisc const& d : cells_[index((c + columns_) % columns_, (r + rows_) % rows_)]) {
           double dx = std::abs(d.x - x), dy = std::abs(d.y - y);
           if (region_.periodic) {
             dx = std::min(dx, region_.width - dx);
@@ -38,12 +38,9 @@ class Occupancy {
     }
     return true;
   }
-  void add(double x, double y, double radius) { cells_[index(column_of(x), row_of(y))].push_back({x, y, radius}); }
+  void add(PlacedDisc const& disc) { cells_[index(column_of(disc.x), row_of(disc.y))].push_back(disc); }
 
  private:
-  struct Disc {
-    double x, y, radius;
-  };
   int column_of(double x) const {
     return std::clamp(static_cast<int>((x - region_.left) / region_.width * columns_), 0, columns_ - 1);
   }
@@ -54,34 +51,41 @@ class Occupancy {
 
   Region region_;
   int columns_, rows_;
-  std::vector<std::vector<Disc>> cells_;
+  std::vector<std::vector<PlacedDisc>> cells_;
 };
 
 }  // namespace
 
 Placement place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
-                                   std::uint64_t stream) {
+                                   std::uint64_t stream, std::vector<PlacedDisc> const& around) {
   constexpr int most_tries = 20000;
   std::vector<std::size_t> order(radii.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
   Placement placed{std::vector<double>(radii.size()), std::vector<double>(radii.size())};
-  Occupancy occupancy(region, 2.0 * radii[order.front()]);
+  double largest = radii[order.front()];
+  for (PlacedDisc const& disc : around) largest = std::max(largest, disc.radius);
+  Occupancy occupancy(region, 2.0 * largest);
+  for (PlacedDisc const& disc : around) {
+    if (disc.x + disc.radius + largest > region.left && disc.x - disc.radius - largest < region.left + region.width)
+      occupancy.add(disc);
+  }
   std::uint64_t counter = 0;
   for (std::size_t i : order) {
-    double const margin = region.periodic ? 0 : radii[i];
+    double const margin = region.periodic ? 0 : radii[i], left = region.open_left ? 0 : margin,
+                 right = region.open_right ? 0 : margin;
     int tries = 0;
     double x = 0, y = 0;
     do {
       if (++tries > most_tries)
         throw std::runtime_error("no room for disc " + std::to_string(i) + " of " + std::to_string(radii.size()) +
                                  " in a loose placement");
-      x = region.left + margin + uniform_random(seed, stream, counter++) * (region.width - 2 * margin);
+      x = region.left + left + uniform_random(seed, stream, counter++) * (region.width - (left + right));
       y = region.bottom + margin + uniform_random(seed, stream, counter++) * (region.height - 2 * margin);
     } while (!occupancy.is_free(x, y, radii[i]));
     placed.x[i] = x;
     placed.y[i] = y;
-    occupancy.add(x, y, radii[i]);
+    occupancy.add({x, y, radii[i]});
   }
   return placed;
 }

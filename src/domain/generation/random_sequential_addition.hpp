@@ -5,20 +5,25 @@
 
 namespace clathra {
 
-/// A rectangle to fill [m]; periodic in both directions or bounded.
+/// A rectangle to fill [m]; periodic in both directions or bounded. Where a side is open, discs may reach over it.
 struct Region {
   double left = 0, bottom = 0, width = 0, height = 0;
-  bool periodic = false;
+  bool periodic = false, open_left = false, open_right = false;
+};
+
+struct PlacedDisc {
+  double x, y, radius;
 };
 
 struct Placement {
   std::vector<double> x, y;
 };
 
-/// IdIndex discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). A region that
+/// Places discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). A region that
 /// proves too small for random addition (more than about 55 % solid) is refused.
+/// @param around  discs that are there already and may reach into it
 /// @return centres in the order of `radii`;  @throws std::runtime_error where a disc finds no place
 Placement place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
-                                   std::uint64_t stream);
+                                   std::uint64_t stream, std::vector<PlacedDisc> const& around = {});
 
 }  // namespace clathra

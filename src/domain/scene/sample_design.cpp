@@ -46,6 +46,13 @@ SampleDesign design_sample(Scene const& scene) {
   return design;
 }
 
+int compaction_layers(Scene const& scene, SampleDesign const& design) {
+  constexpr std::int64_t fewest_discs = 50;
+  std::int64_t const by_height = static_cast<std::int64_t>(design.height / design.grading.largest());
+  std::int64_t const most = std::min(design.particles / fewest_discs, by_height);
+  return static_cast<int>(std::clamp<std::int64_t>(most, 1, scene.sample.layers));
+}
+
 std::string narrowness(double width, double height, double largest, double fewest) {
   constexpr double rounding = 1e-9;
   double const side = std::min(width, height), across = side / largest;

@@ -20,6 +20,10 @@ struct SampleDesign {
 /// @throws std::invalid_argument where all four are given, or fewer than needed
 SampleDesign design_sample(Scene const& scene);
 
+/// Layers in which a design is compacted: as many as the scene wants, but each of 50 discs at the least and as high as its
+/// largest grain.
+int compaction_layers(Scene const& scene, SampleDesign const& design);
+
 inline constexpr double fewest_grains_across = 3;
 
 /// Why a specimen is too narrow to be one of sand, its smaller side being less than `fewest` of its largest grains; empty where

@@ -109,6 +109,10 @@ std::optional<SampleDesign> check_design(Check& check) {
                               length_text(design.height)));
     else if (std::string const problem = narrowness(design.width, design.height, largest); !problem.empty())
       check.refusal({"sample.width", "sample.height", "sample.particles", "grading.d50"}, problem);
+    if (int const layers = compaction_layers(scene, design);
+        layers < scene.sample.layers && scene.sample.generator == Generator::under_compaction && check.given("sample.layers"))
+      check.warn(fmt::format("the specimen is compacted in {} layers, not {}: thinner ones would not be layers of these grains",
+                             layers, scene.sample.layers));
     if (design.particles < 16 || design.particles > 1'000'000'000)
       check.error({"sample.width", "sample.height", "grading.d50"},
                   fmt::format("the box of {} x {} holds {} discs of this grading; between 16 and 1e9 are possible",

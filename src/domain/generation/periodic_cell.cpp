@@ -1,9 +1,10 @@
-#include "domain/generation/tiled.hpp"
+#include "domain/generation/periodic_cell.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "domain/generation/packing.hpp"
 #include "domain/generation/random_sequential_addition.hpp"
 
 namespace clathra {
@@ -11,7 +12,6 @@ namespace clathra {
 namespace {
 
 constexpr double loose_solid_fraction = 0.5;
-constexpr std::int64_t relaxation_steps = 3000;  // about what a wave needs to cross some tens of grains and come to rest
 
 /// A box covered by copies of a periodic cell. Discs are numbered tile by tile as they come; what a tile holds follows from its
 /// place alone, so that no list of all discs is needed.
@@ -142,35 +142,6 @@ Specimen replicate(Specimen const& cell, double width, double height, Ranks cons
     tiling.copy_contacts(tile, whole);
   }
   return whole;
-}
-
-PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
-                              Ranks const& ranks) {
-  double const d50 = design.grading.d50();
-  std::int64_t const tile = std::min(scene.sample.tile_particles, design.particles);
-  PackedSpecimen packed = pack_periodic_cell(scene, design, tile, progress);
-  Specimen const whole = replicate(packed.specimen, design.width, design.height, ranks);
-  GenerationFriction friction;
-  if (design.void_ratio > 0.25) friction.shape_factor = 2;
-  Simulation simulation(whole, generation_laws(scene, friction), 0.05 * d50, ranks);
-  // The cell's equilibrium is kept inside; the walls close the cut discs' gaps at a speed whose wave stays below the stress.
-  prepare_servo(simulation, scene.bond.stress, 1e-3, d50, StepChoice{});
-  double const quiet = 0.5 * scene.bond.stress / (simulation.density() / (1 + design.void_ratio) * wave_speed(simulation));
-  simulation.loading().x.largest_speed = simulation.loading().y.largest_speed = quiet;
-  constexpr int interval = 100;
-  static_assert(relaxation_steps % interval == 0);
-  for (int n = interval; n <= relaxation_steps; n += interval) {
-    simulation.step(interval);
-    report(progress, {"generate", 0.7 + 0.3 * static_cast<double>(n) / relaxation_steps, "relaxing near the walls",
-                      packed.disc_steps + simulation.steps() * simulation.discs()});
-  }
-  packed.disc_steps += simulation.steps() * simulation.discs();
-  packed.specimen = simulation.specimen();
-  packed.specimen.stress = scene.bond.stress;
-  packed.unbalanced = simulation.measures().unbalanced_ratio(simulation.discs());
-  packed.stress_x = simulation.stress().x;
-  packed.stress_y = simulation.stress().y;
-  return packed;
 }
 
 }  // namespace clathra

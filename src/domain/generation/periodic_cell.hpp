@@ -1,6 +1,7 @@
 #pragma once
-/// Large specimens from one periodic cell: packed once, replicated, cut by the walls, relaxed near them.
-#include "domain/generation/packing.hpp"
+/// A periodic cell of discs at rest, and boxes filled with its copies: packings of any size in no time, to measure speed with.
+#include "domain/generation/equilibration.hpp"
+#include "domain/scene/sample_design.hpp"
 
 namespace clathra {
 
@@ -12,10 +13,5 @@ PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design
 /// box. Contacts across the walls are cut.
 /// @return this rank's share: the tiles are dealt out among the ranks
 Specimen replicate(Specimen const& cell, double width, double height, Ranks const& ranks = {});
-
-/// The whole specimen: cell (each rank makes the same one: it is small),  replication, and a relaxation in which only the walls'
-/// surroundings have to move.
-PackedSpecimen pack_by_tiling(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
-                              Ranks const& ranks = {});
 
 }  // namespace clathra

@@ -1,0 +1,45 @@
+#pragma once
+/// The loose start of every generator: discs of a grading, dealt out to layers and placed at random without overlap.
+#include <cstdint>
+#include <vector>
+
+#include "domain/generation/random_sequential_addition.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "domain/scene/grading.hpp"
+#include "domain/scene/specimen.hpp"
+
+namespace clathra {
+
+/// All discs of a specimen in layers of equal numbers, each in patches side by side, which are placed one by one, whatever the
+/// number of ranks. Together they are the grading's quantiles; every patch has its share of all sizes.
+class LooseDiscs {
+ public:
+  LooseDiscs(Grading const& grading, std::int64_t particles, int layers, std::uint64_t seed);
+
+  int layers() const { return layers_; }
+  double solid_area(int layer) const;  ///< [m^2]
+  /// Adds the discs of a layer (from 0 on) above `from` [m] over the whole width, at a solid fraction of 0.46, and lifts the top
+  /// wall over them; ranks take the patches by turns. They move as a layer that is compacted homogeneously by a wall that comes
+  /// down at `speed` [m/s], so that no compaction front runs ahead of the wall.
+  void add_layer(Specimen& specimen, int layer, double from, double speed, Ranks const& ranks) const;
+  static double height_of(double solid_area, double width) { return solid_area / solid_fraction / width; }
+
+  /// Radii [m] of a patch, in random order. Of each `patches` neighbouring sizes of the grading every patch has one.
+  std::vector<double> radii(std::int64_t patch) const;
+
+ private:
+  static constexpr double solid_fraction = 0.46;
+  static constexpr std::int64_t most_in_patch = 100'000;  // discs placed one after the other
+
+  std::int64_t patches() const { return patches_in_layer_ * layers_; }
+  std::int64_t discs_before(std::int64_t patch) const;
+  Placement placed(std::int64_t patch, std::vector<double> const& radii, Specimen const& specimen, double from,
+                   double height) const;
+
+  int layers_;
+  std::int64_t patches_in_layer_;
+  std::uint64_t seed_;
+  std::vector<double> sizes_;  // diameters of all, increasing [m]
+};
+
+}  // namespace clathra

@@ -1,0 +1,157 @@
+/// Specimens are those that were asked for: void ratio, stress, rest and sizes, or a refusal with a number that works.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "domain/generation/generation.hpp"
+#include "domain/generation/loose_discs.hpp"
+#include "domain/scene/sample_design.hpp"
+
+namespace clathra {
+namespace {
+
+Scene scene_of(Generator generator, double void_ratio, std::int64_t particles = 300) {
+  Scene scene;
+  scene.sample.generator = generator;
+  scene.sample.particles = particles;
+  scene.sample.void_ratio = void_ratio;
+  return scene;
+}
+
+void expect_as_asked(Scene const& scene) {
+  GeneratedSpecimen const made = generate_specimen(scene, {});
+  double const stress = scene.bond.stress;
+  EXPECT_NEAR(made.record.at("void_ratio"), scene.sample.void_ratio, 0.001);
+  EXPECT_NEAR(made.record.at("stress_x_Pa"), stress, 0.01 * stress);
+  EXPECT_NEAR(made.record.at("stress_y_Pa"), stress, 0.01 * stress);
+  EXPECT_LT(made.record.at("unbalanced"), 1e-3);
+  EXPECT_LT(made.record.at("grading_distance"), 1e-3);
+  EXPECT_EQ(made.specimen.size(), static_cast<std::size_t>(scene.sample.particles));
+  SampleDesign const design = design_sample(scene);
+  EXPECT_NEAR(made.specimen.height() / made.specimen.width(), design.height / design.width, 0.025 * design.height / design.width);
+}
+
+TEST(Compression, MeetsVoidRatioStressSizesAndShape) {
+  for (double const void_ratio : {0.24, 0.28}) {
+    SCOPED_TRACE(void_ratio);
+    expect_as_asked(scene_of(Generator::compression, void_ratio, 600));
+  }
+  Scene scene = scene_of(Generator::compression, 0.24, 600);
+  scene.bond.stress = 1e6;
+  expect_as_asked(scene);
+}
+
+/// What the message offers works when it is asked for.
+void expect_refused_with_help(Scene scene, std::string const& why) {
+  try {
+    (void)generate_specimen(scene, {});
+    FAIL() << "not refused: " << scene.sample.void_ratio;
+  } catch (Refused const& refusal) {
+    std::string const text = refusal.what(), before = "sample.void_ratio = ";
+    EXPECT_NE(text.find(why), std::string::npos) << text;
+    auto const at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << text;
+    scene.sample.void_ratio = std::stod(text.substr(at + before.size()));
+  }
+  expect_as_asked(scene);
+}
+
+TEST(Compression, RefusesWhatGrainsCannotHaveWithANumberThatWorks) {
+  Scene scene = scene_of(Generator::compression, 0.07, 300);
+  expect_refused_with_help(scene, "is denser than they pack");
+  scene.sample.void_ratio = 0.5;
+  expect_refused_with_help(scene, "is looser than they hold");
+}
+
+TEST(Compression, TellsOfAVoidRatioThatFollowsFromTheBox) {
+  Scene scene = scene_of(Generator::compression, 0.165);
+  SampleDesign const design = design_sample(scene);
+  scene.sample.width = design.width, scene.sample.height = design.height, scene.sample.void_ratio = 0;
+  try {
+    (void)generate_specimen(scene, {});
+    FAIL();
+  } catch (Refused const& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("follows from sample.particles and the box"), std::string::npos) << refusal.what();
+  }
+}
+
+/// Of grains that are in each other's way under their preparation stress neither void ratio is met in silence.
+TEST(UnderCompaction, RefusesADenseTargetThatItMisses) {
+  Scene scene = scene_of(Generator::under_compaction, 0.17);
+  scene.bond.stress = 1e6;
+  EXPECT_THROW((void)generate_specimen(scene, {}), Refused);
+}
+
+TEST(Specimens, OfSoftGrainsAreWarnedOf) {
+  Scene scene = scene_of(Generator::under_compaction, 0.24);
+  EXPECT_TRUE(generate_specimen(scene, {}).warnings.empty());
+  scene = scene_of(Generator::compression, 0.126);
+  scene.bond.stress = 1e6;
+  scene.grains.kn = 3e7, scene.grains.ks = 2e7;
+  std::vector<std::string> const warnings = generate_specimen(scene, {}).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("overlap by more than 10 %"), std::string::npos) << warnings[0];
+}
+
+/// A wide curve in few discs: sizes of the whole are its quantiles, and each layer has its share of all of them.
+TEST(Sizes, OfAllLayersTogetherAreTheQuantilesOfTheCurve) {
+  Grading const wide({0.1e-3, 0.6e-3}, {0, 1});
+  constexpr std::int64_t particles = 303;
+  constexpr int layers = 5;
+  LooseDiscs const loose(wide, particles, layers, 1);
+  std::vector<double> all;
+  double least = HUGE_VAL, most = 0;
+  for (int layer = 0; layer < layers; ++layer) {
+    std::vector<double> const radii = loose.radii(layer);
+    all.insert(all.end(), radii.begin(), radii.end());
+    least = std::min(least, loose.solid_area(layer)), most = std::max(most, loose.solid_area(layer));
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<double> const wanted = wide.diameters(particles);
+  ASSERT_EQ(all.size(), wanted.size());
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], 0.5 * wanted[i]);
+  EXPECT_LT(most / least, 1.25);
+}
+
+/// Patches of a wide layer side by side: no overlap across their seams, and no gap along them either.
+TEST(Patches, JoinWithoutASeam) {
+  Grading const sand = Grading::toyoura();
+  constexpr std::int64_t particles = 210'000;
+  Specimen s;
+  s.right = 0.08;
+  LooseDiscs(sand, particles, 1, 1).add_layer(s, 0, 0, 0, {});
+  ASSERT_EQ(s.size(), static_cast<std::size_t>(particles));
+  double const reach = sand.largest();
+  for (double const seam : {s.right / 3, 2 * s.right / 3}) {
+    std::vector<std::size_t> near;
+    int inside = 0;  // centres within half the largest diameter
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      if (std::abs(s.x[i] - seam) < reach) near.push_back(i);
+      inside += std::abs(s.x[i] - seam) < 0.5 * reach ? 1 : 0;
+    }
+    double const expected = static_cast<double>(particles) * reach / s.right;
+    EXPECT_NEAR(inside, expected, 4 * std::sqrt(expected));
+    std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) { return s.y[a] < s.y[b]; });
+    for (std::size_t n = 0; n < near.size(); ++n) {
+      for (std::size_t m = n + 1; m < near.size() && s.y[near[m]] - s.y[near[n]] < reach; ++m) {
+        double const dx = s.x[near[n]] - s.x[near[m]], dy = s.y[near[n]] - s.y[near[m]];
+        ASSERT_GE(std::hypot(dx, dy), (s.radius[near[n]] + s.radius[near[m]]) * (1 - 1e-12));
+      }
+    }
+  }
+}
+
+TEST(Layers, AreFewerWhereTheyWouldBeTooThin) {
+  Scene scene = scene_of(Generator::under_compaction, 0.24, 300);
+  scene.sample.layers = 20;
+  SampleDesign const design = design_sample(scene);
+  EXPECT_EQ(compaction_layers(scene, design), 6);  // of 50 discs
+  scene.sample.particles = 0, scene.sample.width = 26e-3, scene.sample.height = 0.95e-3;
+  EXPECT_EQ(compaction_layers(scene, design_sample(scene)), 3);  // each as high as its largest grain
+}
+
+}  // namespace
+}  // namespace clathra
