@@ -191,9 +191,11 @@ class Compression {
       p.disc_steps += disc_steps_;
       return !progress_ || progress_(p);
     };
-    if (!settle(resting, stress_, rest, most_steps_to_rest, counted))
+    if (!settle(resting, stress_, rest, most_steps_to_rest, counted)) {
+      if (std::abs(resting.void_ratio() - wanted_) > void_tolerance) refuse(resting.void_ratio(), full);
       throw Refused("the specimen did not come to rest in " + std::to_string(most_steps_to_rest) +
                     " steps: " + unrest(resting, resting.measures(), stress_, rest));
+    }
     disc_steps_ += resting.steps() * resting.discs();
     PackedSpecimen packed;
     packed.specimen = resting.specimen();
