@@ -1,45 +1,21 @@
 #include "domain/generation/compression.hpp"
 
 #include <cmath>
-#include <cstdio>
+
+#include "domain/scene/short_number.hpp"
 
 namespace clathra {
 
 namespace {
 
-constexpr std::int64_t most_steps_to_rest = 200'000;
-constexpr double rest = 1e-3;             // unbalanced ratio
 constexpr double void_tolerance = 0.001;  // of what is asked for
 constexpr double reserve = 0.01;          // in void ratio: what is left to close with grains as stiff as the scene's
 constexpr double flowing_modulus = 0.4;   // of the soft assembly, over its k_n
 // Inertial numbers: while discs hardly touch, of the fall of the height alone, of the closing of soft grains, and of that of the
-// scene's. Twice the first: of 200,000 discs some met nearly centre to centre.
+// scene's. At five times the first some of 200,000 discs met nearly centre to centre.
 constexpr double loose_rate = 0.015, vertical_rate = 2.5e-3, soft_rate = 5e-4, last_rate = 3e-4;
 
-std::string digits(double value) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.4f", value);
-  return text;
-}
-
-/// Mean stress inside [Pa]: in a large assembly that closes its walls are far away from what happens there.
-double contact_stress(Simulation const& simulation) {
-  Measures const m = simulation.measures();
-  return 0.5 * (m.stress_area_xx + m.stress_area_yy) / simulation.area();
-}
-
-enum class Direction { both, vertical };
-
-/// Sets walls and discs, or the periodic cell, closing at a homogeneous rate [1/s]; 0 stops them.
-void close_homogeneously(Simulation& simulation, double rate, double present_rate, Direction direction = Direction::both) {
-  if (simulation.periodic()) {
-    simulation.stretch_cell(rate);
-    return;
-  }
-  bool const both = direction == Direction::both;
-  AxisDrive const closing = AxisDrive::at_rate(rate);
-  simulation.drive(both ? closing : AxisDrive::held(), closing, both ? rate - present_rate : 0, rate - present_rate);
-}
+std::string digits(double value) { return short_number(value, 4); }
 
 /// Friction alone packs to about 0.25, with impacts to 0.24.
 GenerationFriction generation_friction(double void_ratio) {
@@ -53,7 +29,6 @@ struct Assembly {
   Specimen specimen;
   GenerationFriction friction;
   double lowest_share = 1;  ///< of the friction, so far
-  double rate = 0;          ///< of its closing [1/s]
   double strain = 0;        ///< linear, by which soft grains are pressed into each other
   bool blocked = false;     ///< resists without friction
 };
@@ -90,21 +65,12 @@ class Compression {
                           reached, denser);
   }
 
-  /// While an assembly closes its discs turn as heavily as in a test, and step in mixed precision where that resolves the
-  /// overlaps.
-  SimulationLaws closing_laws(GenerationFriction const& friction) const {
-    SimulationLaws laws = generation_laws(scene_, friction);
-    laws.scaling.inertia = RunScene::usual_inertia_scaling;
-    if (mixed_precision_resolves(scene_.grains.kn, stress_)) laws.precision = Precision::mixed;
-    return laws;
-  }
-
   /// How a part of the closing goes on.
   struct Part {
     double goal;             ///< void ratio
     double inertial_number;  ///< of its rate near the goal
     double softness = 0;     ///< void ratio that overlaps take away, over the stress [1/Pa]
-    Direction direction = Direction::both;
+    bool vertical = false;   ///< by the height alone
   };
 
   /// Closes, ever slower towards the goal, so that the assembly arrives at rest: the force network of a flowing assembly would
@@ -116,17 +82,19 @@ class Compression {
     constexpr double slowing_range = 0.004;  // in void ratio
     double const full_rate = strain_rate_of(part.inertial_number, stress_, simulation.moving_density(), d50_);
     double stress = contact_stress(simulation);
+    BoxRates present;
     auto const above = [&] { return simulation.void_ratio() + part.softness * stress - part.goal; };
     while (above() > 1e-5 && !a.blocked) {
       double const far = std::clamp((above() - loose_margin) / 0.2, 0.0, 1.0),
                    hurry = 1 + far * (loose_rate / part.inertial_number - 1);
       double const rate =
           full_rate * hurry * std::clamp(above() / slowing_range, 0.1, 1.0) * std::clamp(2 * stress_ / stress, 0.05, 1.0);
-      close_homogeneously(simulation, rate, a.rate, part.direction);
+      stretch(simulation, {part.vertical ? 0 : rate, rate}, present);
       double const before = simulation.time();
       simulation.step(interval);
       // Discs keep their speed while the box gets smaller.
-      a.rate = rate * std::exp(rate * (simulation.time() - before));
+      double const faster = std::exp(rate * (simulation.time() - before));
+      present = {present.x * faster, present.y * faster};
       stress = contact_stress(simulation);
       double const excess = std::clamp(stress / stress_ - 1, -1.0, 1.0);
       a.friction.share = std::clamp(a.friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
@@ -135,8 +103,7 @@ class Compression {
       a.blocked = (a.friction.share < 1e-3 && stress > 4 * stress_) || stress > 20 * stress_;
       if (simulation.steps() % 1000 == 0) tell(simulation);
     }
-    close_homogeneously(simulation, 0, a.rate, part.direction);
-    a.rate = 0;
+    stretch(simulation, {}, present);
   }
 
   /// With soft grains to the reserve above the target, what their overlaps take away counted in.
@@ -148,7 +115,7 @@ class Compression {
     simulation.choose_time_step(StepChoice{});
     double const modulus = flowing_modulus * simulation.laws().contact.grain.normal_stiffness;
     double const softness = (1 + wanted_) / modulus;
-    close(simulation, a, {wanted_ + unjammed, vertical_rate, softness, Direction::vertical}, laws);
+    close(simulation, a, {wanted_ + unjammed, vertical_rate, softness, true}, laws);
     a.blocked = false;
     close(simulation, a, {wanted_ + reserve, soft_rate, softness}, laws);
     a.blocked = false;  // soft grains may have been
@@ -172,7 +139,7 @@ class Compression {
   }
 
   Assembly closed_to(double goal, Assembly a) {
-    auto const laws = [&](GenerationFriction const& friction) { return closing_laws(friction); };
+    auto const laws = [&](GenerationFriction const& friction) { return closing_laws(scene_, friction); };
     Simulation simulation(a.specimen, laws(a.friction), skin_, ranks_);
     simulation.choose_time_step(StepChoice{});
     close(simulation, a, {goal, last_rate}, laws);
@@ -191,24 +158,12 @@ class Compression {
       p.disc_steps += disc_steps_;
       return !progress_ || progress_(p);
     };
-    if (!settle(resting, stress_, rest, most_steps_to_rest, counted)) {
+    if (!settle(resting, stress_, rest_of_specimens, most_steps_to_rest, counted)) {
       if (std::abs(resting.void_ratio() - wanted_) > void_tolerance) refuse(resting.void_ratio(), full);
-      throw Refused("the specimen did not come to rest in " + std::to_string(most_steps_to_rest) +
-                    " steps: " + unrest(resting, resting.measures(), stress_, rest));
+      throw Refused(text_of_unrest(resting, stress_));
     }
     disc_steps_ += resting.steps() * resting.discs();
-    PackedSpecimen packed;
-    packed.specimen = resting.specimen();
-    packed.specimen.stress = stress_;
-    packed.friction = closed.friction.friction * closed.lowest_share;
-    packed.shape_factor = closed.friction.shape_factor * closed.lowest_share;
-    Measures const m = resting.measures();
-    packed.unbalanced = m.unbalanced_ratio(resting.discs());
-    packed.deep_overlap_share = m.touching > 0 ? m.deep / m.touching : 0;
-    if (!resting.periodic()) {
-      packed.stress_x = resting.stress().x;
-      packed.stress_y = resting.stress().y;
-    }
+    PackedSpecimen packed = packed_at_rest(resting, stress_, closed.friction, closed.lowest_share);
     packed.disc_steps = disc_steps_;
     return packed;
   }

@@ -29,20 +29,6 @@ void steer_cell(Simulation& simulation, double stress, double largest_rate) {
   simulation.stretch_cell(std::clamp(rate, -largest_rate, largest_rate));
 }
 
-/// Closing rates of the box [1/s], positive inwards.
-struct BoxRates {
-  double x = 0, y = 0;
-};
-
-/// Stretches box and discs together with these rates instead of the present ones.
-void stretch(Simulation& simulation, BoxRates const& wanted, BoxRates& present) {
-  if (simulation.periodic())
-    simulation.stretch_cell(0.5 * (wanted.x + wanted.y));
-  else
-    simulation.drive(AxisDrive::at_rate(wanted.x), AxisDrive::at_rate(wanted.y), wanted.x - present.x, wanted.y - present.y);
-  present = wanted;
-}
-
 /// Rates that take a part of what the stresses lack out in a chunk: of their mean by the bulk modulus, of their difference by the
 /// shear modulus of a dense packing.
 BoxRates rates_towards(Simulation const& simulation, Measures const& m, double stress) {
@@ -56,24 +42,6 @@ BoxRates rates_towards(Simulation const& simulation, Measures const& m, double s
   return {rate(mean + difference), rate(mean - difference)};
 }
 
-/// Sets walls and discs, or the periodic cell, closing at a homogeneous isotropic rate [1/s]; 0 stops them.
-void close_homogeneously(Simulation& simulation, double rate, double present_rate) {
-  if (simulation.periodic()) {
-    simulation.stretch_cell(rate);
-    return;
-  }
-  AxisDrive const closing = AxisDrive::at_rate(rate);
-  simulation.drive(closing, closing, rate - present_rate, rate - present_rate);
-}
-
-/// While an assembly closes its discs turn as heavily as in a test, and step in mixed precision where that resolves the overlaps.
-SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& friction) {
-  SimulationLaws laws = generation_laws(scene, friction);
-  laws.scaling.inertia = RunScene::usual_inertia_scaling;
-  if (mixed_precision_resolves(scene.grains.kn, scene.bond.stress)) laws.precision = Precision::mixed;
-  return laws;
-}
-
 /// Closes the assembly to the target's void ratio, ever slower towards it, so that it arrives at rest: the force network of a
 /// flowing assembly would collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
 /// @return the lowest share of the friction that was needed
@@ -83,13 +51,13 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
   constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
   constexpr double slowing_range = 0.004;  // in void ratio
   double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.moving_density(), target.d50);
-  double rate = 0, lowest = 1;
+  double lowest = 1;
+  BoxRates present;
   while (simulation.void_ratio() > target.void_ratio + 1e-5) {
     double const above = simulation.void_ratio() - target.void_ratio;
     double const rate_factor = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
     double const slowed = full_rate * rate_factor * std::clamp(above / slowing_range, 0.1, 1.0);
-    close_homogeneously(simulation, slowed, rate);
-    rate = slowed;
+    stretch(simulation, {slowed, slowed}, present);
     simulation.step(interval);
     double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
     friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
@@ -106,7 +74,7 @@ double compress_until_void_ratio(Simulation& simulation, Scene const& scene, Gen
                         simulation.steps() * simulation.discs()});
     }
   }
-  close_homogeneously(simulation, 0, rate);
+  stretch(simulation, {}, present);
   return lowest;
 }
 
@@ -125,17 +93,54 @@ Closed close_to_void_ratio(Specimen const& loose, Scene const& scene, Generation
   return {simulation.specimen(), share, simulation.steps()};
 }
 
+/// Steps in chunks, steered before each by the measures, until there is no unrest() in three checks on end.
+template <class Steer>
+bool step_to_rest(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
+                  char const* stage, Steer const& steer) {
+  std::int64_t const first = simulation.steps();
+  int checks_at_rest = 0;
+  Measures m = simulation.measures();
+  while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
+    steer(m);
+    simulation.step(std::min<std::int64_t>(chunk, first + most_steps - simulation.steps()));
+    m = simulation.measures();
+    checks_at_rest = unrest(simulation, m, stress, rest).empty() ? checks_at_rest + 1 : 0;
+    report(progress,
+           {stage, static_cast<double>(simulation.steps() - first) / static_cast<double>(most_steps),
+            "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),
+            simulation.steps() * simulation.discs()});
+  }
+  return checks_at_rest >= 3;
+}
+
 }  // namespace
+
+void stretch(Simulation& simulation, BoxRates const& wanted, BoxRates& present) {
+  if (simulation.periodic())
+    simulation.stretch_cell(0.5 * (wanted.x + wanted.y));
+  else
+    simulation.drive(AxisDrive::at_rate(wanted.x), AxisDrive::at_rate(wanted.y), wanted.x - present.x, wanted.y - present.y);
+  present = wanted;
+}
+
+SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& friction) {
+  SimulationLaws laws = generation_laws(scene, friction);
+  laws.scaling.inertia = RunScene::usual_inertia_scaling;
+  if (mixed_precision_resolves(scene.grains.kn, scene.bond.stress)) laws.precision = Precision::mixed;
+  return laws;
+}
 
 double strain_rate_of(double inertial_number, double stress, double density, double d50) {
   return inertial_number * std::sqrt(stress / density) / d50;
 }
 
+double contact_stress(Simulation const& simulation) {
+  Measures const m = simulation.measures();
+  return 0.5 * (m.stress_area_xx + m.stress_area_yy) / simulation.area();
+}
+
 double mean_stress(Simulation const& simulation) {
-  if (simulation.periodic()) {
-    Measures const m = simulation.measures();
-    return 0.5 * (m.stress_area_xx + m.stress_area_yy) / simulation.area();
-  }
+  if (simulation.periodic()) return contact_stress(simulation);
   WallStress const stress = simulation.stress();
   return 0.5 * (stress.x + stress.y);
 }
@@ -205,39 +210,42 @@ void prepare_servo(Simulation& simulation, double stress, double inertial_number
 
 bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
                  char const* stage) {
-  std::int64_t const first = simulation.steps();
   double const largest_rate = 0.02 / (1000 * simulation.time_step);
-  int checks_at_rest = 0;
-  while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
+  bool const rests = step_to_rest(simulation, stress, rest, most_steps, progress, stage, [&](Measures const&) {
     if (simulation.periodic()) steer_cell(simulation, stress, largest_rate);
-    std::int64_t const steps = std::min<std::int64_t>(chunk, first + most_steps - simulation.steps());
-    simulation.step(steps);
-    Measures const m = simulation.measures();
-    checks_at_rest = unrest(simulation, m, stress, rest).empty() ? checks_at_rest + 1 : 0;
-    report(progress,
-           {stage, static_cast<double>(simulation.steps() - first) / static_cast<double>(most_steps),
-            "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),
-            simulation.steps() * simulation.discs()});
-  }
+  });
   simulation.stretch_cell(0);
-  return checks_at_rest >= 3;
+  return rests;
 }
 
 bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress) {
   BoxRates present;
-  int checks_at_rest = 0;
-  std::int64_t const first = simulation.steps();
-  while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
-    stretch(simulation, rates_towards(simulation, simulation.measures(), stress), present);
-    simulation.step(chunk);
-    checks_at_rest = unrest(simulation, simulation.measures(), stress, rest).empty() ? checks_at_rest + 1 : 0;
-    report(progress,
-           {"generate", 0.8,
-            "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),
-            simulation.steps() * simulation.discs()});
-  }
+  bool const rests = step_to_rest(simulation, stress, rest, most_steps, progress, "generate",
+                                  [&](Measures const& m) { stretch(simulation, rates_towards(simulation, m, stress), present); });
   stretch(simulation, {}, present);
-  return checks_at_rest >= 3;
+  return rests;
+}
+
+std::string text_of_unrest(Simulation const& simulation, double stress) {
+  return "the specimen did not come to rest within " + std::to_string(most_steps_to_rest) +
+         " steps: " + unrest(simulation, simulation.measures(), stress, rest_of_specimens);
+}
+
+PackedSpecimen packed_at_rest(Simulation const& resting, double stress, GenerationFriction friction, double lowest_share) {
+  friction.share = lowest_share;
+  GrainLaw const law = friction.apply({});
+  Measures const m = resting.measures();
+  PackedSpecimen packed;
+  packed.specimen = resting.specimen();
+  packed.specimen.stress = stress;
+  packed.friction = law.friction;
+  packed.shape_factor = law.shape_factor;
+  packed.unbalanced = m.unbalanced_ratio(resting.discs());
+  packed.deep_overlap_share = m.touching > 0 ? m.deep / m.touching : 0;
+  if (resting.periodic()) return packed;
+  packed.stress_x = resting.stress().x;
+  packed.stress_y = resting.stress().y;
+  return packed;
 }
 
 PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
@@ -251,9 +259,7 @@ PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene,
     p.disc_steps += closed.steps * resting.discs();
     return !progress || progress(p);
   };
-  constexpr std::int64_t most_steps = 200'000;
-  constexpr double rest = 1e-3;
-  bool const rests = hold_stress(resting, target.stress, rest, most_steps, counted, "generate");
+  bool const rests = hold_stress(resting, target.stress, rest_of_specimens, most_steps_to_rest, counted, "generate");
   if (resting.void_ratio() < target.void_ratio - target.void_tolerance) {
     throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains pack to a void ratio of " +
                   std::to_string(resting.void_ratio()) + " with a friction of " + std::to_string(friction.friction) +
@@ -264,21 +270,8 @@ PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene,
     throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains came to rest at a void ratio of " +
                   std::to_string(resting.void_ratio()) + "; " + std::to_string(target.void_ratio) + " is denser than they pack");
   }
-  if (!rests)
-    throw Refused("the specimen did not come to rest within " + std::to_string(most_steps) +
-                  " steps: " + unrest(resting, resting.measures(), target.stress, rest));
-  PackedSpecimen packed;
-  packed.specimen = resting.specimen();
-  packed.specimen.stress = target.stress;
-  packed.friction = friction.friction * closed.share;
-  packed.shape_factor = friction.shape_factor * closed.share;
-  Measures const m = resting.measures();
-  packed.unbalanced = m.unbalanced_ratio(resting.discs());
-  packed.deep_overlap_share = m.touching > 0 ? m.deep / m.touching : 0;
-  if (!resting.periodic()) {
-    packed.stress_x = resting.stress().x;
-    packed.stress_y = resting.stress().y;
-  }
+  if (!rests) throw Refused(text_of_unrest(resting, target.stress));
+  PackedSpecimen packed = packed_at_rest(resting, target.stress, friction, closed.share);
   packed.disc_steps = (closed.steps + resting.steps()) * resting.discs();
   return packed;
 }

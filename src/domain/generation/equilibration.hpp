@@ -35,6 +35,10 @@ struct GenerationFriction {
 /// The laws of generation for a scene: frictionless walls, no bonds, strong local damping (0.7).
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction);
 
+/// The same while an assembly closes: discs turn as heavily as in a test, and step in mixed precision where that resolves the
+/// overlaps.
+SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& friction);
+
 /// Laws for discs that only meet or flow, for time steps that are far longer: springs that are just stiff enough for the stress
 /// (overlaps of half a percent), the finest 30 % (by mass) of the grading as heavy as the next disc, moments of inertia times 4,
 /// mixed precision.
@@ -77,11 +81,31 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
 /// box is held.
 bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress);
 
+inline constexpr double rest_of_specimens = 1e-3;            ///< unbalanced ratio of those that are generated
+inline constexpr std::int64_t most_steps_to_rest = 200'000;  ///< of these
+
+/// Why a specimen that was generated did not come to rest in so many steps.
+std::string text_of_unrest(Simulation const& simulation, double stress);
+
+/// What was packed, with its proof but for the disc-steps. @param lowest_share  of the friction, that was needed
+PackedSpecimen packed_at_rest(Simulation const& resting, double stress, GenerationFriction friction, double lowest_share);
+
+/// Closing rates of the box [1/s], positive inwards.
+struct BoxRates {
+  double x = 0, y = 0;
+};
+
+/// Stretches box and discs, or isotropically the periodic cell, together with these rates instead of the present ones.
+void stretch(Simulation& simulation, BoxRates const& wanted, BoxRates& present);
+
 /// Sets time step, servo constants and speed caps of a simulation for an isotropic stress.
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step);
 
 /// Speed of compression waves in the assembly [m/s], from a modulus of 0.8 k_n and the bulk density.
 double wave_speed(Simulation const& simulation);
+
+/// Mean stress inside [Pa], of the contacts: in a large assembly that closes its walls are far away from what happens there.
+double contact_stress(Simulation const& simulation);
 
 /// Mean stress [Pa] now: from the walls, or from the contacts of a periodic cell.
 double mean_stress(Simulation const& simulation);

@@ -20,6 +20,18 @@ double area(std::vector<double> const& radii) {
 
 }  // namespace
 
+void add_discs(Specimen& specimen, std::int64_t first_id, std::vector<double> const& radii, Placement const& places, double from,
+               double height, double speed) {
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    specimen.id.push_back(static_cast<int>(first_id) + static_cast<int>(i));
+    specimen.x.push_back(places.x[i]);
+    specimen.y.push_back(places.y[i]);
+    specimen.radius.push_back(radii[i]);
+    specimen.vy.push_back(-speed * (places.y[i] - from) / height);
+    for (auto* field : {&specimen.angle, &specimen.vx, &specimen.omega}) field->push_back(0);
+  }
+}
+
 LooseDiscs::LooseDiscs(Grading const& grading, std::int64_t particles, int layers, std::uint64_t seed)
     : layers_(layers),
       patches_in_layer_((particles / layers + most_in_patch - 1) / most_in_patch),
@@ -75,19 +87,11 @@ Placement LooseDiscs::placed(std::int64_t patch, std::vector<double> const& radi
 }
 
 void LooseDiscs::add_layer(Specimen& specimen, int layer, double from, double speed, Ranks const& ranks) const {
-  double const height = height_of(solid_area(layer), specimen.width());
+  double const height = solid_area(layer) / loose_solid_fraction / specimen.width();
   std::int64_t const first = layer * patches_in_layer_;
   for (std::int64_t patch = first + ranks.rank(); patch < first + patches_in_layer_; patch += ranks.count()) {
     std::vector<double> const radii = this->radii(patch);
-    Placement const places = placed(patch, radii, specimen, from, height);
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-      specimen.id.push_back(static_cast<int>(discs_before(patch)) + static_cast<int>(i));
-      specimen.x.push_back(places.x[i]);
-      specimen.y.push_back(places.y[i]);
-      specimen.radius.push_back(radii[i]);
-      specimen.vy.push_back(-speed * (places.y[i] - from) / height);
-      for (auto* field : {&specimen.angle, &specimen.vx, &specimen.omega}) field->push_back(0);
-    }
+    add_discs(specimen, discs_before(patch), radii, placed(patch, radii, specimen, from, height), from, height, speed);
   }
   specimen.top = from + height;
 }

@@ -13,10 +13,8 @@ namespace clathra {
 
 namespace {
 
-constexpr double loose_solid_fraction = 0.46;    // of the random placement
-constexpr double slowing_range = 0.15;           // in void ratio: the wall slows down as the layers are about to jam
-constexpr std::int64_t most_in_patch = 100'000;  // discs placed one after the other
-constexpr double loose_skin = 0.2;               // in d50, while discs still fly
+constexpr double slowing_range = 0.15;  // in void ratio: the wall slows down as the layers are about to jam
+constexpr double loose_skin = 0.2;      // in d50, while discs still fly
 
 /// The loose discs of a layer. Wide layers are placed in patches side by side, whatever the number of ranks.
 struct Layer {
@@ -52,14 +50,7 @@ void add_layer(Specimen& specimen, Grading const& grading, Layer const& layer, d
     };
     Region const region{specimen.left + edge(patch), from, edge(patch + 1) - edge(patch), height, false};
     Placement const placed = place_by_random_addition(radii, region, layer.seed, layer.stream_of(patch));
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-      specimen.id.push_back(static_cast<int>(layer.first_id + layer.begin(patch)) + static_cast<int>(i));
-      specimen.x.push_back(placed.x[i]);
-      specimen.y.push_back(placed.y[i]);
-      specimen.radius.push_back(radii[i]);
-      specimen.vy.push_back(-speed * (placed.y[i] - from) / height);
-      for (auto* field : {&specimen.angle, &specimen.vx, &specimen.omega}) field->push_back(0);
-    }
+    add_discs(specimen, layer.first_id + layer.begin(patch), radii, placed, from, height, speed);
   }
   specimen.top = from + height;
 }
