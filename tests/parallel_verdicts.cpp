@@ -1,6 +1,8 @@
 /// What is said of a test that is not what it should be: not at rest before its shear, not balanced in it, grains too soft.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "small_test.hpp"
 
 namespace clathra {
@@ -164,6 +166,48 @@ TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
   for (std::string const& text : test.shear_warnings())
     said = said || text.find("overlapped by more than 10 % of the smaller radius") != std::string::npos;
   EXPECT_TRUE(said);
+}
+
+bool said(std::vector<std::string> const& warnings, std::string const& part) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](std::string const& text) { return text.find(part) != text.npos; });
+}
+
+/// Loose sand made with more friction than its grains have in the test.
+TEST(Density, ThatConsolidationChangesIsSaid) {
+  Scene scene = small_test();
+  scene.hydrate.saturation = 0;
+  scene.sample.void_ratio = 0.28;
+  Specimen const specimen = generate_specimen(scene, {}).specimen;
+  std::string const part = "of it elastic): what is tested is denser than what was made";
+  EXPECT_FALSE(said(BiaxialTest(scene, specimen, {}).warnings(), part));
+  scene.grains.friction = 0.02;
+  BiaxialTest const slippery(scene, specimen, {});
+  EXPECT_TRUE(said(slippery.warnings(), part));
+  EXPECT_LT(slippery.preparation().at("void_ratio_after_consolidation"), 0.25);
+}
+
+TEST(Bonds, ThatBreakBeforeTheTestAreSaid) {
+  Scene scene = small_test();
+  scene.bond.after_consolidation = false;
+  std::string const part = "% of the bonds broke before the test";
+  EXPECT_FALSE(said(BiaxialTest(scene, small_specimen(), {}).warnings(), part));
+  scene.test.confining_stress = 8e6;
+  scene.hydrate.saturation = 0.3;
+  scene.bond.moment_ratio = 1.0 / 40;
+  BiaxialTest const weak(scene, small_specimen(), {});
+  EXPECT_GT(weak.preparation().at("broken_in_consolidation"), 0.2 * weak.preparation().at("bonds"));
+  EXPECT_TRUE(said(weak.warnings(), part));
+}
+
+TEST(Collapse, OfAForcedTestIsSaid) {
+  Scene scene = small_test();
+  scene.hydrate.saturation = 0;
+  scene.test.axial_strain = 1e-3;
+  scene.run.force = true;
+  scene.grains.kn = 6e6, scene.grains.ks = 4e6;
+  BiaxialTest test(scene, small_specimen(), {});
+  while (!test.finished()) (void)test.advance(1000);
+  EXPECT_TRUE(said(test.shear_warnings(), "forced: the void ratio has fallen to"));
 }
 
 }  // namespace
