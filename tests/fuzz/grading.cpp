@@ -1,20 +1,12 @@
 /// Any text is a grading curve or is refused with a reason; a curve has sizes in order, d50 among them.
 #include <cstdint>
-#include <cstdlib>
 #include <stdexcept>
 #include <string_view>
 
 #include "domain/scene/grading_file.hpp"
+#include "require.hpp"
 
 using namespace clathra;
-
-namespace {
-
-void require(bool truth) {
-  if (!truth) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   std::string_view const text(reinterpret_cast<char const*>(data), size);

@@ -1,18 +1,10 @@
 /// Any text is a scene or is refused with its problems; a scene reads back from its echo to the same scene.
 #include <cstdint>
-#include <cstdlib>
 
 #include "io/scene/scene_file.hpp"
+#include "require.hpp"
 
 using namespace clathra;
-
-namespace {
-
-void require(bool truth) {
-  if (!truth) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   std::string const text(reinterpret_cast<char const*>(data), size);

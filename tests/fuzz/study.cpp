@@ -1,19 +1,11 @@
 /// Any text is a study or is refused with its problems; the groups of a study have names that are files' names, each once.
 #include <cstdint>
-#include <cstdlib>
 #include <set>
 
 #include "io/scene/study_file.hpp"
+#include "require.hpp"
 
 using namespace clathra;
-
-namespace {
-
-void require(bool truth) {
-  if (!truth) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   std::string const text(reinterpret_cast<char const*>(data), size);
