@@ -77,8 +77,8 @@ bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_
                  char const* stage);
 
 /// The same for an assembly that is about to rest: box and discs stretch together, either direction by what its stress in the
-/// contacts lacks, so that no wave has to carry the mean stress in from the walls. What differs along a large assembly still evens
-/// out by waves: 60,000 discs take some 2,000 steps, 200,000 more than 4,000. In the end the box is held.
+/// contacts lacks, so that no wave has to carry the mean stress in from the walls. What differs along a large assembly still
+/// evens out by waves: 60,000 discs take some 2,000 steps, 200,000 more than 4,000. In the end the box is held.
 bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress);
 
 inline constexpr double rest_of_specimens = 1e-3;            ///< unbalanced ratio of those that are generated
