@@ -59,7 +59,9 @@ struct MotionConstants {
         pull_y(static_cast<R>(m.law.gravity_y * m.dt.kick)),
         drift(m.dt.drift),
         per_tick(1 / m.p.mirror.tick),
-        frame(m.steps(0).frame) {}
+        frame(m.steps(0).frame) {
+    if (!m.law.in_frame) frame.gradient_x = frame.gradient_y = frame.drift_x = frame.drift_y = 0;
+  }
 };
 
 /// Kick and drift.

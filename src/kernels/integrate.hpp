@@ -12,6 +12,7 @@ struct MotionLaw {
   Real damping = 0.3;  ///< alpha of local damping, F_d = -alpha |F| sign(v - v_frame), for forces and torque; 0 = none
   Real gravity_x = 0;  ///< [m/s^2]
   Real gravity_y = 0;
+  bool in_frame = true;  ///< v_frame is that of the walls' homogeneous motion; else 0, for walls that move for themselves
 };
 
 /// The two parts of a step [s]. Velocities lie half a step behind: where its length changes, the kick is the mean of both.

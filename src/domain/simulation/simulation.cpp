@@ -140,6 +140,23 @@ void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
   add_affine_velocity(particles_, rate_x, rate_y, f.centre_x, f.centre_y);
 }
 
+void Simulation::strain(Real x, Real y) {
+  Real const factor_x = 1 - x, factor_y = 1 - y;
+  if (periodic()) {
+    PeriodicCell& cell = now_.box.cell;
+    scale_positions(particles_, factor_x, factor_y, cell.left, cell.bottom);
+    cell.width *= factor_x;
+    cell.height *= factor_y;
+  } else {
+    Coord(&at)[wall_count] = now_.box.walls.position;
+    AffineFrame const f = frame();
+    scale_positions(particles_, factor_x, factor_y, f.centre_x, f.centre_y);
+    for (WallName const wall : {left, right}) at[wall] = f.centre_x + factor_x * (at[wall] - f.centre_x);
+    for (WallName const wall : {bottom, top}) at[wall] = f.centre_y + factor_y * (at[wall] - f.centre_y);
+  }
+  refresh_ghosts();
+}
+
 void Simulation::drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y) {
   now_.loading.x = x;
   now_.loading.y = y;

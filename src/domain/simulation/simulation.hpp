@@ -109,16 +109,18 @@ class Simulation {
     skin_ = skin;
     rebuild_pending_ = true;
   }
-  void set_ledger(bool on);                            ///< opens the ledger with all losses at zero, or closes it
-  void keep_break_events(bool on);                     ///< from now on; without, only their numbers by mode are known
-  void keep_break_details();                           ///< of events, from now on, with strains that count from now
-  void stretch_cell(Real rate) { cell_rate_ = rate; }  ///< periodic cell: isotropic closing strain rate [1/s]
+  void set_ledger(bool on);         ///< opens the ledger with all losses at zero, or closes it
+  void keep_break_events(bool on);  ///< from now on; without, only their numbers by mode are known
+  void keep_break_details();        ///< of events, from now on, with strains that count from now
   void stop_discs() { stop_motion(particles_); }
   /// Adds a homogeneous motion to the discs, closing positive [1/s]; the walls keep theirs.
   void add_uniform_strain_rate(Real rate_x, Real rate_y);
   /// Gives the walls new drives and sets walls and discs in motion with the same step: where discs alone moved at once, the first
   /// step would take them away from the walls. @param rate_x,rate_y  added to the discs, as in add_uniform_strain_rate()
   void drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y);
+  /// Closes box and discs homogeneously at once, by these strains. A periodic cell keeps its lower left corner, walls their
+  /// middle.
+  void strain(Real x, Real y);
   void request_rebuild() { rebuild_pending_ = true; }
   void watch_deviator() { now_.largest = {}; }        ///< the largest one counts from now
   void mark_start();                                  ///< displacements count from here
@@ -210,7 +212,6 @@ class Simulation {
   void end_move(bool surveyed);
   void end_step();
   void renew_time_step();
-  void stretch_homogeneously();
   bool sorting_is_due();
   void rebalance_if_it_pays();
   AuxiliaryFields auxiliary_fields(WallShear& wall_shear);
@@ -258,7 +259,7 @@ class Simulation {
   mutable BrokenBonds broken_bonds_;  // collected when they are asked for
   EnergyLosses losses_;
   Faults faults_;
-  Real skin_ = 0, reach_ = 0, cell_rate_ = 0, solid_area_ = 0, largest_radius_ = 0;
+  Real skin_ = 0, reach_ = 0, solid_area_ = 0, largest_radius_ = 0;
   Real density_ = 0, d50_ = 0, critical_thickness_ = 0, added_mass_ = 0;
   std::int64_t rebuilds_ = 0, searched_at_ = 0;  // the step of the last
   mutable std::int64_t last_good_step_ = 0;      // of the last look for faults that found none

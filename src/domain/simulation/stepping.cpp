@@ -116,7 +116,6 @@ void Simulation::push_discs(StepLaunches const& launches) {
 /// @param surveyed  whether the device was asked for a survey
 void Simulation::end_move(bool surveyed) {
   if (now_.orders.host_goes_along) {
-    if (periodic()) stretch_homogeneously();
     now_.displacement = ranks_.max(now_.displacement);
     now_.look_for_doubts();
   }
@@ -155,16 +154,6 @@ void Simulation::end_step() {
 bool Simulation::have_strayed(Mark& mark, Field<Coord> const& x, Field<Coord> const& y, Real leeway) const {
   AffineFrame const f = frame_since(now_.box, mark.box);
   return now_.settle(mark, ranks_.max(largest_nonaffine_displacement2(particles_, x, y, f)), leeway);
-}
-
-/// Isotropic stretching of the periodic cell with all its discs.
-void Simulation::stretch_homogeneously() {
-  if (cell_rate_ == 0) return;
-  PeriodicCell& cell = now_.box.cell;
-  Real const stretch = 1 - cell_rate_ * time_step;
-  scale_positions(particles_, stretch, cell.left, cell.bottom);
-  cell.width *= stretch;
-  cell.height *= stretch;
 }
 
 void Simulation::evaluate_forces() {
