@@ -216,11 +216,11 @@ TEST(ExtremeSizes, AreNotBlamedForASkinThatListsTooMany) {
   SimulationLaws laws = sand_laws();
   laws.precision = Precision::full;  // mixed precision refuses such a skin before
   try {
-    Simulation const sim(s, laws, 5 * grain_d50);
+    Simulation const sim(s, laws, 7 * grain_d50);
     ADD_FAILURE() << "went on";
   } catch (Diverged const& fault) {
     EXPECT_TRUE(names(fault.what(), "give a smaller run.skin, or none: ")) << fault.what();
-    EXPECT_TRUE(names(fault.what(), " are 5 of d50, where 0.12 are usual")) << fault.what();
+    EXPECT_TRUE(names(fault.what(), " are 7 of d50, where 0.12 are usual")) << fault.what();
     EXPECT_FALSE(names(fault.what(), "grading")) << fault.what();
   }
 }

@@ -38,15 +38,15 @@ TEST(ExtremeStates, NoDiscOneDiscTwoDiscs) {
              disc(two, 1).x - disc(two, 0).x > 0 ? (disc(two, 1).x - disc(two, 0).x) / (2 * grain_radius) : 0, 1, 1e99);
 }
 
-TEST(ExtremeStates, ABoulderTwentyTimesTheFinesHasMoreNeighboursThanARowHolds) {
+TEST(ExtremeStates, ABoulderThirtyTimesTheFinesHasMoreNeighboursThanARowHolds) {
   Specimen s = open_space();
-  add_disc(s, 0, 0, 20 * grain_radius);
+  add_disc(s, 0, 0, 30 * grain_radius);
   for (int ring = 0; ring < 2; ++ring)
-    for (int n = 0; n < 66; ++n) {
-      double const angle = 2 * pi * (n + 0.5 * ring) / 66, way = (21.02 + 1.8 * ring) * grain_radius;
+    for (int n = 0; n < 97; ++n) {
+      double const angle = 2 * pi * (n + 0.5 * ring) / 97, way = (31.02 + 1.8 * ring) * grain_radius;
       add_disc(s, way * std::cos(angle), way * std::sin(angle));
     }
-  expect_refusal<Diverged>("a boulder of 20 times the fines", "more neighbours than a row holds",
+  expect_refusal<Diverged>("a boulder of 30 times the fines", "more neighbours than a row holds",
                            [&] { Simulation(s, sand_laws(), 0.12 * grain_d50); });
 }
 

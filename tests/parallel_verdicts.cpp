@@ -29,7 +29,7 @@ TEST(Consolidation, ThatIsCutShortIsSaidAndNeverCalledQuasiStatic) {
 TEST(Consolidation, ThatDoesNotComeToRestIsRefused) {
   Scene scene = small_test();
   scene.sample.particles = 60;
-  scene.sample.void_ratio = 0.34;
+  scene.sample.void_ratio = 0.3;
   scene.sample.layers = 1;
   scene.hydrate.saturation = 0;
   Specimen const specimen = generate_specimen(scene, {}).specimen;

@@ -8,8 +8,9 @@
 
 namespace clathra {
 
-/// The longest row; enough for size ratios up to about 15.
-inline constexpr int longest_row = 64;
+/// The longest row. Around a disc there is room for pi / asin(1 / (n + 1)) of an n-th of its size: 66 of a twentieth, 94 of a
+/// twenty-ninth.
+inline constexpr int longest_row = 96;
 
 /// A rank has more than it can number. Other ranks may not.
 struct TooManyToNumber : std::length_error {

@@ -55,7 +55,7 @@ struct BiaxialTest::State {
   void check();
   /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.
   Measures const& measures();
-  double skin() const { return scene.run.skin > 0 ? scene.run.skin : chosen_skin * d50; }
+  double skin(std::vector<double> const& radii) const;  ///< of this rank's discs; collective
   template <class Visit>
   void for_each_number(Visit&& visit);
   void count_disc_steps() { disc_steps += simulation->steps() * simulation->discs(); }

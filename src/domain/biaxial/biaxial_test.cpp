@@ -65,6 +65,13 @@ SimulationLaws test_laws(Scene const& scene, double d50, double h_max) {
   return laws;
 }
 
+double BiaxialTest::State::skin(std::vector<double> const& radii) const {
+  double largest_negative = -HUGE_VAL;
+  for (double const r : radii) largest_negative = std::max(largest_negative, -r);
+  double const smallest = -2 * ranks.max(largest_negative);
+  return scene.run.skin > 0 ? scene.run.skin : usual_skin(d50, smallest);
+}
+
 /// Bonds first and consolidates then, or the other way round (`bond.after_consolidation`).
 void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallback const& progress) {
   bool const bond = has_bonds(scene) && specimen.critical_thickness == 0;
@@ -77,7 +84,8 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
   auto const start_simulation = [&] {
     SimulationLaws laws = test_laws(scene, specimen.d50, specimen.critical_thickness);
     laws.scaling = mass_scaling(specimen.radius);
-    simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin(), ranks);
+    double const skin = this->skin(specimen.radius);
+    simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin, ranks);
     simulation->keep_break_events(scene.output.events || scene.output.takes_snapshots());
   };
   start_simulation();

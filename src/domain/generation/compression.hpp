@@ -23,12 +23,12 @@ struct VoidRatioMissed : Refused {
   bool denser;     ///< the wanted one is
 };
 
-/// Closes box and discs together from a loose state, first by the height alone, until the discs are about to jam, then from all
+/// Strains box and discs together from a loose state, first by the height alone, until the discs are about to jam, then from all
 /// sides; the friction is lowered where the stress inside exceeds that of the design and raised where it falls short, so that the
-/// assembly yields everywhere alike. Most of the way the grains are soft. Then it comes to rest at the stress with its own
-/// stiffness and the full friction, so that it creeps no further; where it rests at another void ratio, the last part of the
-/// closing is done again. Each disc has only its neighbours to find a place among, so that the steps of the closing hardly depend
-/// on the number of discs; those of the rest do (settle()).
+/// assembly yields everywhere alike. A periodic cell closes from all sides throughout. Most of the way the grains are soft. Then
+/// it comes to rest at the stress with its own stiffness and the full friction, so that it creeps no further; where it rests at
+/// another void ratio, the last part of the closing is done again. Each disc has only its neighbours to find a place among, so
+/// that the number of steps hardly depends on that of the discs.
 /// @throws VoidRatioMissed where the design is denser than frictionless grains pack, or looser than full friction holds;
 /// Refused where it does not come to rest
 PackedSpecimen compress(Specimen const& loose, Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,

@@ -22,87 +22,27 @@ std::string percent_text(double value, int digits) {
   return text.substr(0, text.find('.') + 1 + static_cast<std::size_t>(digits));
 }
 
-/// Steers the isotropic stretching of a periodic cell for the next chunk of steps.
-void steer_cell(Simulation& simulation, double stress, double largest_rate) {
-  double const modulus = packing_modulus(simulation.laws().contact.grain);  // a tenth of the error is taken out in a chunk
-  double const rate = 0.1 * (stress - mean_stress(simulation)) / (modulus * chunk * simulation.time_step);
-  simulation.stretch_cell(std::clamp(rate, -largest_rate, largest_rate));
+/// The strains that take a part of that out which the stresses inside lack: of their mean by the bulk modulus, of their
+/// difference by the shear modulus of a dense packing.
+Strains strains_towards(Simulation const& simulation, WallStress const& inside, double stress) {
+  constexpr double part = 0.05, twice_bulk = 1.0, twice_shear = 0.25;  // moduli over k_n
+  auto const lacking = [&](double present) {
+    return part * (stress - present) / simulation.laws().contact.grain.normal_stiffness;
+  };
+  double const x = lacking(inside.x), y = lacking(inside.y);
+  double const mean = 0.5 * (x + y) / twice_bulk, difference = simulation.periodic() ? 0 : 0.5 * (x - y) / twice_shear;
+  return {mean + difference, mean - difference};
 }
 
-/// Rates that take a part of what the stresses lack out in a chunk: of their mean by the bulk modulus, of their difference by the
-/// shear modulus of a dense packing.
-BoxRates rates_towards(Simulation const& simulation, Measures const& m, double stress) {
-  constexpr double part = 0.4, twice_bulk = 1.0, twice_shear = 0.25;  // moduli over k_n
-  double const per_strain = part / (simulation.laws().contact.grain.normal_stiffness * chunk * simulation.time_step),
-               largest = 0.02 / (1000 * simulation.time_step);
-  double const lacking_x = stress - m.stress_area_xx / simulation.area(),
-               lacking_y = stress - m.stress_area_yy / simulation.area();
-  double const mean = 0.5 * (lacking_x + lacking_y) / twice_bulk, difference = 0.5 * (lacking_x - lacking_y) / twice_shear;
-  auto const rate = [&](double lacking) { return std::clamp(per_strain * lacking, -largest, largest); };
-  return {rate(mean + difference), rate(mean - difference)};
-}
-
-/// Closes the assembly to the target's void ratio, ever slower towards it, so that it arrives at rest: the force network of a
-/// flowing assembly would collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
-/// @return the lowest share of the friction that was needed
-double compress_until_void_ratio(Simulation& simulation, Scene const& scene, GenerationFriction& friction,
-                                 CompressionTarget const& target, ProgressCallback const& progress) {
-  constexpr int interval = 10;             // steps between checks of the stress
-  constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
-  constexpr double slowing_range = 0.004;  // in void ratio
-  double const full_rate = strain_rate_of(target.inertial_number, target.stress, simulation.moving_density(), target.d50);
-  double lowest = 1;
-  BoxRates present;
-  while (simulation.void_ratio() > target.void_ratio + 1e-5) {
-    double const above = simulation.void_ratio() - target.void_ratio;
-    double const rate_factor = 1 + 30 * std::clamp((above - loose_margin) / 0.2, 0.0, 1.0);
-    double const slowed = full_rate * rate_factor * std::clamp(above / slowing_range, 0.1, 1.0);
-    stretch(simulation, {slowed, slowed}, present);
-    simulation.step(interval);
-    double const excess = std::clamp(mean_stress(simulation) / target.stress - 1, -1.0, 1.0);
-    friction.share = std::clamp(friction.share * (1 - 0.02 * excess), 1e-4, 1.0);
-    lowest = std::min(lowest, friction.share);
-    simulation.set_laws(closing_laws(scene, friction));
-    if (friction.share < 1e-3 && mean_stress(simulation) > 4 * target.stress) {
-      throw Refused("without friction these grains resist densification beyond a void ratio of " +
-                    std::to_string(simulation.void_ratio()) + " at " + std::to_string(target.stress / 1e3) + " kPa; " +
-                    std::to_string(target.void_ratio) + " is denser");
-    }
-    if (simulation.steps() % 1000 == 0) {
-      report(progress, {"generate", 0.7,
-                        "void ratio " + percent_text(simulation.void_ratio(), 4) + " -> " + percent_text(target.void_ratio, 4),
-                        simulation.steps() * simulation.discs()});
-    }
-  }
-  stretch(simulation, {}, present);
-  return lowest;
-}
-
-/// An assembly at the target's void ratio, not yet at rest.
-struct Closed {
-  Specimen specimen;
-  double share;        ///< of the friction, the lowest that was needed
-  std::int64_t steps;  ///< until then
-};
-
-Closed close_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
-                           CompressionTarget const& target, double skin, ProgressCallback const& progress, Ranks const& ranks) {
-  Simulation simulation(loose, closing_laws(scene, friction), skin, ranks);
-  prepare_servo(simulation, target.stress, target.inertial_number, target.d50, StepChoice{});
-  double const share = compress_until_void_ratio(simulation, scene, friction, target, progress);
-  return {simulation.specimen(), share, simulation.steps()};
-}
-
-/// Steps in chunks, steered before each by the measures, until there is no unrest() in three checks on end.
-template <class Steer>
+/// Steps in chunks until there is no unrest() in three checks on end. @param advance  makes so many steps
+template <class Advance>
 bool step_to_rest(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
-                  char const* stage, Steer const& steer) {
+                  char const* stage, Advance const& advance) {
   std::int64_t const first = simulation.steps();
   int checks_at_rest = 0;
   Measures m = simulation.measures();
   while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
-    steer(m);
-    simulation.step(std::min<std::int64_t>(chunk, first + most_steps - simulation.steps()));
+    advance(std::min<std::int64_t>(chunk, first + most_steps - simulation.steps()));
     m = simulation.measures();
     checks_at_rest = unrest(simulation, m, stress, rest).empty() ? checks_at_rest + 1 : 0;
     report(progress,
@@ -115,17 +55,26 @@ bool step_to_rest(Simulation& simulation, double stress, double rest, std::int64
 
 }  // namespace
 
-void stretch(Simulation& simulation, BoxRates const& wanted, BoxRates& present) {
-  if (simulation.periodic())
-    simulation.stretch_cell(0.5 * (wanted.x + wanted.y));
-  else
-    simulation.drive(AxisDrive::at_rate(wanted.x), AxisDrive::at_rate(wanted.y), wanted.x - present.x, wanted.y - present.y);
-  present = wanted;
+WallStress stress_inside(Simulation const& simulation) {
+  Measures const m = simulation.measures();
+  return {m.stress_area_xx / simulation.area(), m.stress_area_yy / simulation.area()};
 }
 
-SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& friction) {
+void close_together(Simulation& simulation, Strains const& strains, WallStress const& stress_at_walls) {
+  simulation.strain(strains.x, strains.y);
+  if (simulation.periodic()) return;
+  Loading& loading = simulation.loading();
+  // Slower than the stress passes through the smallest specimens: the walls must not undo what the strains do.
+  loading.servo.gain = 0.2;
+  loading.servo.integral_time = HUGE_VAL;
+  loading.x = AxisDrive::at_stress(stress_at_walls.x, loading.x.largest_speed);
+  loading.y = AxisDrive::at_stress(stress_at_walls.y, loading.y.largest_speed);
+}
+
+SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& friction, Grading const& grading) {
   SimulationLaws laws = generation_laws(scene, friction);
-  laws.scaling.inertia = RunScene::usual_inertia_scaling;
+  laws.scaling = {4, 0.5 * grading.d50()};
+  laws.motion.in_frame = false;
   if (mixed_precision_resolves(scene.grains.kn, scene.bond.stress)) laws.precision = Precision::mixed;
   return laws;
 }
@@ -134,14 +83,8 @@ double strain_rate_of(double inertial_number, double stress, double density, dou
   return inertial_number * std::sqrt(stress / density) / d50;
 }
 
-double contact_stress(Simulation const& simulation) {
-  Measures const m = simulation.measures();
-  return 0.5 * (m.stress_area_xx + m.stress_area_yy) / simulation.area();
-}
-
 double mean_stress(Simulation const& simulation) {
-  if (simulation.periodic()) return contact_stress(simulation);
-  WallStress const stress = simulation.stress();
+  WallStress const stress = simulation.periodic() ? stress_inside(simulation) : simulation.stress();
   return 0.5 * (stress.x + stress.y);
 }
 
@@ -176,6 +119,12 @@ std::string unrest(Simulation const& simulation, Measures const& m, double stres
   return text;
 }
 
+GenerationFriction generation_friction(double void_ratio) {
+  GenerationFriction friction;
+  friction.shape_factor = void_ratio > 0.28 ? 2 : 1;
+  return friction;
+}
+
 SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& friction) {
   SimulationLaws laws;
   laws.contact.grain = friction.apply(grain_law(scene));
@@ -188,6 +137,7 @@ SimulationLaws generation_laws(Scene const& scene, GenerationFriction const& fri
 SimulationLaws flowing_laws(SimulationLaws laws, double stress, Grading const& grading) {
   constexpr double stiffness = 240;  // k_n over the stress
   laws.scaling = {4, 0.5 * grading.diameter_finer(0.3)};
+  laws.motion.in_frame = false;
   double const share = std::min(1.0, stiffness * stress / laws.contact.grain.normal_stiffness);
   for (auto* spring : {&laws.contact.grain.normal_stiffness, &laws.contact.grain.shear_stiffness, &laws.wall.normal_stiffness,
                        &laws.wall.shear_stiffness})
@@ -195,6 +145,8 @@ SimulationLaws flowing_laws(SimulationLaws laws, double stress, Grading const& g
   laws.precision = Precision::mixed;
   return laws;
 }
+
+double gentleness(Grading const& grading) { return std::min(1.0, 3 * grading.smallest() / grading.largest()); }
 
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step) {
   simulation.choose_time_step(step);
@@ -210,20 +162,17 @@ void prepare_servo(Simulation& simulation, double stress, double inertial_number
 
 bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
                  char const* stage) {
-  double const largest_rate = 0.02 / (1000 * simulation.time_step);
-  bool const rests = step_to_rest(simulation, stress, rest, most_steps, progress, stage, [&](Measures const&) {
-    if (simulation.periodic()) steer_cell(simulation, stress, largest_rate);
-  });
-  simulation.stretch_cell(0);
-  return rests;
+  return step_to_rest(simulation, stress, rest, most_steps, progress, stage, [&](std::int64_t steps) { simulation.step(steps); });
 }
 
 bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress) {
-  BoxRates present;
-  bool const rests = step_to_rest(simulation, stress, rest, most_steps, progress, "generate",
-                                  [&](Measures const& m) { stretch(simulation, rates_towards(simulation, m, stress), present); });
-  stretch(simulation, {}, present);
-  return rests;
+  return step_to_rest(simulation, stress, rest, most_steps, progress, "generate", [&](std::int64_t steps) {
+    for (; steps > 0; steps -= steering) {
+      WallStress const inside = stress_inside(simulation);
+      close_together(simulation, strains_towards(simulation, inside, stress), inside);
+      simulation.step(std::min(steps, steering));
+    }
+  });
 }
 
 std::string text_of_unrest(Simulation const& simulation, double stress) {
@@ -245,34 +194,6 @@ PackedSpecimen packed_at_rest(Simulation const& resting, double stress, Generati
   if (resting.periodic()) return packed;
   packed.stress_x = resting.stress().x;
   packed.stress_y = resting.stress().y;
-  return packed;
-}
-
-PackedSpecimen compress_to_void_ratio(Specimen const& loose, Scene const& scene, GenerationFriction friction,
-                                      CompressionTarget const& target, double skin, ProgressCallback const& progress,
-                                      Ranks const& ranks) {
-  Closed const closed = close_to_void_ratio(loose, scene, friction, target, skin, progress, ranks);
-  // With the full friction back the assembly creeps no further.
-  Simulation resting(closed.specimen, generation_laws(scene, friction), skin, ranks);
-  prepare_servo(resting, target.stress, target.inertial_number, target.d50, StepChoice{});
-  ProgressCallback const counted = [&](Progress p) {
-    p.disc_steps += closed.steps * resting.discs();
-    return !progress || progress(p);
-  };
-  bool const rests = hold_stress(resting, target.stress, rest_of_specimens, most_steps_to_rest, counted, "generate");
-  if (resting.void_ratio() < target.void_ratio - target.void_tolerance) {
-    throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains pack to a void ratio of " +
-                  std::to_string(resting.void_ratio()) + " with a friction of " + std::to_string(friction.friction) +
-                  " and a shape factor of " + std::to_string(friction.shape_factor) + "; " + std::to_string(target.void_ratio) +
-                  " is looser than they can hold");
-  }
-  if (resting.void_ratio() > target.void_ratio + target.void_tolerance) {
-    throw Refused("at " + std::to_string(target.stress / 1e3) + " kPa these grains came to rest at a void ratio of " +
-                  std::to_string(resting.void_ratio()) + "; " + std::to_string(target.void_ratio) + " is denser than they pack");
-  }
-  if (!rests) throw Refused(text_of_unrest(resting, target.stress));
-  PackedSpecimen packed = packed_at_rest(resting, target.stress, friction, closed.share);
-  packed.disc_steps = (closed.steps + resting.steps()) * resting.discs();
   return packed;
 }
 

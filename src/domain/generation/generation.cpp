@@ -54,7 +54,7 @@ PackedSpecimen pack_or_refuse(Scene const& scene, ProgressCallback const& progre
     return pack(scene, progress, ranks);
   } catch (VoidRatioMissed const& missed) {
     bool const box = scene.sample.width > 0 && scene.sample.height > 0;
-    if (box && scene.sample.void_ratio == 0)
+    if (scene.sample.void_ratio == 0 && box)
       throw Refused(std::string(missed.what()) + "; it follows from sample.particles and the box: change one of these");
     std::optional<double> const instead = reachable_void_ratio(scene, missed, progress, ranks);
     throw Refused(std::string(missed.what()) + (instead

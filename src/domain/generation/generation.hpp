@@ -20,8 +20,8 @@ struct GeneratedSpecimen {
 };
 
 /// Generates by scene.sample.generator (not `file`). Same scene, same bits, for any thread count.
-/// @throws Refused where it does not come to rest, or at another void ratio than that of the scene (by 0.004; `compression`: by
-/// 0.001, with one that it does come to rest at);
+/// @throws Refused where it does not come to rest, or at a void ratio that is not that of the scene to 0.001, with one that it
+/// does come to rest at;
 /// Diverged, Stopped
 /// @return this rank's share of the specimen, and the record of the whole
 GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks = {});

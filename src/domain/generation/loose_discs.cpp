@@ -18,8 +18,7 @@ double area(std::vector<double> const& radii) {
   return sum;
 }
 
-}  // namespace
-
+/// Adds placed discs, numbered from `first_id` on, that close homogeneously above `from` with this speed at this height.
 void add_discs(Specimen& specimen, std::int64_t first_id, std::vector<double> const& radii, Placement const& places, double from,
                double height, double speed) {
   for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -31,6 +30,8 @@ void add_discs(Specimen& specimen, std::int64_t first_id, std::vector<double> co
     for (auto* field : {&specimen.angle, &specimen.vx, &specimen.omega}) field->push_back(0);
   }
 }
+
+}  // namespace
 
 LooseDiscs::LooseDiscs(Grading const& grading, std::int64_t particles, int layers, std::uint64_t seed)
     : layers_(layers),

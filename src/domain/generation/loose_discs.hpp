@@ -13,12 +13,6 @@ namespace clathra {
 inline constexpr double loose_solid_fraction = 0.46;    ///< of the random placement
 inline constexpr std::int64_t most_in_patch = 100'000;  ///< discs placed one after the other
 
-/// Adds placed discs to a specimen, numbered from `first_id` on. They move as a layer from `from` [m] on, of this height [m],
-/// that is compacted homogeneously by a wall that comes down at `speed` [m/s], so that no compaction front runs ahead of the
-/// wall.
-void add_discs(Specimen& specimen, std::int64_t first_id, std::vector<double> const& radii, Placement const& places, double from,
-               double height, double speed);
-
 /// All discs of a specimen in layers of equal numbers, each in patches side by side, which are placed one by one, whatever the
 /// number of ranks. Together they are the grading's quantiles; every patch has its share of all sizes.
 class LooseDiscs {
@@ -28,7 +22,8 @@ class LooseDiscs {
   int layers() const { return layers_; }
   double solid_area(int layer) const;  ///< [m^2]
   /// Adds the discs of a layer (from 0 on) above `from` [m] over the whole width, at a solid fraction of 0.46, and lifts the top
-  /// wall over them; ranks take the patches by turns. They move as in add_discs().
+  /// wall over them; ranks take the patches by turns. They move as a layer that is compacted homogeneously by a wall that comes
+  /// down at `speed` [m/s], so that no compaction front runs ahead of the wall.
   void add_layer(Specimen& specimen, int layer, double from, double speed, Ranks const& ranks) const;
 
   /// Radii [m] of a patch, in random order. Of each `patches` neighbouring sizes of the grading every patch has one.

@@ -13,7 +13,7 @@ namespace clathra {
 double under_compaction_void_ratio(double target, int layer, int layers, double excess = 0.02, double exponent = 2);
 
 /// Layer by layer: discs of the whole grading are placed loosely above the ones below, and the top wall compacts all of them to
-/// e_(i); then the walls are brought to the bonding stress and the friction is lowered until the target void ratio is met.
+/// e_(i) + 0.04; then the whole closes to the void ratio of the design (compress()).
 PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
                                         Ranks const& ranks = {});
 
@@ -26,8 +26,5 @@ std::vector<double> layer_void_ratios(Specimen const& specimen, int layers, Rank
 
 /// Area of the part of a disc below a horizontal line [m^2]; `offset` = line - centre [m].
 double disc_area_below(double radius, double offset);
-
-/// Radii [m] of `particles` discs of the grading in random order, the same for a seed.
-std::vector<double> random_radii(Grading const& grading, std::int64_t particles, std::uint64_t seed, std::uint64_t stream);
 
 }  // namespace clathra

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <map>
 
-#include "domain/generation/packing.hpp"
+#include "domain/generation/compression.hpp"
+#include "domain/generation/loose_discs.hpp"
 #include "domain/generation/random_sequential_addition.hpp"
 
 namespace clathra {
 
 namespace {
-
-constexpr double loose_solid_fraction = 0.5;
 
 /// A box covered by copies of a periodic cell. Discs are numbered tile by tile as they come; what a tile holds follows from its
 /// place alone, so that no list of all discs is needed.
@@ -105,14 +104,11 @@ class Tiling {
 
 PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design, std::int64_t particles,
                                   ProgressCallback const& progress) {
-  double const d50 = design.grading.d50();
-  GenerationFriction friction;
-  if (design.void_ratio > 0.25) friction.shape_factor = 2;
   Specimen specimen;
   specimen.periodic = true;
   specimen.density = scene.grains.density;
-  specimen.d50 = d50;
-  specimen.radius = random_radii(design.grading, particles, scene.run.seed, 100);
+  specimen.d50 = design.grading.d50();
+  specimen.radius = LooseDiscs(design.grading, particles, 1, scene.run.seed).radii(0);
   double solid = 0;
   for (double r : specimen.radius) solid += pi * r * r;
   double const side = std::sqrt(solid / loose_solid_fraction);
@@ -121,11 +117,7 @@ PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design
   specimen.x = placed.x;
   specimen.y = placed.y;
   for (std::int64_t i = 0; i < particles; ++i) specimen.id.push_back(static_cast<int>(i));
-  CompressionTarget target;
-  target.stress = scene.bond.stress;
-  target.void_ratio = design.void_ratio;
-  target.d50 = d50;
-  return compress_to_void_ratio(specimen, scene, friction, target, 0.2 * d50, progress);
+  return compress(specimen, scene, design, progress);
 }
 
 Specimen replicate(Specimen const& cell, double width, double height, Ranks const& ranks) {

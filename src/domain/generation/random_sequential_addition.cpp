@@ -54,6 +54,54 @@ class Occupancy {
   std::vector<std::vector<PlacedDisc>> cells_;
 };
 
+struct Rectangle {
+  double left, right, bottom, top;
+};
+
+/// A region in parts of equal area, to which discs are dealt out in turn: centres anywhere would be more in one half than in the
+/// other by as much as chance will have it, and a large assembly keeps that, since discs find their places among their
+/// neighbours.
+class Strata {
+ public:
+  /// @param discs  to be placed
+  Strata(Region const& region, double largest_radius, std::size_t discs) : region_(region) {
+    constexpr double discs_in_each = 50, diameters_across = 4;
+    double const by_number = std::sqrt(region.width * region.height * discs_in_each / static_cast<double>(discs)),
+                 side = std::max(by_number, diameters_across * 2 * largest_radius);
+    columns_ = static_cast<std::size_t>(std::max(1.0, std::floor(region.width / side)));
+    rows_ = static_cast<std::size_t>(std::max(1.0, std::floor(region.height / side)));
+    turns_.resize(columns_ * rows_);
+  }
+
+  /// Where the centre of the n-th disc is to lie, n from 0 on. Whenever all parts have had a disc they are shuffled anew.
+  Rectangle of(std::size_t n, std::uint64_t seed, std::uint64_t stream) {
+    std::size_t const turn = n % turns_.size();
+    if (turn == 0) {
+      std::iota(turns_.begin(), turns_.end(), std::size_t(0));
+      shuffle(turns_, seed, stream + n / turns_.size());
+    }
+    auto const column = static_cast<double>(turns_[turn] % columns_), row = static_cast<double>(turns_[turn] / columns_);
+    double const width = region_.width / static_cast<double>(columns_), height = region_.height / static_cast<double>(rows_);
+    return {region_.left + column * width, region_.left + (column + 1) * width, region_.bottom + row * height,
+            region_.bottom + (row + 1) * height};
+  }
+
+ private:
+  Region region_;
+  std::size_t columns_, rows_;
+  std::vector<std::size_t> turns_;
+};
+
+/// A part of a region without the margins that discs of a radius keep from its closed sides.
+Rectangle within(Region const& region, Rectangle part, double radius) {
+  double const margin = region.periodic ? 0 : radius;
+  part.left = std::max(part.left, region.left + (region.open_left ? 0 : margin));
+  part.right = std::min(part.right, region.left + region.width - (region.open_right ? 0 : margin));
+  part.bottom = std::max(part.bottom, region.bottom + margin);
+  part.top = std::min(part.top, region.bottom + region.height - margin);
+  return part;
+}
+
 }  // namespace
 
 Placement place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
@@ -70,18 +118,20 @@ Placement place_by_random_addition(std::vector<double> const& radii, Region cons
     if (disc.x + disc.radius + largest > region.left && disc.x - disc.radius - largest < region.left + region.width)
       occupancy.add(disc);
   }
+  constexpr std::uint64_t of_strata = 1ULL << 40;
+  Strata strata(region, largest, radii.size());
   std::uint64_t counter = 0;
-  for (std::size_t i : order) {
-    double const margin = region.periodic ? 0 : radii[i], left = region.open_left ? 0 : margin,
-                 right = region.open_right ? 0 : margin;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    std::size_t const i = order[n];
+    Rectangle const part = within(region, strata.of(n, seed, of_strata * (1 + stream)), radii[i]);
     int tries = 0;
     double x = 0, y = 0;
     do {
       if (++tries > most_tries)
         throw std::runtime_error("no room for disc " + std::to_string(i) + " of " + std::to_string(radii.size()) +
                                  " in a loose placement");
-      x = region.left + left + uniform_random(seed, stream, counter++) * (region.width - (left + right));
-      y = region.bottom + margin + uniform_random(seed, stream, counter++) * (region.height - 2 * margin);
+      x = part.left + uniform_random(seed, stream, counter++) * (part.right - part.left);
+      y = part.bottom + uniform_random(seed, stream, counter++) * (part.top - part.bottom);
     } while (!occupancy.is_free(x, y, radii[i]));
     placed.x[i] = x;
     placed.y[i] = y;

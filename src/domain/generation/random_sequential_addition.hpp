@@ -19,7 +19,8 @@ struct Placement {
   std::vector<double> x, y;
 };
 
-/// Places discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). A region that
+/// Places discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). They are dealt
+/// out to parts of equal area, of about 50 discs each, so that the region is as dense in one half as in the other. A region that
 /// proves too small for random addition (more than about 55 % solid) is refused.
 /// @param around  discs that are there already and may reach into it
 /// @return centres in the order of `radii`;  @throws std::runtime_error where a disc finds no place

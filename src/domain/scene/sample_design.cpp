@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
+
+#include "kernels/countable.hpp"
 
 namespace clathra {
 
@@ -51,6 +54,38 @@ int compaction_layers(Scene const& scene, SampleDesign const& design) {
   std::int64_t const by_height = static_cast<std::int64_t>(design.height / design.grading.largest());
   std::int64_t const most = std::min(design.particles / fewest_discs, by_height);
   return static_cast<int>(std::clamp<std::int64_t>(most, 1, scene.sample.layers));
+}
+
+namespace {
+
+/// Discs of radius 1 around one of radius `ratio`.
+double most_neighbours(double ratio, double reach) {
+  constexpr double second_ring = 1.46, solid = 0.84;  // where it begins; share of it that discs can fill
+  double const touching = std::numbers::pi / std::asin(1 / (ratio + 1)), inner = ratio + 1 + second_ring,
+               outer = ratio + 1 + std::max(reach, second_ring);
+  return touching + solid * (outer * outer - inner * inner);
+}
+
+}  // namespace
+
+double most_neighbours(Grading const& grading, double reach) {
+  return most_neighbours(grading.largest() / grading.smallest(), 2 * reach / grading.smallest());
+}
+
+std::string crowding(Grading const& grading, double reach) {
+  if (most_neighbours(grading, reach) <= longest_row) return {};
+  double fits = 1, ratio = grading.largest() / grading.smallest();
+  double const given = ratio;
+  for (int n = 0; n < 60; ++n) {
+    double const middle = 0.5 * (fits + ratio);
+    (most_neighbours(middle, 2 * reach / grading.smallest()) <= longest_row ? fits : ratio) = middle;
+  }
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "the largest grain is %.3g times the smallest (%.4g mm), around it may lie more neighbours than the %d that a "
+                "disc can have: of this curve the ratio may be %.3g at most",
+                given, grading.smallest() * 1e3, longest_row, std::floor(10 * fits) / 10);
+  return text;
 }
 
 std::string narrowness(double width, double height, double largest, double fewest) {

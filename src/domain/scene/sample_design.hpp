@@ -24,6 +24,14 @@ SampleDesign design_sample(Scene const& scene);
 /// largest grain.
 int compaction_layers(Scene const& scene, SampleDesign const& design);
 
+/// How many discs may lie around the largest of a grading, no farther than `reach` [m]: the smallest ones, side by side, and
+/// where they lie within reach those of a second ring.
+double most_neighbours(Grading const& grading, double reach);
+
+/// Why the sizes of a grading differ too much for the rows of neighbours, with the ratio that does not; empty where they fit.
+/// @param reach  beyond touching, of bonds [m]
+std::string crowding(Grading const& grading, double reach);
+
 inline constexpr double fewest_grains_across = 3;
 
 /// Why a specimen is too narrow to be one of sand, its smaller side being less than `fewest` of its largest grains; empty where

@@ -79,7 +79,7 @@ std::string advice_on_rows(double skin, double d50) {
   if (d50 > 0 && skin > wide * d50)
     return text_of("give a smaller run.skin, or none: %.3g mm are %.3g of d50, where %g are usual", skin * 1e3, skin / d50,
                    chosen_skin);
-  return "make the grading's largest disc smaller, or its smallest larger";
+  return text_of("a disc can have %d: make the grading's largest disc smaller, or its smallest larger", longest_row);
 }
 
 std::string advice(Fault what, double share) {

@@ -28,6 +28,10 @@ namespace clathra {
 /// (docs/performance.md).
 inline constexpr double chosen_skin = 0.12;
 
+/// The same in metres, but not so far that small discs behind those that touch are listed, which lie 1.46 radii and more beyond.
+/// @param smallest  diameter [m]
+inline double usual_skin(double d50, double smallest) { return std::min(chosen_skin * d50, 0.5 * smallest); }
+
 /// Heavier discs than their size makes them, for longer time steps: what is quasi-static does not depend on masses.
 struct MassScaling {
   Real inertia = 1;       ///< factor of all moments of inertia

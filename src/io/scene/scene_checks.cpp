@@ -91,6 +91,13 @@ void check_grading(Check& check, Grading const& grading) {
                     ratio));
 }
 
+/// How far bonds reach beyond touching [m], at the most.
+double reach_of_bonds(Scene const& scene, double d50) {
+  if (!has_bonds(scene)) return 0;
+  return scene.bond.mode == BondingMode::given_thickness ? scene.bond.critical_thickness
+                                                         : critical_thickness_ratio(scene.hydrate.saturation) * d50;
+}
+
 /// Reads the grading and completes the specimen; nothing where that is not possible, which is then reported.
 std::optional<SampleDesign> check_design(Check& check) {
   Scene const& scene = check.scene;
@@ -109,6 +116,8 @@ std::optional<SampleDesign> check_design(Check& check) {
                               length_text(design.height)));
     else if (std::string const problem = narrowness(design.width, design.height, largest); !problem.empty())
       check.refusal({"sample.width", "sample.height", "sample.particles", "grading.d50"}, problem);
+    if (std::string const problem = crowding(design.grading, reach_of_bonds(scene, design.grading.d50())); !problem.empty())
+      check.refusal({"grading.file", "grading.d50"}, problem);
     if (int const layers = compaction_layers(scene, design);
         layers < scene.sample.layers && scene.sample.generator == Generator::under_compaction && check.given("sample.layers"))
       check.warn(fmt::format("the specimen is compacted in {} layers, not {}: thinner ones would not be layers of these grains",
