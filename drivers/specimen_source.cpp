@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "domain/generation/generation.hpp"
+#include "domain/biaxial/specimen_for_test.hpp"
 #include "io/formats/digest.hpp"
 #include "io/results/specimen_check.hpp"
 #include "io/results/specimen_file.hpp"
@@ -13,7 +13,7 @@ namespace clathra {
 
 Specimen generate_recorded(Scene const& scene, ProgressLine& line, RunRecord& record, Ranks const& ranks) {
   Speedometer const clock;
-  GeneratedSpecimen generated = generate_specimen(scene, show_stage(line, ranks), ranks);
+  GeneratedSpecimen generated = specimen_for_test(scene, show_stage(line, ranks), ranks);
   for (std::string const& warning : generated.warnings) line.warn(warning);
   record.wall_seconds["generate"] = clock.seconds();
   record.stages["generate"] = generated.record;

@@ -40,7 +40,7 @@ std::string study_forecast(StudyPlan const& plan, int parallel, int threads) {
       fmt::format("{}: {} groups of {} seeds\n", plan.study.file.string(), plan.study.groups.size(), plan.study.seeds.size());
   text += row("members", fmt::format("{}, {} at a time with {} thread{} each", plan.runs.size(), parallel, threads,
                                      threads == 1 ? "" : "s"));
-  text += row("specimens", fmt::format("{} to be made, each for all members that share it", plan.specimens.size()));
+  text += row("specimens", sharing_text(plan));
   text += row("generation", duration_text(specimens / (generation_speedup * rate)));
   text += row("shear", fmt::format("{} at {} disc-steps/s ({})", duration_text(runs / rate), short_count(rate), speed.origin));
   text += row("memory", fmt::format("{:.3g} GB", largest_memory(plan) * parallel * 1e-9));

@@ -25,16 +25,19 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Keys that a specimen read from a file has a say in instead of the scene.
-constexpr std::string_view size_keys[] = {"sample.particles", "sample.void_ratio", "sample.width", "sample.height",
-                                          "grading.d50"};
+constexpr std::string_view size_keys[] = {"sample.particles", "sample.void_ratio", "sample.void_ratio_at",
+                                          "sample.width",     "sample.height",     "grading.d50"};
 
-/// Whether the making of a specimen could depend on a key. What is sheared, bonded and written later is not part of it, nor what
-/// trades accuracy for speed: settings are compared on the same specimens.
-bool is_of_generation(std::string const& key) {
-  if (key.starts_with("bond.")) return key == "bond.stress";
-  if (key.starts_with("run.")) return key == "run.seed";
+/// Whether the making of a specimen could depend on a key: of one that is to have its void ratio at the start of the test, what
+/// it goes through before the test is part of it. What is sheared and written later is not, nor what trades accuracy for speed:
+/// settings are compared on the same specimens.
+bool is_of_generation(std::string const& key, Scene const& scene) {
+  if (key.starts_with("sample.") || key.starts_with("grading.") || key == "run.seed") return true;
+  if (scene.sample.void_ratio_at == VoidRatioAt::preparation)
+    return key == "bond.stress" || key == "grains.density" || key == "grains.kn" || key == "grains.ks";
   if (key == "grains.contact_damping") return false;
-  return !key.starts_with("hydrate.") && !key.starts_with("test.") && !key.starts_with("output.");
+  return key.starts_with("grains.") || key.starts_with("bond.") || key.starts_with("hydrate.") ||
+         key == "test.confining_stress" || key == "test.wall_friction";
 }
 
 /// The name of the specimen of a scene: the same for all scenes that make the same one. What the grading's file holds counts,
@@ -42,7 +45,7 @@ bool is_of_generation(std::string const& key) {
 std::string specimen_name(Scene const& scene, fs::path const& folder) {
   std::string text;
   for (auto const& [key, value] : scene_texts(scene, folder))
-    if (is_of_generation(key)) text += key + "=" + value + "\n";
+    if (is_of_generation(key, scene)) text += key + "=" + value + "\n";
   if (!scene.grading.file.empty()) text += "grading_digest=" + file_digest(scene.grading.file) + "\n";
   return fmt::format("{}-seed{}", text_digest(text).substr(0, 10), scene.run.seed);
 }
@@ -94,7 +97,7 @@ std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::
   task.log = plan.study.folder / "logs" / (name + ".log");
   std::vector<std::string> making;
   for (std::string const& text : overrides)
-    if (std::string const key = text.substr(0, text.find('=')); is_of_generation(key) || key == "run.force")
+    if (std::string const key = text.substr(0, text.find('=')); is_of_generation(key, scene) || key == "run.force")
       making.push_back(text);
   task.arguments = with_set({"generate", plan.study.scene.string(), "-o", task.result.string()}, making);
   StageRecord const cost = predict(scene);
@@ -177,6 +180,24 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
 void add_members(StudyPlan& plan) {
   for (std::size_t group = 0; group < plan.study.groups.size(); ++group)
     for (std::uint64_t const seed : plan.study.seeds) add_member(plan, group, seed);
+}
+
+std::string sharing_text(StudyPlan const& plan) {
+  std::vector<int> tests(plan.specimens.size());
+  int of_files = 0;
+  for (StudyTask const& run : plan.runs) ++(run.specimen ? tests[*run.specimen] : of_files);
+  auto const tested_by = [](int least, int most) {
+    return least < most ? fmt::format("tested by {} to {} members", least, most)
+                        : fmt::format("tested by {} member{}", most, most == 1 ? "" : "s");
+  };
+  std::string text;
+  if (!tests.empty()) {
+    auto const [least, most] = std::minmax_element(tests.begin(), tests.end());
+    text = fmt::format("{} made, each {}", tests.size(), tested_by(*least, *most));
+  }
+  if (of_files > 0)
+    text += fmt::format("{}{} read, {}", text.empty() ? "" : "; ", plan.sizes.size(), tested_by(of_files, of_files));
+  return text;
 }
 
 void heed_guards(StudyPlan& plan, bool skip) {

@@ -53,6 +53,9 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed);
 /// Adds all seeds of all groups.
 void add_members(StudyPlan& plan);
 
+/// How many specimens there are, and how many members test the same one: "5 made, each tested by 3 members".
+std::string sharing_text(StudyPlan const& plan);
+
 /// What the guards of the members say, before any is started. @param skip  members that they refuse are marked so and left out
 /// @throws SceneProblems (refused) with all groups that would be, unless they are skipped and others are left
 void heed_guards(StudyPlan& plan, bool skip);

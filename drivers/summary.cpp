@@ -7,6 +7,12 @@
 
 namespace clathra {
 
+std::string start_text(StageRecord const& prepare, double confining_stress) {
+  return fmt::format("start     void ratio {:.4g} under {:.4g} MPa ({:.4g} before it was consolidated)\n",
+                     prepare.at("void_ratio_after_consolidation"), confining_stress * 1e-6,
+                     prepare.at("void_ratio_before_consolidation"));
+}
+
 void Summary::add(HistoryRow const& row) {
   last_ = row;
   ++count_;

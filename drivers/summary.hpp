@@ -9,6 +9,9 @@
 
 namespace clathra {
 
+/// A line for the screen: the void ratio at the start of the test. @param prepare  BiaxialTest::preparation()
+std::string start_text(StageRecord const& prepare, double confining_stress);
+
 /// Collects them from the records of a test as they come.
 class Summary {
  public:

@@ -105,7 +105,8 @@ class TestRun::Running {
         remove_checkpoints(folder_);  // last: what is finished and on the disk needs them no more
     });
     line_.repeat_warnings();
-    print_result(summary_->text(record_.stages.at("shear").at("sigma3_held")) +
+    print_result(start_text(record_.stages.at("prepare"), scene_.test.confining_stress) +
+                 summary_->text(record_.stages.at("shear").at("sigma3_held")) +
                  fmt::format("results   {}\n", folder_.string()));  // a closed stdout is no failure of the run
     return ExitCode::done;
   }

@@ -37,6 +37,7 @@ std::vector<KeyTest> const key_tests = {
     {"sample.generator", "compression", moves, "", true},
     {"sample.particles", "320", moves, "", true},
     {"sample.void_ratio", "0.26", moves, "", true},
+    {"sample.void_ratio_at", "test", moves, "", true},
     {"sample.width", "2 mm", moves, "sample.particles=", true},
     {"sample.height", "3.8 mm", moves, "sample.particles=", true},
     {"sample.aspect_ratio", "1.5", moves, "", true},

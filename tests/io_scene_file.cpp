@@ -267,6 +267,8 @@ TEST(SceneFile, ThreeOfFourFixTheSpecimen) {
   EXPECT_NO_THROW(load(box + "particles = 8000\n"));
   EXPECT_NO_THROW(load(box + "particles = 8000\nvoid_ratio = 0.22\n"));
   expect_problem(box + "particles = 8000\nvoid_ratio = 0.22\n[grading]\nd50 = \"0.17 mm\"\n", "three of them fix the fourth");
+  EXPECT_NO_THROW(load("[sample]\nwidth = \"10 mm\"\nparticles = 8000\nvoid_ratio_at = \"test\"\n"));
+  expect_problem(box + "void_ratio_at = \"test\"\n", "those of the specimen as it is made");
   expect_problem(box + "aspect_ratio = 3\n", "contradict each other");
   EXPECT_DOUBLE_EQ(load("[sample]\nwidth = \"10 mm\"\n").scene.sample.height, 0.02);
   expect_problem(box + "particles = 80000\n", "do not fit");

@@ -83,7 +83,7 @@ ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   if (waiting > 0) text += fmt::format(", {} not yet", waiting);
   if (!failed.empty()) text += fmt::format(", {} failed", failed.size());
   if (refused > 0) text += fmt::format(", {} refused by guards and left out", refused);
-  text += "\n" + statistics_text(plan);
+  text += "\nspecimens " + sharing_text(plan) + "\n" + statistics_text(plan);
   for (std::string const& member : failed) text += "failed    " + member + "\n";
   print_result(text + fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
   return !failed.empty() ? ExitCode::refused : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;

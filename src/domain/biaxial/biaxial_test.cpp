@@ -113,9 +113,8 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
 
 /// A specimen that is packed denser by its consolidation, beyond what is elastic, has no longer the void ratio it was made with.
 void BiaxialTest::State::warn_of_density(double before, double made_under) {
-  constexpr double plastic = 0.015, bulk_modulus = 0.5;  // the latter of a dense packing, over k_n, to a fifth
-  double const after = simulation->void_ratio(),
-               elastic = (1 + before) * (scene.test.confining_stress - made_under) / (bulk_modulus * scene.grains.kn);
+  constexpr double plastic = 0.015;
+  double const after = simulation->void_ratio(), elastic = elastic_loss(scene, before, made_under);
   if (before - after <= 1.2 * elastic + plastic) return;
   warnings.push_back("under the confining stress the void ratio fell from " + short_number(before, 4) + " to " +
                      short_number(after, 4) + " (" + short_number(elastic, 2) +

@@ -34,8 +34,9 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
 /// to 200,000, at a void ratio of 0.24.
 double generation_disc_steps(Scene const& scene, double discs) {
   if (scene.sample.generator == Generator::file) return 0;
-  double const closing = 9.5e3, layers = 27.5e3 * std::pow(discs / 20e3, 0.63);
-  return discs * (scene.sample.generator == Generator::compression ? closing : closing + layers);
+  double const closing = 9.5e3, layers = 27.5e3 * std::pow(discs / 20e3, 0.63),
+               specimens = scene.sample.void_ratio_at == VoidRatioAt::test ? 2.3 : 1;  // two as a rule, each consolidated
+  return specimens * discs * (scene.sample.generator == Generator::compression ? closing : closing + layers);
 }
 
 /// The largest resident memory of all ranks together [bytes], as measured with samples of 1,000,000 discs.

@@ -29,43 +29,32 @@ PackedSpecimen pack(Scene const& scene, ProgressCallback const& progress, Ranks 
 
 /// A void ratio of three digits that this scene's grains do rest at when it is asked for: the nearest that is found by making
 /// such specimens, since what one specimen came to rest at depends on what was asked of it. Nothing where none is found.
-std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& missed, ProgressCallback const& progress,
-                                           Ranks const& ranks) {
-  constexpr int most_attempts = 6;
+std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& missed, SpecimenMaker const& make) {
+  constexpr int most_attempts = 8;
   double const way = missed.denser ? 1 : -1;
   auto const rounded_away = [&](double ratio) { return way * std::ceil(way * ratio * 1000 - 1e-6) / 1000; };
-  double step = 0.002, reached = missed.reached;
+  double step = 0.002, next = rounded_away(missed.reached), near = next;
+  std::optional<double> beyond;  // missed from the other side
   for (int attempt = 0; attempt < most_attempts; ++attempt, step *= 2) {
-    scene.sample.void_ratio = rounded_away(reached);
+    scene.sample.void_ratio = next;
     try {
-      (void)pack(scene, progress, ranks);
-      return scene.sample.void_ratio;
+      (void)make(scene);
+      return next;
     } catch (VoidRatioMissed const& again) {
-      double const further = scene.sample.void_ratio + way * step;
-      reached = again.denser == missed.denser ? way * std::max(way * further, way * again.reached) : further;
+      if (again.denser != missed.denser)
+        beyond = next;
+      else
+        near = next;
+      next = rounded_away(beyond ? 0.5 * (near + *beyond) : way * std::max(way * (next + way * step), way * again.reached));
+      if (next == near || next == beyond) return {};
     }
   }
   return {};
 }
 
-/// @throws Refused where the void ratio is missed, with one that is not
-PackedSpecimen pack_or_refuse(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
-  try {
-    return pack(scene, progress, ranks);
-  } catch (VoidRatioMissed const& missed) {
-    bool const box = scene.sample.width > 0 && scene.sample.height > 0;
-    if (scene.sample.void_ratio == 0 && box)
-      throw Refused(std::string(missed.what()) + "; it follows from sample.particles and the box: change one of these");
-    std::optional<double> const instead = reachable_void_ratio(scene, missed, progress, ranks);
-    throw Refused(std::string(missed.what()) + (instead
-                                                    ? "; sample.void_ratio = " + short_number(*instead) + " was tried and works"
-                                                    : "; none near it was found that works"));
-  }
-}
-
 /// What a user should know of a specimen that was made as it was asked for.
 std::vector<std::string> warnings_of(StageRecord const& made) {
-  constexpr double most_deep = 0.001, farthest = 0.05;
+  constexpr double most_deep = 0.001, farthest = 0.02;
   std::vector<std::string> warnings;
   if (double const share = made.at("deep_overlap_share"); share > most_deep)
     warnings.push_back(
@@ -80,9 +69,9 @@ std::vector<std::string> warnings_of(StageRecord const& made) {
 
 }  // namespace
 
-GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
+GeneratedSpecimen make_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
   SampleDesign const design = design_sample(scene);
-  PackedSpecimen packed = pack_or_refuse(scene, progress, ranks);
+  PackedSpecimen packed = pack(scene, progress, ranks);
   GeneratedSpecimen generated;
   int const layers =
       scene.sample.generator == Generator::under_compaction ? compaction_layers(scene, design) : scene.sample.layers;
@@ -107,6 +96,24 @@ GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& 
   generated.warnings = warnings_of(r);
   generated.specimen = std::move(packed.specimen);
   return generated;
+}
+
+GeneratedSpecimen made_or_advised(Scene const& scene, SpecimenMaker const& make) {
+  try {
+    return make(scene);
+  } catch (VoidRatioMissed const& missed) {
+    bool const box = scene.sample.width > 0 && scene.sample.height > 0;
+    if (scene.sample.void_ratio == 0 && box)
+      throw Refused(std::string(missed.what()) + "; it follows from sample.particles and the box: change one of these");
+    std::optional<double> const instead = reachable_void_ratio(scene, missed, make);
+    throw Refused(std::string(missed.what()) + (instead
+                                                    ? "; sample.void_ratio = " + short_number(*instead) + " was tried and works"
+                                                    : "; none near it was found that works"));
+  }
+}
+
+GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
+  return made_or_advised(scene, [&](Scene const& tried) { return make_specimen(tried, progress, ranks); });
 }
 
 }  // namespace clathra

@@ -1,5 +1,6 @@
 #pragma once
 /// From a scene to a specimen at rest.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,18 @@ struct GeneratedSpecimen {
   std::vector<std::string> warnings;
 };
 
-/// Generates by scene.sample.generator (not `file`). Same scene, same bits, for any thread count.
-/// @throws Refused where it does not come to rest, or at a void ratio that is not that of the scene to 0.001, with one that it
-/// does come to rest at;
+/// Makes the specimen of a scene by scene.sample.generator (not `file`). Same scene, same bits, for any thread count.
+/// @throws Refused where it does not come to rest, VoidRatioMissed at a void ratio that is not that of the scene to 0.001;
 /// Diverged, Stopped
 /// @return this rank's share of the specimen, and the record of the whole
+GeneratedSpecimen make_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks = {});
+
+using SpecimenMaker = std::function<GeneratedSpecimen(Scene const&)>;
+
+/// What `make` makes of a scene. @throws Refused where it misses the void ratio, with one that it does not miss: some are tried
+GeneratedSpecimen made_or_advised(Scene const& scene, SpecimenMaker const& make);
+
+/// make_specimen(), or advice.
 GeneratedSpecimen generate_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks = {});
 
 }  // namespace clathra

@@ -11,6 +11,7 @@
 namespace clathra {
 
 enum class Generator { under_compaction, compression, file };
+enum class VoidRatioAt { preparation, test };
 enum class BondLawKind { none, thickness_dependent, constant_thickness };
 enum class MomentScale { paper_si, rod_mm, similitude };
 enum class RodThickness { printed, clamped, scaled };
@@ -21,11 +22,12 @@ enum class BondingMode { eq3, given_thickness, areal_target };
 struct SampleScene {
   Generator generator = Generator::under_compaction;
   std::int64_t particles = 0;
-  double void_ratio = 0;         ///< nominal, at the bonding stress; 0 = not given (then 0.24 if it is not the fourth)
-  double width = 0, height = 0;  ///< [m]; one of them alone fixes the other by aspect_ratio
-  double aspect_ratio = 2;       ///< height / width
-  int layers = 5;                ///< of the under-compaction, at most (compaction_layers())
-  std::string file;              ///< specimen to load (generator = file)
+  double void_ratio = 0;                                 ///< nominal; 0 = not given (then 0.24 if it is not the fourth)
+  VoidRatioAt void_ratio_at = VoidRatioAt::preparation;  ///< under the bonding stress, or consolidated at the start of the test
+  double width = 0, height = 0;                          ///< [m]; one of them alone fixes the other by aspect_ratio
+  double aspect_ratio = 2;                               ///< height / width
+  int layers = 5;                                        ///< of the under-compaction, at most (compaction_layers())
+  std::string file;                                      ///< specimen to load (generator = file)
 };
 
 /// `[grains]`. What the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).

@@ -54,7 +54,8 @@ void check_size(Check& check) {
       check.error({"sample.generator", "sample.file"}, "generator 'file' needs 'sample.file', the specimen to read");
     else
       check_input_file(check, "sample.file", sample.file);
-    for (std::string_view const key : {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"})
+    for (std::string_view const key :
+         {"sample.particles", "sample.void_ratio", "sample.void_ratio_at", "sample.width", "sample.height", "grading.d50"})
       if (check.given(key)) check.warn(fmt::format("{} has no effect: the specimen comes from {}", key, sample.file));
     return;
   }
@@ -67,6 +68,11 @@ void check_size(Check& check) {
     check.error({"sample.void_ratio", "sample.particles", "grading.d50"},
                 "sample.particles, box, sample.void_ratio and grading.d50 are all given, but three of them fix the fourth: leave "
                 "one out");
+  if (sample.width > 0 && sample.height > 0 && sample.void_ratio_at == VoidRatioAt::test)
+    check.error(
+        {"sample.void_ratio_at", "sample.height", "sample.width"},
+        "sample.width and sample.height are those of the specimen as it is made, which fixes its void ratio there: leave one "
+        "of them out, or have sample.void_ratio_at = \"preparation\"");
   if (sample.width > 0 && sample.height > 0 && check.given("sample.aspect_ratio") &&
       std::fabs(sample.height / sample.width / sample.aspect_ratio - 1) > 1e-6)
     check.error({"sample.aspect_ratio", "sample.width"},

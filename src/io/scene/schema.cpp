@@ -27,6 +27,7 @@ constexpr ChoiceField choice_at() {
 
 using Names = std::string_view;
 constexpr std::array generators = {Names("under_compaction"), Names("compression"), Names("file")};
+constexpr std::array void_ratio_stages = {Names("preparation"), Names("test")};
 constexpr std::array tables = {Names("toyoura"), Names("uniform")};
 constexpr std::array laws = {Names("none"), Names("thickness_dependent"), Names("constant_thickness")};
 constexpr std::array composites = {Names("replace"), Names("parallel"), Names("memory")};
@@ -48,7 +49,8 @@ constexpr double any_seed = 9223372036854775807.0;  // TOML integers have 63 bit
 Key const table[] = {
   {"sample.generator", choice, CLATHRA_CHOICE(sample, generator), "how the specimen is made: compacted in layers, all discs at once (large samples), or read from a file", ratio, 0, 0, {}, generators},
   {"sample.particles", integer, CLATHRA_FIELD(sample, particles), "number of discs; any three of particles, box, void ratio and grading fix the fourth", ratio, 16, 1e9, "it follows from the others"},
-  {"sample.void_ratio", quantity, CLATHRA_FIELD(sample, void_ratio), "area of voids over area of discs at the stress under which hydrate forms", ratio, 0.05, 1, "0.24, or what particles, box and grading give"},
+  {"sample.void_ratio", quantity, CLATHRA_FIELD(sample, void_ratio), "area of voids over area of discs, under bond.stress or as sample.void_ratio_at says", ratio, 0.05, 1, "0.24, or what particles, box and grading give"},
+  {"sample.void_ratio_at", choice, CLATHRA_CHOICE(sample, void_ratio_at), "when the specimen has its void ratio: as it is made, under bond.stress, or at the start of the test, consolidated under test.confining_stress (specimens are made until one has it then)", ratio, 0, 0, {}, void_ratio_stages},
   {"sample.width", quantity, CLATHRA_FIELD(sample, width), "width of the specimen", length, 1e-6, 1e3, "it follows from the others"},
   {"sample.height", quantity, CLATHRA_FIELD(sample, height), "height of the specimen", length, 1e-6, 1e3, "it follows from the others"},
   {"sample.aspect_ratio", quantity, CLATHRA_FIELD(sample, aspect_ratio), "height over width where they are not both given", ratio, 0.1, 10},
