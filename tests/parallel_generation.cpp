@@ -1,11 +1,15 @@
 /// Specimens are those that were asked for: void ratio, stress, rest and sizes, or a refusal with a number that works.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
+#include "domain/biaxial/scene_cost.hpp"
 #include "domain/generation/generation.hpp"
 #include "domain/generation/loose_discs.hpp"
 #include "domain/generation/packing.hpp"
@@ -13,6 +17,8 @@
 
 namespace clathra {
 namespace {
+
+namespace fs = std::filesystem;
 
 Scene scene_of(Generator generator, double void_ratio, std::int64_t particles = 300) {
   Scene scene;
@@ -170,6 +176,19 @@ TEST(Sizes, OfAGapGradedSandMakeASpecimen) {
   design.width = 8e-3;
   PackedSpecimen const packed = pack_by_compression(scene, design, {});
   EXPECT_NEAR(packed.specimen.void_ratio, 0.2, 0.001);
+}
+
+/// With this seed a large disc crushed a small one against another on the way down, at the usual speed.
+TEST(UnderCompaction, GoesSlowerWhereALargeDiscCrushesASmallOne) {
+  fs::path const curve = fs::temp_directory_path() / ("clathra_crushed_" + std::to_string(::getpid()) + ".csv");
+  std::ofstream(curve) << "d_mm,percent_finer\n0.42,0\n0.50,35\n2.08,35\n2.40,100\n";
+  Scene scene = scene_of(Generator::under_compaction, 0.2, 300);
+  scene.grading.file = curve.string();
+  scene.run.seed = 36;
+  GeneratedSpecimen const made = generate_specimen(scene, {});
+  EXPECT_NEAR(made.specimen.void_ratio, 0.2, 0.001);
+  EXPECT_NEAR(predict(scene).at("generation_disc_steps") / made.record.at("disc_steps"), 1, 0.5) << "knows how wide the curve is";
+  fs::remove(curve);
 }
 
 /// Patches of a wide layer side by side: no overlap across their seams, and no gap along them either.

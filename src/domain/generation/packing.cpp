@@ -45,14 +45,13 @@ void compact(Simulation& simulation, StepChoice const& step, double void_ratio, 
 }
 
 /// All discs in layers, each compacted to its own void ratio of Jiang's rule on those below it; unjammed and without motion.
-/// @param counted  gets the disc-steps of all layers
-Specimen compacted_layers(Scene const& scene, SampleDesign const& design, SimulationLaws const& laws,
+/// @param speed  of the top wall [m/s];  @param counted  gets the disc-steps of all layers
+Specimen compacted_layers(Scene const& scene, SampleDesign const& design, SimulationLaws const& laws, double speed,
                           ProgressCallback const& counted, std::int64_t& disc_steps, Ranks const& ranks) {
   Specimen specimen;
   specimen.right = unjammed_width(design);
   specimen.density = scene.grains.density;
   specimen.d50 = design.grading.d50();
-  double const speed = 0.5 * gentleness(design.grading) * std::sqrt(scene.bond.stress / scene.grains.density);
   int const layers = compaction_layers(scene, design);
   LooseDiscs const loose(design.grading, design.particles, layers, scene.run.seed);
   for (int layer = 1; layer <= layers; ++layer) {
@@ -85,7 +84,10 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   };
   SimulationLaws const laws =
       flowing_laws(generation_laws(scene, generation_friction(design.void_ratio)), scene.bond.stress, design.grading);
-  Specimen const layers = compacted_layers(scene, design, laws, counted, of_layers, ranks);
+  double const usual = 0.5 * gentleness(design.grading) * std::sqrt(scene.bond.stress / scene.grains.density);
+  // A large disc on its way may crush a small one against another: then all go slower.
+  Specimen const layers = slower_where_it_diverges(
+      [&](int attempt) { return compacted_layers(scene, design, laws, usual / attempt, counted, of_layers, ranks); });
   PackedSpecimen packed = compress(layers, scene, design, counted, ranks);
   packed.disc_steps += of_layers;
   return packed;
