@@ -1,51 +1,37 @@
 #!/usr/bin/env python3
 """What another way of generation does to specimens and to their tests: compare.py BEFORE AFTER
 
-Both are results of study.toml. Prints means and the difference of the means with its 95 % interval, in percent of the first; needs
+Both are results of study.toml, or of large.toml. Prints means and the difference of the means with its 95 % interval, in percent of the first; needs
 python3-h5py and python3-numpy (Debian)."""
 import csv
-import json
 import math
 import os
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from paired import mean_and_half_width  # noqa: E402
+from specimens import Specimen  # noqa: E402
 
 OF_TEST = ["peak_q_Pa", "peak_eps1", "secant_modulus_Pa", "largest_eps_v", "residual_q_Pa", "end_eps_v", "void_ratio_before_consolidation",
            "void_ratio_after_consolidation", "consolidated_unbalanced"]
-OF_GENERATION = ["layer_void_ratio_sd", "unbalanced", "disc_steps", "generation_friction", "void_ratio"]
-BANDS = 20
-
-
-def void_ratios_of_bands(y, radius, bottom, height, width):
-    edges = bottom + np.linspace(0, height, BANDS + 1)
-
-    def area_below(edge):
-        s = np.clip((edge - y) / radius, -1, 1)
-        return (radius**2 * (np.arccos(-s) + s * np.sqrt(1 - s * s))).sum()
-
-    return height / BANDS * width / np.diff([area_below(edge) for edge in edges]) - 1
+OF_GENERATION = ["layer_void_ratio_sd", "unbalanced", "disc_steps", "generation_friction", "void_ratio", "stress_x_Pa", "stress_y_Pa"]
 
 
 def of_specimen(path):
-    with h5py.File(path) as file:
-        made = json.loads(bytes(file["provenance"][()]).decode())["generate"]
-        x, y, radius = (file["particles"][name][()] for name in ("x", "y", "radius"))
-        bottom = file.attrs["bottom"]
-    bands = void_ratios_of_bands(y, radius, bottom, made["height_m"], made["width_m"])
-    first, second = np.nonzero(np.triu(np.hypot(x[:, None] - x, y[:, None] - y) < radius[:, None] + radius, 1))
-    contacts = np.bincount(np.concatenate([first, second]), minlength=len(x))
-    turn = np.arctan2(y[first] - y[second], x[first] - x[second])
-    numbers = {name: made[name] for name in OF_GENERATION}
-    numbers |= {"height over width": made["height_m"] / made["width_m"], "sd of inner bands": bands[1:-1].std(), "topmost band": bands[-1],
-                "bottommost band": bands[0], "upper less lower half": bands[BANDS // 2:-1].mean() - bands[1:BANDS // 2].mean(),
+    s = Specimen(path)
+    bands, contacts, stress = s.void_ratios_of_bands(), s.contacts_of_discs, s.stresses_of_bands()
+    inner = slice(1, -1)
+    numbers = {name: s.made[name] for name in OF_GENERATION}
+    numbers |= {"height over width": s.made["height_m"] / s.made["width_m"], "sd of inner bands": bands[inner].std(),
+                "topmost band": bands[-1], "bottommost band": bands[0],
+                "upper less lower half": bands[len(bands) // 2:-1].mean() - bands[1:len(bands) // 2].mean(),
+                "sd of vertical stress of inner bands": stress[1][inner].std() / stress[1][inner].mean(),
+                "sd of lateral stress of inner bands": stress[0][inner].std() / stress[0][inner].mean(),
                 "coordination": contacts.mean(), "discs in fewer than two contacts": (contacts < 2).mean(),
-                "anisotropy of normals": np.mean(np.sin(turn) ** 2) - 0.5}
+                "anisotropy of normals": np.mean(np.sin(s.direction) ** 2) - 0.5}
     return numbers
 
 
