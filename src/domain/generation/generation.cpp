@@ -33,7 +33,7 @@ std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& m
   constexpr int most_attempts = 8;
   double const way = missed.denser ? 1 : -1;
   auto const rounded_away = [&](double ratio) { return way * std::ceil(way * ratio * 1000 - 1e-6) / 1000; };
-  double step = 0.002, next = rounded_away(missed.reached), near = next;
+  double step = 0.002, next = rounded_away(missed.reached), near = next, farthest = next;
   std::optional<double> beyond;  // missed from the other side
   for (int attempt = 0; attempt < most_attempts; ++attempt, step *= 2) {
     scene.sample.void_ratio = next;
@@ -41,12 +41,15 @@ std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& m
       (void)make(scene);
       return next;
     } catch (VoidRatioMissed const& again) {
-      if (again.denser != missed.denser)
-        beyond = next;
-      else
-        near = next;
-      next = rounded_away(beyond ? 0.5 * (near + *beyond) : way * std::max(way * (next + way * step), way * again.reached));
-      if (next == near || next == beyond) return {};
+      farthest = way * std::max(way * farthest, way * next);
+      (again.denser != missed.denser ? beyond.emplace() : near) = next;
+      double const between = beyond ? rounded_away(0.5 * (near + *beyond)) : near;
+      if (between != near && between != beyond) {
+        next = between;
+      } else {  // nothing between them, or not missed from the other side: further away
+        beyond.reset();
+        next = near = rounded_away(way * std::max(way * (farthest + way * step), way * again.reached));
+      }
     }
   }
   return {};
