@@ -12,8 +12,6 @@ namespace clathra {
 
 namespace {
 
-constexpr double void_tolerance = 0.001;
-
 /// What is lost between making and test is lost again by the next specimen, nearly: the second of 20,000 discs has the void
 /// ratio. A few hundred lose 0.003 more or less by chance, and grains near the loosest that they hold lose most of what they are
 /// given.

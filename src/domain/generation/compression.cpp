@@ -8,10 +8,9 @@ namespace clathra {
 
 namespace {
 
-constexpr double void_tolerance = 0.001;  // of what is asked for
-constexpr double reserve = 0.01;          // in void ratio: what is left to close with grains as stiff as the scene's
-constexpr double far_off = 0.02;          // in void ratio: too loose to be held where it did not resist
-constexpr double least_share = 1e-4;      // of the friction
+constexpr double reserve = 0.01;      // in void ratio: what is left to close with grains as stiff as the scene's
+constexpr double far_off = 0.02;      // in void ratio: too loose to be held where it did not resist
+constexpr double least_share = 1e-4;  // of the friction
 constexpr double flowing_modulus = 0.4, resting_modulus = 0.3;  // stress for a strain of its area, over k_n
 // Inertial numbers: while discs hardly touch, of the fall of the height alone, of the closing of soft grains, and of that of the
 // scene's; and a cap on the walls' own speed. At five times the first some of 200,000 discs met nearly centre to centre. Half the

@@ -14,6 +14,8 @@ namespace clathra {
 
 /// The void ratio above the target at which an assembly has left to close in both directions.
 inline constexpr double unjammed = 0.04;
+/// How far a specimen may be off the void ratio that was asked for.
+inline constexpr double void_tolerance = 0.001;
 
 /// The void ratio that was asked for is not one at which these grains rest.
 struct VoidRatioMissed : Refused {

@@ -100,17 +100,4 @@ double mean_stress(Simulation const& simulation);
 /// Strain rate [1/s] of an inertial number, I = rate * d50 * sqrt(density / stress).
 double strain_rate_of(double inertial_number, double stress, double density, double d50);
 
-/// make(1), or where that diverges make(2), make(3): each has to divide its speeds by the number. @throws Diverged
-template <class Make>
-auto slower_where_it_diverges(Make const& make) {
-  constexpr int most_attempts = 4;
-  for (int attempt = 1; attempt < most_attempts; ++attempt) {
-    try {
-      return make(attempt);
-    } catch (Diverged const&) {  // the last attempt's goes to the caller
-    }
-  }
-  return make(most_attempts);
-}
-
 }  // namespace clathra

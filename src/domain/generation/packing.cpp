@@ -44,6 +44,19 @@ void compact(Simulation& simulation, StepChoice const& step, double void_ratio, 
   }
 }
 
+/// make(1), or where that diverges make(2), make(3), make(4), which have to divide their speeds by the number. @throws Diverged
+template <class Make>
+auto slower_where_it_diverges(Make const& make) {
+  constexpr int most_attempts = 4;
+  for (int attempt = 1; attempt < most_attempts; ++attempt) {
+    try {
+      return make(attempt);
+    } catch (Diverged const&) {  // the last attempt's goes to the caller
+    }
+  }
+  return make(most_attempts);
+}
+
 /// All discs in layers, each compacted to its own void ratio of Jiang's rule on those below it; unjammed and without motion.
 /// @param speed  of the top wall [m/s];  @param counted  gets the disc-steps of all layers
 Specimen compacted_layers(Scene const& scene, SampleDesign const& design, SimulationLaws const& laws, double speed,
