@@ -108,7 +108,7 @@ Specimen awkward_specimen() {
   s.top = 3e-4 * 101;
   s.critical_thickness = 1e-5 / 3;
   SpecimenOutline const outline = outline_of(s);
-  s.d50 = outline.d50, s.void_ratio = outline.void_ratio;
+  s.d50 = outline.sizes.d50, s.void_ratio = outline.void_ratio;
   return s;
 }
 

@@ -120,23 +120,25 @@ TEST_F(SpecimenCheck, TheD50MustBeThatOfTheDiscs) {
   takes([](Specimen& s) { s.d50 *= 1.03; });
 }
 
-/// Of two sizes, of which half of the sand is each, either is the d50, and all between them.
-TEST_F(SpecimenCheck, WhereTheCurveIsFlatTheD50MayBeAnyOfItsSizes) {
-  auto const two_sizes = [](double d50) {
-    return [d50](Specimen& s) {
-      s = Specimen();
-      auto const add = [&](double x, double y, double radius) {
-        s.id.push_back(static_cast<int>(s.id.size()));
-        s.x.push_back(x), s.y.push_back(y), s.radius.push_back(radius);
-        for (auto* const column : {&s.angle, &s.vx, &s.vy, &s.omega}) column->push_back(0);
-      };
-      for (int i = 0; i < 10; ++i) add((2 * i + 1) * 4e-4, 4e-4, 4e-4);
-      for (int i = 0; i < 165; ++i) add((2 * (i % 40) + 1) * 1e-4, 8e-4 + (2 * (i / 40) + 1) * 1e-4, 1e-4);
-      s.right = 8e-3, s.top = 1.8e-3;
-      s.d50 = d50;
-      s.void_ratio = s.width() * s.height() / area_of(s) - 1;
+/// Ten discs of 0.8 mm and, of half of the sand, as many of 0.2 mm as that is.
+std::function<void(Specimen&)> two_sizes(double d50) {
+  return [d50](Specimen& s) {
+    s = Specimen();
+    auto const add = [&](double x, double y, double radius) {
+      s.id.push_back(static_cast<int>(s.id.size()));
+      s.x.push_back(x), s.y.push_back(y), s.radius.push_back(radius);
+      for (auto* const column : {&s.angle, &s.vx, &s.vy, &s.omega}) column->push_back(0);
     };
+    for (int i = 0; i < 10; ++i) add((2 * i + 1) * 4e-4, 4e-4, 4e-4);
+    for (int i = 0; i < 165; ++i) add((2 * (i % 40) + 1) * 1e-4, 8e-4 + (2 * (i / 40) + 1) * 1e-4, 1e-4);
+    s.right = 8e-3, s.top = 1.8e-3;
+    s.d50 = d50;
+    s.void_ratio = s.width() * s.height() / area_of(s) - 1;
   };
+}
+
+/// Either is the d50, and all between them.
+TEST_F(SpecimenCheck, WhereTheCurveIsFlatTheD50MayBeAnyOfItsSizes) {
   for (double const d50 : {2e-4, 4e-4, 8e-4}) takes(two_sizes(d50));
   refuses("its attribute d50 is 1 mm, that of its discs is 0.2 mm", two_sizes(1e-3));
   refuses("its attribute d50 is 0.18 mm, that of its discs is 0.2 mm", two_sizes(1.8e-4));
@@ -206,6 +208,19 @@ TEST_F(SpecimenCheck, DiscsTooLargeForTheirPlacesAreWarnedOf) {
   leave_out({"void_ratio", "d50"});
   EXPECT_NE(warnings().find("% of the pairs that touch overlap by more than a tenth of the smaller radius"), std::string::npos);
   EXPECT_NE(warnings().find("says that it rests under 1000 kPa; by the overlaps"), std::string::npos) << warnings();
+}
+
+/// As of the grading of a specimen that is made.
+TEST_F(SpecimenCheck, SizesThatMakeOddTestsAreWarnedOf) {
+  write(two_sizes(2e-4));
+  EXPECT_NE(warnings().find("hardly any grains around 50 %: 49 % are finer than 0.2 mm, 51 % finer than 0.8 mm"),
+            std::string::npos)
+      << warnings();
+  write([](Specimen& s) {
+    for (double& r : s.radius) r = 5e-5;
+  });
+  leave_out({"void_ratio", "d50"});
+  EXPECT_NE(warnings().find("the discs are as good as equal (d90 / d10 = 1)"), std::string::npos) << warnings();
 }
 
 TEST_F(SpecimenCheck, AStressThatTheOverlapsDoNotShowIsWarnedOf) {

@@ -139,7 +139,7 @@ TEST(LoosePlaces, AreNoDenserInOneBandThanInAnother) {
   constexpr int particles = 16'000, bands = 16;
   Specimen s;
   s.right = 0.01;
-  LooseDiscs(sand, particles, 1, 1).add_layer(s, 0, 0, 0, {});
+  LooseDiscs(sand, particles, 1, 1).add_layer(s, 0, 0, {});
   std::vector<double> share(bands);
   for (std::size_t i = 0; i < s.size(); ++i)
     share[static_cast<std::size_t>(bands * s.y[i] / s.height())] += 1.0 * bands / particles;
@@ -197,7 +197,7 @@ TEST(Patches, JoinWithoutASeam) {
   constexpr std::int64_t particles = 210'000;
   Specimen s;
   s.right = 0.08;
-  LooseDiscs(sand, particles, 1, 1).add_layer(s, 0, 0, 0, {});
+  LooseDiscs(sand, particles, 1, 1).add_layer(s, 0, 0, {});
   ASSERT_EQ(s.size(), static_cast<std::size_t>(particles));
   double const reach = sand.largest();
   for (double const seam : {s.right / 3, 2 * s.right / 3}) {

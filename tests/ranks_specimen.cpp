@@ -84,7 +84,7 @@ TEST(RanksSpecimen, TheOutlineIsThatOfTheWhole) {
   EXPECT_EQ(one.at_wall[3].id, std::min(whole.id[30], whole.id[31]));
   EXPECT_EQ(one.farthest, 0.02);
   EXPECT_EQ(many.discs, one.discs);
-  EXPECT_EQ(many.d50, one.d50);
+  EXPECT_EQ(many.sizes.d50, one.sizes.d50);
   EXPECT_EQ(many.void_ratio, one.void_ratio);
   EXPECT_EQ(many.farthest, one.farthest);
   EXPECT_EQ(many.outside, one.outside);

@@ -77,8 +77,9 @@ struct CountTurnsOn {
 struct ScalePositions {
   ParticleSoA p;
   Real factor_x, factor_y;
-  Coord fixed_x, fixed_y;
+  Coord fixed_x, fixed_y, least_y;
   KOKKOS_FUNCTION void operator()(int i) const {
+    if (p.y(i) < least_y) return;
     p.x(i) = fixed_x + factor_x * (p.x(i) - fixed_x);
     p.y(i) = fixed_y + factor_y * (p.y(i) - fixed_y);
   }
@@ -209,9 +210,9 @@ void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y,
   update_disc_rows(particles, 0, particles.owned);
 }
 
-void scale_positions(ParticleSoA const& particles, Real factor_x, Real factor_y, Coord fixed_x, Coord fixed_y) {
+void scale_positions(ParticleSoA const& particles, Real factor_x, Real factor_y, Coord fixed_x, Coord fixed_y, Coord least_y) {
   Kokkos::parallel_for("scale_positions", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
-                       ScalePositions{particles, factor_x, factor_y, fixed_x, fixed_y});
+                       ScalePositions{particles, factor_x, factor_y, fixed_x, fixed_y, least_y});
   update_mirror(particles, 0, particles.owned);
 }
 

@@ -130,8 +130,9 @@ void permute(ParticleSoA& particles, Field<int> const& order, Scratch& scratch);
 /// starts without waves when the discs and not only the walls begin to move.
 void add_affine_velocity(ParticleSoA const& particles, Real rate_x, Real rate_y, Coord centre_x, Coord centre_y);
 
-/// Scales all owned centres about a fixed point: x = fixed + factor (x - fixed).
-void scale_positions(ParticleSoA const& particles, Real factor_x, Real factor_y, Coord fixed_x, Coord fixed_y);
+/// Scales all owned centres about a fixed point: x = fixed + factor (x - fixed). @param least_y  those below it stay
+void scale_positions(ParticleSoA const& particles, Real factor_x, Real factor_y, Coord fixed_x, Coord fixed_y,
+                     Coord least_y = -HUGE_VAL);
 
 /// Gathers from(order(i)) into to(i), and zeros into what is left of it.
 template <class T>

@@ -30,14 +30,14 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
   return run.step_choice().safety * limit * (1 + 0.3 * run.mass_scaling) / frequency;
 }
 
-/// Disc-steps until a specimen is packed and at rest, to about 10 %: fitted to specimens of 300 to 20,000 discs, without layers
-/// to 200,000, at a void ratio of 0.24; to about 30 % where the curve is wide: fitted to four of them up to a ratio of 8. What
+/// Disc-steps until a specimen is packed and at rest, to about 10 %: fitted to specimens of 300 to 60,000 discs, without layers
+/// to 200,000, at a void ratio of 0.24; to about 30 % where the curve is wide: fitted to five of them up to a ratio of 20. What
 /// has to be closed is measured in d50, the steps that it takes in the discs that set the step.
 double generation_disc_steps(Scene const& scene, Grading const& grading, double discs) {
   if (scene.sample.generator == Generator::file) return 0;
   double const coarse = grading.d50() / grading.diameter_finer(0.3), unlike = grading.largest() / grading.smallest();
   double const closing = 8.25e3 * std::pow(coarse, 1.07),
-               layers = 27.5e3 * std::pow(discs / 20e3, 0.63) * std::max(1.0, unlike / 3),
+               layers = 4.85e3 * std::pow(coarse, 1.07) * std::pow(std::max(1.0, unlike / 3), 0.75),
                specimens = scene.sample.void_ratio_at == VoidRatioAt::test ? 2.3 : 1;  // two as a rule, each consolidated
   return specimens * discs * (scene.sample.generator == Generator::compression ? closing : closing + layers);
 }

@@ -48,6 +48,8 @@ class Compression {
         return close_and_rest(loose);
       } catch (VoidRatioMissed const& missed) {
         if (path == most_paths || !missed.denser) throw;
+      } catch (Refused const&) {  // does not come to rest
+        if (path == most_paths) throw;
       } catch (Diverged const&) {  // a large disc has crushed a small one
         if (path == most_paths) throw;
       }

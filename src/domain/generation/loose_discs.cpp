@@ -18,16 +18,14 @@ double area(std::vector<double> const& radii) {
   return sum;
 }
 
-/// Adds placed discs, numbered from `first_id` on, that close homogeneously above `from` with this speed at this height.
-void add_discs(Specimen& specimen, std::int64_t first_id, std::vector<double> const& radii, Placement const& places, double from,
-               double height, double speed) {
+/// Adds placed discs, at rest, numbered from `first_id` on.
+void add_discs(Specimen& specimen, std::int64_t first_id, std::vector<double> const& radii, Placement const& places) {
   for (std::size_t i = 0; i < radii.size(); ++i) {
     specimen.id.push_back(static_cast<int>(first_id) + static_cast<int>(i));
     specimen.x.push_back(places.x[i]);
     specimen.y.push_back(places.y[i]);
     specimen.radius.push_back(radii[i]);
-    specimen.vy.push_back(-speed * (places.y[i] - from) / height);
-    for (auto* field : {&specimen.angle, &specimen.vx, &specimen.omega}) field->push_back(0);
+    for (auto* field : {&specimen.angle, &specimen.vx, &specimen.vy, &specimen.omega}) field->push_back(0);
   }
 }
 
@@ -87,12 +85,12 @@ Placement LooseDiscs::placed(std::int64_t patch, std::vector<double> const& radi
   return place_by_random_addition(radii, region, seed_, of_places + static_cast<std::uint64_t>(patch), around);
 }
 
-void LooseDiscs::add_layer(Specimen& specimen, int layer, double from, double speed, Ranks const& ranks) const {
+void LooseDiscs::add_layer(Specimen& specimen, int layer, double from, Ranks const& ranks) const {
   double const height = solid_area(layer) / loose_solid_fraction / specimen.width();
   std::int64_t const first = layer * patches_in_layer_;
   for (std::int64_t patch = first + ranks.rank(); patch < first + patches_in_layer_; patch += ranks.count()) {
     std::vector<double> const radii = this->radii(patch);
-    add_discs(specimen, discs_before(patch), radii, placed(patch, radii, specimen, from, height), from, height, speed);
+    add_discs(specimen, discs_before(patch), radii, placed(patch, radii, specimen, from, height));
   }
   specimen.top = from + height;
 }

@@ -22,9 +22,8 @@ class LooseDiscs {
   int layers() const { return layers_; }
   double solid_area(int layer) const;  ///< [m^2]
   /// Adds the discs of a layer (from 0 on) above `from` [m] over the whole width, at a solid fraction of 0.46, and lifts the top
-  /// wall over them; ranks take the patches by turns. They move as a layer that is compacted homogeneously by a wall that comes
-  /// down at `speed` [m/s], so that no compaction front runs ahead of the wall.
-  void add_layer(Specimen& specimen, int layer, double from, double speed, Ranks const& ranks) const;
+  /// wall over them; ranks take the patches by turns. They are at rest.
+  void add_layer(Specimen& specimen, int layer, double from, Ranks const& ranks) const;
 
   /// Radii [m] of a patch, in random order. Of each `patches` neighbouring sizes of the grading every patch has one.
   std::vector<double> radii(std::int64_t patch) const;

@@ -8,12 +8,13 @@
 
 namespace clathra {
 
-/// Void ratio to which the first i of n layers are compacted together: e_(i) = e_t + De (1 - (i-1)/(n-1))^m.
-/// @param layer 1 .. layers;  De = 0.02, m = 2
-double under_compaction_void_ratio(double target, int layer, int layers, double excess = 0.02, double exponent = 2);
+/// Void ratio to which the first i of n layers are compacted together: e_(i) = e_t + De (1 - (i-1)/(n-1))^m. As layers are closed
+/// here, De = 0.003 is what makes all alike: with 0.02, usual where a plate tamps them, the lowest stay looser by 0.02.
+/// @param layer 1 .. layers;  m = 2
+double under_compaction_void_ratio(double target, int layer, int layers, double excess = 0.003, double exponent = 2);
 
-/// Layer by layer: discs of the whole grading are placed loosely above the ones below, and the top wall compacts all of them to
-/// e_(i) + 0.04; then the whole closes to the void ratio of the design (compress()).
+/// Layer by layer: discs of the whole grading are placed loosely above the ones below and closed by the height, evenly, until all
+/// have e_(i) + 0.04; then the whole closes to the void ratio of the design (compress()).
 PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
                                         Ranks const& ranks = {});
 

@@ -1,6 +1,7 @@
 #include "domain/measurement/disc_grading.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,26 @@ double total_area(std::vector<double> const& sorted, Ranks const& ranks) {
     for (double r : sorted) total += r * r;
     return total;
   });
+}
+
+template <std::size_t n>
+std::array<double, n> diameters_finer(std::vector<double> const& radii, std::array<double, n> const& fractions,
+                                      Ranks const& ranks) {
+  constexpr double none = 1e300;
+  std::vector<double> const sorted = ranks.sorted_part(radii);
+  double const total = total_area(sorted, ranks), largest = ranks.max(sorted.empty() ? 0 : sorted.back());
+  std::array<double, n> found;
+  found.fill(none);
+  ranks.relay(0, [&](double below) {
+    for (double r : sorted) {
+      below += r * r;
+      for (std::size_t k = 0; k < n; ++k)
+        if (below >= fractions[k] * total) found[k] = std::min(found[k], r);
+    }
+    return below;
+  });
+  for (double& r : found) r = 2 * std::min(ranks.min(r), largest);
+  return found;
 }
 
 }  // namespace
@@ -34,19 +55,12 @@ double grading_distance(Grading const& grading, std::vector<double> const& radii
 }
 
 double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks) {
-  std::vector<double> const sorted = ranks.sorted_part(radii);
-  double const total = total_area(sorted, ranks);
-  double found = 1e300;
-  ranks.relay(0, [&](double below) {
-    for (double r : sorted) {
-      below += r * r;
-      if (below >= fraction * total) found = std::min(found, r);
-    }
-    return below;
-  });
-  found = ranks.min(found);
-  if (found < 1e300) return 2 * found;
-  return 2 * ranks.max(sorted.empty() ? 0 : sorted.back());
+  return diameters_finer<1>(radii, {fraction}, ranks)[0];
+}
+
+CurveSizes sizes_of(std::vector<double> const& radii, Ranks const& ranks) {
+  auto const [d10, d49, d50, d51, d90] = diameters_finer<5>(radii, {0.1, 0.49, 0.5, 0.51, 0.9}, ranks);
+  return {d10, d49, d50, d51, d90};
 }
 
 double solid_area(std::vector<double> const& radii, Ranks const& ranks) {

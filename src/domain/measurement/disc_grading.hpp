@@ -12,6 +12,7 @@ double grading_distance(Grading const& grading, std::vector<double> const& radii
 
 /// d_x [m] of given discs by area fraction.
 double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks = {});
+CurveSizes sizes_of(std::vector<double> const& radii, Ranks const& ranks = {});
 
 /// Area of all discs [m^2], overlaps counted twice. Collective.
 double solid_area(std::vector<double> const& radii, Ranks const& ranks = {});

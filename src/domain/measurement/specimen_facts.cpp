@@ -120,7 +120,7 @@ void agree(Ranks const& ranks, OverlappingPair& deepest) {
 SpecimenOutline outline_of(Specimen const& part, Ranks const& ranks) {
   SpecimenOutline outline;
   outline.discs = ranks.sum(static_cast<std::int64_t>(part.size()));
-  outline.d50 = diameter_finer(part.radius, 0.5, ranks);
+  outline.sizes = sizes_of(part.radius, ranks);
   outline.void_ratio = part.width() * part.height() / solid_area(part.radius, ranks) - 1;
   double farthest = 0;
   for (double const at : {part.left, part.right, part.bottom, part.top}) farthest = std::max(farthest, std::abs(at));

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "domain/parallel/ranks.hpp"
+#include "domain/scene/grading.hpp"
 #include "domain/scene/specimen.hpp"
 
 namespace clathra {
@@ -18,7 +19,7 @@ struct DiscAtWall {
 
 struct SpecimenOutline {
   std::int64_t discs = 0;
-  double d50 = 0;                     ///< by area [m]
+  CurveSizes sizes;                   ///< by area [m]
   double void_ratio = 0;              ///< nominal
   double farthest = 0;                ///< the largest coordinate of a centre or a wall, either sign [m]
   std::array<DiscAtWall, 4> at_wall;  ///< left, right, bottom, top

@@ -7,6 +7,11 @@
 
 namespace clathra {
 
+/// Diameters of a grading at mass fractions that tell what tests of it are like [m].
+struct CurveSizes {
+  double d10 = 0, d49 = 0, d50 = 0, d51 = 0, d90 = 0;
+};
+
 /// A grading curve, linear in log(diameter) between its points. In 2D mass fraction is area fraction.
 class Grading {
  public:
@@ -25,6 +30,9 @@ class Grading {
 
   double diameter_finer(double fraction) const;  ///< d_x [m] for a mass fraction x
   double d50() const { return diameter_finer(0.5); }
+  CurveSizes sizes() const {
+    return {diameter_finer(0.1), diameter_finer(0.49), d50(), diameter_finer(0.51), diameter_finer(0.9)};
+  }
   double stated_d50() const;  ///< d50 to nine digits [m]
   double smallest() const { return diameters_.front(); }
   double largest() const { return diameters_.back(); }

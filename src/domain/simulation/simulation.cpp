@@ -157,6 +157,13 @@ void Simulation::strain(Real x, Real y) {
   refresh_ghosts();
 }
 
+void Simulation::strain_above(Coord floor, Real y) {
+  Coord& at = now_.box.walls.position[top];
+  scale_positions(particles_, 1, 1 - y, 0, floor, floor);
+  at = floor + (1 - y) * (at - floor);
+  refresh_ghosts();
+}
+
 void Simulation::drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y) {
   now_.loading.x = x;
   now_.loading.y = y;

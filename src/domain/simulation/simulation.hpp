@@ -125,6 +125,8 @@ class Simulation {
   /// Closes box and discs homogeneously at once, by these strains. A periodic cell keeps its lower left corner, walls their
   /// middle.
   void strain(Real x, Real y);
+  /// The same by the height alone, and of the discs and the top wall above a height only; not for a periodic cell.
+  void strain_above(Coord floor, Real y);
   void request_rebuild() { rebuild_pending_ = true; }
   void watch_deviator() { now_.largest = {}; }        ///< the largest one counts from now
   void mark_start();                                  ///< displacements count from here

@@ -12,6 +12,7 @@
 #include "io/results/specimen_label.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/size_warnings.hpp"
 
 namespace clathra {
 namespace {
@@ -36,17 +37,17 @@ constexpr double stress_factor = 2;      // our own rest under 0.89 to 1 of what
 std::string mm(double length) { return fmt::format("{:.6g} mm", length * 1e3); }
 
 void require_metres(fs::path const& path, SpecimenOutline const& outline) {
-  if (outline.d50 > largest_d50)
+  if (outline.sizes.d50 > largest_d50)
     refuse(path, fmt::format("half of its sand is of discs larger than {:.4g} m: these look like mm, lengths must be in m",
-                             outline.d50));
-  if (outline.d50 < smallest_d50)
-    refuse(path, fmt::format("half of its sand is of discs smaller than {:.4g} m: lengths must be in m", outline.d50));
-  if (outline.farthest > farthest_place * outline.d50)
+                             outline.sizes.d50));
+  if (outline.sizes.d50 < smallest_d50)
+    refuse(path, fmt::format("half of its sand is of discs smaller than {:.4g} m: lengths must be in m", outline.sizes.d50));
+  if (outline.farthest > farthest_place * outline.sizes.d50)
     refuse(path,
            fmt::format("it reaches to {:.4g} m from the origin, {:.3g} times the d50 of its discs; numbers there are {:.2g} "
                        "d50 apart, too coarse for overlaps of grains (at most {:g} times): make it anew nearer to the origin",
-                       outline.farthest, outline.farthest / outline.d50,
-                       outline.farthest * std::numeric_limits<double>::epsilon() / outline.d50, farthest_place));
+                       outline.farthest, outline.farthest / outline.sizes.d50,
+                       outline.farthest * std::numeric_limits<double>::epsilon() / outline.sizes.d50, farthest_place));
 }
 
 void require_discs_inside(fs::path const& path, SpecimenOutline const& outline) {
@@ -72,9 +73,9 @@ void require_discs_apart(fs::path const& path, SpecimenOverlaps const& overlaps)
 std::string spaces(SpecimenOutline const& outline) {
   std::string text;
   for (std::size_t wall = 0; wall < outline.at_wall.size(); ++wall)
-    if (double const space = outline.at_wall[wall].space; space > widest_space * outline.d50)
+    if (double const space = outline.at_wall[wall].space; space > widest_space * outline.sizes.d50)
       text += fmt::format("{}the {} wall is {} ({:.3g} d50) from the nearest disc", text.empty() ? "" : "; ", wall_names[wall],
-                          mm(space), space / outline.d50);
+                          mm(space), space / outline.sizes.d50);
   return text;
 }
 
@@ -118,7 +119,7 @@ SpecimenFacts require_sound(fs::path const& path, Specimen& part, Ranks const& r
   if (!part.periodic) require_discs_inside(path, facts.outline);
   facts.overlaps = overlaps_of(part, ranks);
   require_discs_apart(path, facts.overlaps);
-  require_d50(path, part, facts.outline.d50, ranks);
+  require_d50(path, part, facts.outline.sizes.d50, ranks);
   require_void_ratio(path, part, facts.outline);
   return facts;
 }
@@ -135,6 +136,7 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
         "{:.3g} % of the pairs that touch overlap by more than a tenth of the smaller radius, the deepest, discs {} and "
         "{}, by {:.3g} %: the discs are too large for their places, or too soft for the stress",
         100 * share, overlaps.deepest.id_a, overlaps.deepest.id_b, 100 * overlaps.deepest.share));
+  for (std::string const& text : size_warnings(facts.outline.sizes)) warn(text);
   return warnings;
 }
 

@@ -12,6 +12,7 @@
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "domain/scene/units.hpp"
+#include "io/scene/size_warnings.hpp"
 
 namespace clathra {
 namespace {
@@ -79,24 +80,6 @@ void check_size(Check& check) {
                 "sample.width, sample.height and sample.aspect_ratio contradict each other");
 }
 
-/// What the sizes make of a test that nobody might expect.
-void check_grading(Check& check, Grading const& grading) {
-  constexpr double widest = 1.25;    // of the sizes around d50, as factors: a curve from 1 to 1000 without a step has 1.15
-  constexpr double narrowest = 1.1;  // of nearly all sizes
-  double const below = grading.diameter_finer(0.49), above = grading.diameter_finer(0.51);
-  if (above > widest * below)
-    check.warn(
-        fmt::format("the grading has hardly any grains around 50 %: 49 % are finer than {}, 51 % finer than {}. d50 ({}), with "
-                    "it the rate and the thickness of bonds, hangs on the last per cent of the curve",
-                    length_text(below), length_text(above), length_text(grading.d50())));
-  double const ratio = grading.diameter_finer(0.9) / grading.diameter_finer(0.1);
-  if (ratio < narrowest)
-    check.warn(
-        fmt::format("the discs are as good as equal (d90 / d10 = {:.3g}): equal discs crystallise, strengths differ between "
-                    "seeds by more than a third",
-                    ratio));
-}
-
 /// How far bonds reach beyond touching [m], at the most.
 double reach_of_bonds(Scene const& scene, double d50) {
   if (!has_bonds(scene)) return 0;
@@ -132,7 +115,7 @@ std::optional<SampleDesign> check_design(Check& check) {
       check.error({"sample.width", "sample.height", "grading.d50"},
                   fmt::format("the box of {} x {} holds {} discs of this grading; between 16 and 1e9 are possible",
                               length_text(design.width), length_text(design.height), design.particles));
-    check_grading(check, design.grading);
+    for (std::string& text : size_warnings(design.grading.sizes())) check.warn(std::move(text));
     return design;
   } catch (std::invalid_argument const& problem) {
     check.error({"grading.file", "sample.particles", "sample.width"}, problem.what());

@@ -1,0 +1,25 @@
+#include "io/scene/size_warnings.hpp"
+
+#include <fmt/format.h>
+
+namespace clathra {
+
+std::vector<std::string> size_warnings(CurveSizes const& sizes) {
+  constexpr double widest = 1.25;    // of the sizes around d50, as factors: a curve from 1 to 1000 without a step has 1.15
+  constexpr double narrowest = 1.1;  // of nearly all sizes
+  auto const mm = [](double metres) { return fmt::format("{:.4g} mm", metres * 1e3); };
+  std::vector<std::string> warnings;
+  if (sizes.d51 > widest * sizes.d49)
+    warnings.push_back(
+        fmt::format("the grading has hardly any grains around 50 %: 49 % are finer than {}, 51 % finer than {}. d50 ({}), with "
+                    "it the rate and the thickness of bonds, hangs on the last per cent of the curve",
+                    mm(sizes.d49), mm(sizes.d51), mm(sizes.d50)));
+  if (double const ratio = sizes.d90 / sizes.d10; ratio < narrowest)
+    warnings.push_back(
+        fmt::format("the discs are as good as equal (d90 / d10 = {:.3g}): equal discs crystallise, strengths differ between "
+                    "seeds by more than a third",
+                    ratio));
+  return warnings;
+}
+
+}  // namespace clathra
