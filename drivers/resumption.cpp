@@ -23,7 +23,7 @@ Resumption resume_from(FoundCheckpoint const& checkpoint, std::filesystem::path 
                                   strain * 100, scene.test.axial_strain * 100));
   std::string const hash = hash_text(resumed.test->state_hash());
   on_each(ranks, [&] {
-    if (hash != checkpoint_state_hash(checkpoint.file).value_or(hash))
+    if (hash != checkpoint_state_hash(checkpoint.file))
       throw FileProblem(ExitCode::bad_input, checkpoint.file, "does not give the state that it was written with");
   });
   return resumed;

@@ -47,7 +47,7 @@ class TestRun::Running {
   Running(LoadedScene input, std::optional<Specimen> specimen, RunLimits const& limits, Ranks const& ranks)
       : ranks_(ranks), limits_(limits), scene_(input.scene), specimen_(std::move(specimen)) {
     label_before_ = specimen_ ? label_of(*specimen_) : specimen_label(scene_, false);
-    strain_before_ = specimen_ ? specimen_->axial_strain.value_or(0) : 0;
+    strain_before_ = specimen_ ? specimen_->axial_strain : 0;
     record_.version = CLATHRA_VERSION;
     record_.git_hash = CLATHRA_GIT_HASH;
     record_.input = std::move(input);

@@ -63,7 +63,7 @@ class BatchSignals : public testing::Test {
     std::ofstream(script) << before
                           << " '" CLATHRA_BINARY "' run " CLATHRA_EXAMPLES
                              "/quick.toml --threads 1 --set sample.generator=file --set sample.file=" CLATHRA_GOLDEN
-                             "/specimen-1.h5 --set test.inertial_number=1e-6 --set output.snapshots=0 --output '"
+                             "/specimen.h5 --set test.inertial_number=1e-6 --set output.snapshots=0 --output '"
                           << (folder / "out").string() << "' &\nrun=$!\nwhile [ ! -s '"
                           << (folder / "out" / "history.csv").string() << "' ]; do sleep 0.1; done\n"
                           << sends << "\nwait $run\n";

@@ -82,7 +82,7 @@ TEST_F(CheckpointFile, GoesOnWithTheBitsOfTheTestThatWasLeftAlone) {
   EXPECT_EQ(found->progress.snapshots[0].pairs, 300u);
   BiaxialTest again(test_scene(), read_checkpoint(*found, test_scene(), {}), {});
   EXPECT_EQ(again.state_hash(), alone.state_hash());
-  EXPECT_EQ(hash_text(again.state_hash()), checkpoint_state_hash(found->file).value());
+  EXPECT_EQ(hash_text(again.state_hash()), checkpoint_state_hash(found->file));
   EXPECT_EQ(again.preparation(), alone.preparation());
   EXPECT_EQ(again.warnings(), alone.warnings());
   go_on(alone, 100);
@@ -193,7 +193,7 @@ TEST_F(CheckpointFile, OfAnotherVersionIsRefusedWithBothVersions) {
   };
   for (std::int64_t const version : {std::int64_t{0}, checkpoint_version + 1}) {
     std::string const wanted =
-        "has version " + std::to_string(version) + ", this program reads 1 to " + std::to_string(checkpoint_version);
+        "has version " + std::to_string(version) + ", this program reads " + std::to_string(checkpoint_version);
     {
       Hdf5File file = Hdf5File::create(other);
       file.set_attribute("format", format);
@@ -225,27 +225,6 @@ TEST_F(CheckpointFile, WithAHistoryThatIsNotFiniteIsRefused) {
     EXPECT_EQ(problem.code, ExitCode::bad_input);
     EXPECT_NE(std::string(problem.what()).find("rows/" + state.simulation.history_columns.back()), std::string::npos)
         << problem.what();
-  }
-}
-
-// What a version wrote must be read by every later version. Made once by this very test with CLATHRA_KEEP=FOLDER.
-TEST_F(CheckpointFile, OfEveryVersionIsOpenedForEver) {
-  if (char const* const keep = std::getenv("CLATHRA_KEEP")) {
-    (void)two_generations();
-    fs::copy(folder, keep, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-  }
-  std::pair<char const*, char const*> const ends[] = {
-      {"checkpoint-1", "0x59a9b5607ad10124"}, {"checkpoint-2", "0x2afd0a9abade9c53"}, {"checkpoint-3", "0xfab423d3f3b94df7"}};
-  Scene scene = test_scene();
-  scene.run.time_step = TimeStepRule::bound;
-  scene.run.dt_safety = 0.7;
-  for (auto const& [version, hash_at_the_end] : ends) {
-    FoundCheckpoints const found = find_checkpoints(fs::path(CLATHRA_GOLDEN) / version);
-    ASSERT_FALSE(found.usable.empty()) << version;
-    BiaxialTest test(scene, read_checkpoint(found.usable[0], scene, {}), {});
-    EXPECT_FALSE(checkpoint_state_hash(found.usable[0].file)) << version << ": its hash left inverse inertias out";
-    go_on(test, 100);
-    EXPECT_EQ(hash_text(test.state_hash()), hash_at_the_end) << version;
   }
 }
 

@@ -23,10 +23,10 @@ class ExtendedRun : public testing::Test {
   void SetUp() override { fs::create_directories(folder); }
   void TearDown() override { fs::remove_all(folder); }
   CommandResult run(std::string const& name, std::string const& more) const {
-    return run_clathra(
-        "run " CLATHRA_EXAMPLES "/quick.toml --threads 1 --set sample.generator=file --set sample.file=" CLATHRA_GOLDEN
-        "/specimen-1.h5 --set bond.reading=first_crack --set output.records=7 --set output.snapshots=2 --output '" +
-        (folder / name).string() + "' " + more);
+    return run_clathra("run " CLATHRA_EXAMPLES
+                       "/quick.toml --threads 1 --set sample.generator=file --set sample.file=" CLATHRA_GOLDEN
+                       "/specimen.h5 --set bond.reading=first_crack --set output.records=7 --set output.snapshots=2 --output '" +
+                       (folder / name).string() + "' " + more);
   }
   nlohmann::json record(std::string const& name) const {
     return nlohmann::json::parse(read_text_file(folder / name / "run.json", 1 << 24));

@@ -111,6 +111,14 @@ TEST_F(RunFolder, GoesOnFromTheOtherCheckpointWhereTheNewestGivesAnotherState) {
   expect_as_left_alone();
 }
 
+TEST_F(RunFolder, WithoutEventsGoesOn) {
+  std::string const sand = "--set hydrate.saturation=0 ";
+  ASSERT_EQ(run("copy", sand + "--max-walltime 0.001s").code, 75);
+  EXPECT_FALSE(fs::exists(base() / "copy/events.csv"));
+  CommandResult const resumed = run("copy", sand + "--resume");
+  EXPECT_EQ(resumed.code, 0) << resumed.output;
+}
+
 TEST_F(RunFolder, NamesADamagedCheckpointThatItPassesOver) {
   copy_of("stopped");
   fs::path const damaged = newest().file;

@@ -118,7 +118,7 @@ TEST(ScenePresets, EachAccuracyRunsAndIsResumedInItsOwnOnly) {
   std::string const scene = (folder / "small.toml").string();
   std::ofstream(scene)
       << "[sample]\ngenerator = \"file\"\nfile = \"" CLATHRA_GOLDEN
-         "/specimen-1.h5\"\n[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.1 %\"\n[output]\nrecords = 5\n";
+         "/specimen.h5\"\n[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.1 %\"\n[output]\nrecords = 5\n";
   auto const run = [&](std::string const& accuracy, std::string const& more = "") {
     return run_clathra("run '" + scene + "' --threads 1 --set run.accuracy=" + accuracy + " --output '" +
                        (folder / "out").string() + "' " + more);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 /// 100 discs at rest under 1 MPa, taken for a specimen that was just made: without bonds, not sheared.
 Specimen resting() {
-  Specimen s = read_specimen(fs::path(CLATHRA_GOLDEN) / "specimen-1.h5");
+  Specimen s = read_specimen(fs::path(CLATHRA_GOLDEN) / "specimen.h5");
   s.axial_strain = 0;
   s.critical_thickness = 0;
   s.separate_bonds = false;

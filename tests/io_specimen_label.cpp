@@ -135,8 +135,6 @@ TEST(SpecimenLabel, ShearingIsToldAndAddedUp) {
   Specimen specimen = disordered_patch(6, 6);
   specimen.axial_strain = 0.15;
   EXPECT_TRUE(says(verdict(specimen, Scene()), "was sheared already, to an axial strain of 15 %"));
-  specimen.axial_strain.reset();
-  EXPECT_TRUE(says(verdict(specimen, Scene()), "does not say whether it was sheared"));
 }
 
 /// Results of the program, on the files that it leaves.
@@ -178,20 +176,6 @@ TEST_F(SpecimenOfARun, GoesOnUnderItsOwnLabelOnly) {
   std::string const whole = reading(out("first") + "/specimen.h5");
   EXPECT_EQ(clathra("check", whole + other).code, 0);
   EXPECT_TRUE(says(clathra("check", whole + "--set grains.kn=\"200 MPa\"").output, "grains.kn was 0.3 GPa, is 0.2 GPa"));
-}
-
-// A final.h5 of version 1: 100 discs at 55 %, made before files said what bonds are made of.
-TEST_F(SpecimenOfARun, OfVersionOneIsReadForEver) {
-  fs::path const file = fs::path(CLATHRA_GOLDEN) / "specimen-1.h5";
-  Specimen const specimen = read_specimen(file);
-  EXPECT_EQ(specimen.size(), 100u);
-  EXPECT_FALSE(specimen.axial_strain);
-  CommandResult const taken = clathra("check", reading(file.string()));
-  EXPECT_EQ(taken.code, 0) << taken.output;
-  EXPECT_TRUE(says(taken.output, "does not say whether it was sheared"));
-  CommandResult const refused = clathra("check", reading(file.string()) + "--set hydrate.saturation=\"26 %\"");
-  EXPECT_EQ(refused.code, 77) << refused.output;
-  EXPECT_TRUE(says(refused.output, "Eq. 3 gives at a saturation of 0.55; hydrate.saturation is 0.26"));
 }
 
 }  // namespace

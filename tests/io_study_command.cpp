@@ -22,8 +22,7 @@ class StudyCommand : public testing::Test {
     std::string const rest =
         "[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.4 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
     std::ofstream(folder / "base.toml") << "[sample]\nparticles = 100\nvoid_ratio = 0.28\nlayers = 1\n" << rest;
-    std::ofstream(folder / "read.toml") << "[sample]\ngenerator = \"file\"\nfile = \"" CLATHRA_GOLDEN "/specimen-1.h5\"\n"
-                                        << rest;
+    std::ofstream(folder / "read.toml") << "[sample]\ngenerator = \"file\"\nfile = \"" CLATHRA_GOLDEN "/specimen.h5\"\n" << rest;
   }
   void TearDown() override { fs::remove_all(folder); }
   CommandResult study(std::string const& text, std::string const& more = "", std::string const& scene = "base.toml") const {

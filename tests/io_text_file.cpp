@@ -126,7 +126,7 @@ TEST_F(TextFile, OfASceneMayComeThroughAPipeButNotFromADeviceOrFolder) {
 
 // A verb that computes starts itself anew when it has read the scene, and the pipe is empty then.
 TEST_F(TextFile, OfASceneThroughAPipeIsThatOfARunToo) {
-  std::ofstream(folder / "my.toml") << "[sample]\nparticles = 77\nvoid_ratio = 0.3\nlayers = 1\n[run]\nthreads = 1\n";
+  std::ofstream(folder / "my.toml") << "[sample]\nparticles = 77\nvoid_ratio = 0.285\nlayers = 1\n[run]\nthreads = 1\n";
   std::string const scene = (folder / "my.toml").string(), generate = std::string(CLATHRA_BINARY) + " generate --overwrite ";
   fs::path const named = folder / "named";
   ASSERT_EQ(::mkfifo(named.c_str(), 0600), 0);

@@ -27,10 +27,10 @@ class Threads : public testing::Test {
   /// A short run of a hundred discs, begun by `env` with these options and variables.
   CommandResult run(std::string const& settings, std::string const& more, std::string const& name = "out") const {
     std::string const free = "env -u OMP_NUM_THREADS -u OMP_PROC_BIND -u OMP_PLACES -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT ";
-    return run_clathra(
-        "--version >/dev/null; " + free + settings + " " CLATHRA_BINARY " run --overwrite " CLATHRA_EXAMPLES "/quick.toml " +
-        "--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen-1.h5 --set output.snapshots=0 " +
-        "--set test.axial_strain=\"0.01 %\" " + more + " --output " + (folder / name).string());
+    return run_clathra("--version >/dev/null; " + free + settings +
+                       " " CLATHRA_BINARY " run --overwrite " CLATHRA_EXAMPLES "/quick.toml " +
+                       "--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen.h5 --set output.snapshots=0 " +
+                       "--set test.axial_strain=\"0.01 %\" " + more + " --output " + (folder / name).string());
   }
   /// What OpenMP says of its settings when the program starts for the last time; the run itself is refused.
   std::string display(std::string const& settings) const {

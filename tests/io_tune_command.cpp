@@ -99,7 +99,7 @@ TEST_F(TuneCommand, RefusesWhatItCannotTune) {
   EXPECT_EQ(quantity.code, 65);
   EXPECT_NE(quantity.output.find("a test has no number 'peek_q'; did you mean 'peak_q'?"), std::string::npos) << quantity.output;
   EXPECT_EQ(tune("--budget soon").code, 64);
-  CommandResult const file = tune("--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen-1.h5");
+  CommandResult const file = tune("--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen.h5");
   EXPECT_EQ(file.code, 77);
   EXPECT_NE(file.output.find("rungs need specimens of several seeds"), std::string::npos) << file.output;
   EXPECT_EQ(run_clathra("tune '" + (folder / "none.toml").string() + "'").code, 66);

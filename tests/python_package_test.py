@@ -11,7 +11,7 @@ os.environ["CLATHRA"] = CLATHRA
 import clathra  # noqa: E402
 import numpy as np  # noqa: E402
 
-SCENE = {"sample": {"generator": "file", "file": os.path.join(PROJECT, "tests", "golden", "specimen-1.h5")},
+SCENE = {"sample": {"generator": "file", "file": os.path.join(PROJECT, "tests", "golden", "specimen.h5")},
          "hydrate": {"saturation": "55 %"}, "bond": {"reading": "first_crack"}, "test": {"axial_strain": 0.02},
          "output": {"records": 20, "snapshots": 2, "snapshots_at": ["0.5 %"], "energy": True, "event_details": True}}
 

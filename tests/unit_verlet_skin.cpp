@@ -126,24 +126,6 @@ TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
 }
 
 // The first checkpoints have no column of skins.
-TEST(VerletSkin, OfAStateWithoutItIsThatOfDiscsAtRest) {
-  Simulation sim(gas(), {}, 2 * h);
-  sim.time_step = 0.3 * sim.stable_time_step();
-  sim.step(50);
-  SimulationState state = sim.state();
-  std::size_t const at = state.disc_columns.size();  // of the last column in a record: the id comes first
-  ASSERT_EQ(state.disc_columns.back(), "verlet_skin");
-  state.disc_columns.pop_back();
-  for (std::size_t k = state.discs.size(); k-- > 0;)
-    state.discs.numbers.erase(state.discs.numbers.begin() + static_cast<std::ptrdiff_t>(state.discs.begin[k] + at));
-  for (std::size_t k = 0; k < state.discs.begin.size(); ++k) state.discs.begin[k] -= k;
-  std::uint64_t const hash = sim.hash();
-  Simulation resumed(std::move(state), {}, {});
-  EXPECT_EQ(resumed.hash(), hash);
-  HostDiscs const discs(resumed.particles());
-  for (int i = 0; i < discs.owned; ++i) EXPECT_EQ(discs.verlet_skin(i), h);
-}
-
 TEST(VerletSkin, LeavesASmallPeriodicCellWideEnough) {
   Specimen s = disordered_patch(5, 5, 0.1);
   s.periodic = true;

@@ -87,8 +87,8 @@ std::string specimen_text(Specimen const& specimen, SpecimenFacts const& facts) 
   text += row("grading", fmt::format("d10 {:.4g} mm, d50 {:.4g} mm, d60 {:.4g} mm", diameter(0.1), diameter(0.5), diameter(0.6)));
   text += row("grain density", fmt::format("{:g} kg/m^3", specimen.density));
   text += row("rests under", fmt::format("{:.6g} MPa", specimen.stress * 1e-6));
-  if (specimen.axial_strain.value_or(0) != 0)
-    text += row("sheared", fmt::format("to an axial strain of {:.4g} %", *specimen.axial_strain * 100));
+  if (specimen.axial_strain != 0)
+    text += row("sheared", fmt::format("to an axial strain of {:.4g} %", specimen.axial_strain * 100));
   text += row("contacts", fmt::format("{}", specimen.contacts.size()));
   text += row("bonds", fmt::format("{}", bonds));
   if (specimen.critical_thickness > 0) text += row("h_max", fmt::format("{:.4g} um", specimen.critical_thickness * 1e6));
@@ -157,10 +157,7 @@ ExitCode info(InfoOptions const& options) {
     return print_result(snapshot_text(read_snapshot(file)));
   }
   if (is_checkpoint(file)) {
-    std::optional<std::string> const known = checkpoint_state_hash(file);
-    if (options.state_hash && !known)
-      throw FileProblem(ExitCode::bad_input, file, "is of an earlier version, whose state hash cannot be compared");
-    std::string const hash = known.value_or("that of an earlier version, not to be compared");
+    std::string const hash = checkpoint_state_hash(file);
     return print_result(options.state_hash ? hash + "\n"
                                            : fmt::format("{:<18} {}\n{:<18} {}\n", "checkpoint of",
                                                          file.parent_path().parent_path().string(), "state hash", hash));

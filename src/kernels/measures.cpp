@@ -1,6 +1,7 @@
 #include "kernels/measures.hpp"
 
 #include "kernels/exact_sum.hpp"
+#include "kernels/mix64.hpp"
 
 namespace clathra {
 
@@ -127,14 +128,7 @@ struct LossSums {
   }
 };
 
-KOKKOS_INLINE_FUNCTION std::uint64_t mix(std::uint64_t z) {  // the finaliser of SplitMix64
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, std::uint64_t word) {
-  return mix(hash * 0x9e3779b97f4a7c15ULL + word);
-}
+KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, std::uint64_t word) { return mix64(hash * golden_gamma + word); }
 KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, double value) { return chain(hash, detail::bits_of(value + 0.0)); }
 KOKKOS_INLINE_FUNCTION std::uint64_t chain(std::uint64_t hash, int value) {
   return chain(hash, static_cast<std::uint64_t>(value));

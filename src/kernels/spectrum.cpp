@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/mix64.hpp"
+
 namespace clathra {
 
 namespace {
@@ -15,9 +17,7 @@ struct RandomMotion {
   Motion u;
   KOKKOS_FUNCTION void operator()(int i) const {
     auto const draw = [&](std::uint64_t salt) {
-      std::uint64_t z = (static_cast<std::uint64_t>(p.id(i)) * 3 + salt) * 0x9e3779b97f4a7c15ULL;
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-      return static_cast<Real>(z >> 11) / 9007199254740992.0 - 0.5;
+      return unit_interval(mix64((static_cast<std::uint64_t>(p.id(i)) * 3 + salt) * golden_gamma)) - 0.5;
     };
     u.x(i) = draw(0);
     u.y(i) = draw(1);

@@ -137,16 +137,6 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   State& t = *state_;
   t.scene = scene;
   t.ranks = ranks;
-  // Checkpoints from before there were checks hold none.
-  auto const unless_there = [&](std::string const& name, auto const& value) {
-    state.numbers.emplace(name, static_cast<double>(value));
-  };
-  unless_there("began_quasi_static", state.preparation.at("quasi_static"));
-  t.watch.for_each_number(unless_there);
-  t.dilation.for_each_number(unless_there);
-  // Earlier ones had one step for all time, and counted records in steps.
-  bool const counted_in_steps = state.numbers.count("steps_per_record") > 0;
-  if (counted_in_steps) state.numbers.insert({{"records_due", 0}, {"record_interval", 0}, {"start_time", 0}});
   t.for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
   t.preparation = state.preparation;
@@ -155,11 +145,6 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   SimulationLaws laws = test_laws(scene, t.d50, state.simulation.numbers.at("critical_thickness"));
   laws.motion.damping = scene.run.damping;
   t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
-  if (!counted_in_steps) return;
-  Simulation const& s = *t.simulation;
-  t.record_interval = state.numbers.at("steps_per_record") * t.rate.strain_rate * s.time_step;
-  t.records_due = static_cast<std::int64_t>(t.eps1() / t.record_interval);
-  t.start_time = s.time() - static_cast<double>(s.steps() - t.first_step) * s.time_step;
 }
 
 StageRecord BiaxialTest::plan() const {

@@ -221,7 +221,7 @@ BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback
   if (!(specimen.d50 > 0)) specimen.d50 = diameter_finer(specimen.radius, 0.5, ranks);
   t.d50 = specimen.d50;
   (void)check_rate(scene, rate_numbers(scene, t.d50, specimen.height(), specimen.void_ratio));  // before the work
-  with_surroundings(t.simulation, t.d50, [&] { t.bond_and_consolidate(std::move(specimen), progress); });
+  with_snapshot_of_divergence(t.simulation, t.d50, [&] { t.bond_and_consolidate(std::move(specimen), progress); });
   t.begin_shear();
   if (scene.output.energy) t.start = energy();
 }
@@ -250,7 +250,7 @@ Specimen BiaxialTest::specimen() const {
 }
 
 bool BiaxialTest::advance(std::int64_t most_steps, double pause_at) {
-  return with_surroundings(state_->simulation, state_->d50, [&] { return advance_unobserved(most_steps, pause_at); });
+  return with_snapshot_of_divergence(state_->simulation, state_->d50, [&] { return advance_unobserved(most_steps, pause_at); });
 }
 
 bool BiaxialTest::advance_unobserved(std::int64_t most_steps, double pause_at) {

@@ -12,7 +12,7 @@ namespace clathra {
 /// Does a part of a test. Where it diverges the state around the disc, as far as 12 d50, is put into the exception. Collective.
 /// @param simulation  the one that steps, or null before there is one
 template <class Work>
-auto with_surroundings(std::unique_ptr<Simulation> const& simulation, double d50, Work const& work) {
+auto with_snapshot_of_divergence(std::unique_ptr<Simulation> const& simulation, double d50, Work const& work) {
   constexpr double distance = 12;
   try {
     return work();

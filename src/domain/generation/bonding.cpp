@@ -115,7 +115,7 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
   double const target = area_of_equation_4(scene, share);
   if (target <= 0) return 0;
   double low = 0, high = share.d50;  // a bond as thick as a grain is no bond any more
-  Specimen const s = with_surroundings(ranks, share, high);
+  Specimen const s = with_halo(ranks, share, high);
   auto const pairs = near_pairs(s, high, share.size());
   if (area_at(scene, s, pairs, high, ranks) < target) {
     throw Refused("bond.mode = 'areal_target': even bonds of thickness d50 hold less hydrate than the saturation " +
@@ -128,7 +128,7 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
   return 0.5 * (low + high);
 }
 
-Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double reach) {
+Specimen with_halo(Ranks const& ranks, Specimen const& share, double reach) {
   Specimen s;
   s.id = share.id;
   s.x = share.x;
@@ -196,7 +196,7 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   outcome.critical_thickness = critical_thickness(scene, share, ranks);
   outcome.target_area = area_of_equation_4(scene, share);
   if (!(outcome.critical_thickness > 0)) return outcome;
-  Specimen const s = with_surroundings(ranks, share, outcome.critical_thickness);
+  Specimen const s = with_halo(ranks, share, outcome.critical_thickness);
   ExactSum area(unit_of_area(s));
   BondLaw const law = make_bond_law(scene, share.d50, outcome.critical_thickness);
   std::vector<SpecimenContact> contacts;

@@ -23,7 +23,7 @@ std::vector<NearPair> near_pairs(Specimen const& specimen, double reach, std::si
 
 /// This rank's share of a specimen with the discs of other ranks behind it that lie within `reach` [m] (surface to surface) of
 /// any of its own: ids, positions and radii alone. The share must be spatially together, or everything comes.
-Specimen with_surroundings(Ranks const& ranks, Specimen const& share, double reach);
+Specimen with_halo(Ranks const& ranks, Specimen const& share, double reach);
 
 /// What bonding did.
 struct BondingOutcome {

@@ -64,11 +64,16 @@ void close_together(Simulation& simulation, Strains const& strains, WallStress c
   simulation.strain(strains.x, strains.y);
   if (simulation.periodic()) return;
   Loading& loading = simulation.loading();
-  // Slower than the stress passes through the smallest specimens: the walls must not undo what the strains do.
-  loading.servo.gain = 0.2;
-  loading.servo.integral_time = HUGE_VAL;
-  loading.x = AxisDrive::at_stress(stress_at_walls.x, loading.x.largest_speed);
-  loading.y = AxisDrive::at_stress(stress_at_walls.y, loading.y.largest_speed);
+  // In a small specimen the walls must not undo what the strains do; in a large one nothing else makes up for a difference
+  // between the stress at them and inside, which a wave needs long_way steps and more to even out.
+  constexpr double long_way = 1500, integral_steps = 2000;
+  Walls const& walls = simulation.walls();
+  bool const large = std::max(walls.width(), walls.height()) > long_way * wave_speed(simulation) * simulation.time_step;
+  loading.servo.gain = large ? 0.8 : 0.2;
+  loading.servo.integral_time = large ? integral_steps * simulation.time_step : HUGE_VAL;
+  if (!large) loading.x.integral = loading.y.integral = 0;
+  loading.x.target_stress = stress_at_walls.x;
+  loading.y.target_stress = stress_at_walls.y;
 }
 
 SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& friction, Grading const& grading) {

@@ -4,18 +4,15 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/mix64.hpp"
+
 namespace clathra {
 
 /// Uniform in [0, 1), keyed by (seed, stream, counter).
 inline double uniform_random(std::uint64_t seed, std::uint64_t stream, std::uint64_t counter) {
-  std::uint64_t z =
-      seed * 0x9e3779b97f4a7c15ULL + stream * 0xd1b54a32d192ed03ULL + counter * 0x8cb92ba72f3d8dd7ULL + 0x2545f4914f6cdd1dULL;
-  for (int round = 0; round < 2; ++round) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-  }
-  return static_cast<double>(z >> 11) * 0x1p-53;
+  std::uint64_t const key =
+      seed * golden_gamma + stream * 0xd1b54a32d192ed03ULL + counter * 0x8cb92ba72f3d8dd7ULL + 0x2545f4914f6cdd1dULL;
+  return unit_interval(mix64(mix64(key)));
 }
 
 /// Fisher-Yates shuffle keyed by (seed, stream).

@@ -161,41 +161,6 @@ DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxi
   return records;
 }
 
-namespace {
-
-/// Where each wanted column stands among the present ones.
-std::vector<std::size_t> places_of(std::vector<std::string> const& wanted, std::vector<std::string> const& present) {
-  std::vector<std::size_t> places;
-  for (std::string const& name : wanted) {
-    auto const at = std::find(present.begin(), present.end(), name);
-    if (at == present.end()) throw std::runtime_error("a checkpoint lacks the numbers '" + name + "' of its discs");
-    places.push_back(static_cast<std::size_t>(at - present.begin()));
-  }
-  return places;
-}
-
-}  // namespace
-
-DiscRecords with_columns(DiscRecords records, RecordColumns const& present, RecordColumns const& wanted) {
-  if (present == wanted) return records;
-  auto const discs = places_of(wanted.discs, present.discs), history = places_of(wanted.history, present.history);
-  DiscRecords fewer;
-  for (std::size_t k = 0; k < records.size(); ++k) {
-    double const* at = &records.numbers[records.begin[k]];
-    auto const length = static_cast<std::size_t>(at[1 + present.discs.size()]);
-    fewer.numbers.push_back(at[0]);
-    for (std::size_t const place : discs) fewer.numbers.push_back(at[1 + place]);
-    fewer.numbers.push_back(static_cast<double>(length));
-    at += 2 + present.discs.size();
-    for (std::size_t n = 0; n < length; ++n, at += 1 + present.history.size()) {
-      fewer.numbers.push_back(at[0]);
-      for (std::size_t const place : history) fewer.numbers.push_back(at[1 + place]);
-    }
-    fewer.begin.push_back(fewer.numbers.size());
-  }
-  return fewer;
-}
-
 ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures const& features, ParticleSoA& particles,
                          AuxiliaryFields const& auxiliary) {
   ContactRows rows;

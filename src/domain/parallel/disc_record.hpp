@@ -23,7 +23,5 @@ struct RecordColumns {
   std::vector<std::string> history;  ///< behind each neighbour's id
   bool operator==(RecordColumns const&) const = default;
 };
-/// Records of which only the columns `wanted` are left, in their order. @throws std::runtime_error where one is missing
-DiscRecords with_columns(DiscRecords records, RecordColumns const& present, RecordColumns const& wanted);
 
 }  // namespace clathra

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -52,7 +53,12 @@ void start_anew() {
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
-  if (!arguments.empty()) ::execv("/proc/self/exe", pointers.data());
+  if (arguments.empty()) return;
+  // By its own path `ps` and `pkill` know it by its name; the link is there even where the program was replaced meanwhile.
+  std::error_code ignored;
+  std::filesystem::path const own = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  if (!ignored) ::execv(own.c_str(), pointers.data());
+  ::execv("/proc/self/exe", pointers.data());
 }
 
 void keep_freed_memory() {

@@ -63,7 +63,7 @@ struct Specimen {
   double void_ratio = 0;                            ///< nominal: overlaps counted twice
   double critical_thickness = 0;                    ///< h_max of its bonds [m]; 0 = unbonded
   bool separate_bonds = false;                      ///< bonds made for `parallel`
-  std::optional<double> axial_strain = 0;           ///< natural, through which tests have sheared it; nothing: not known
+  double axial_strain = 0;                          ///< natural, through which tests have sheared it
   std::vector<int> id;                              ///< 0 .. N-1, in any order
   std::vector<double> x, y, angle, vx, vy, omega, radius;
   std::vector<SpecimenContact> contacts;

@@ -241,8 +241,6 @@ class Simulation {
   void require_places_told_apart() const;
   template <class Visit>
   void for_each_number(Visit&& visit);
-  template <class Visit>
-  void for_each_later_number(Visit&& visit);
   std::vector<SpecimenContact> contacts_by_id() const;
   bool log_lasts() const;  // until all bonds are broken
   void make_room_for_breaks();

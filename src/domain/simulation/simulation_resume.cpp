@@ -33,6 +33,18 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
   visit(name + "_largest_speed", drive.largest_speed);
 }
 
+/// How the time step follows the limit.
+template <class Following, class Visit>
+void visit_following(Following& following, Visit&& visit) {
+  visit("follows_limit", following.on);
+  visit("share_of_limit", following.share);
+  visit("time_step_ceiling", following.ceiling);
+  visit("time_step_leeway", following.leeway);
+  visit("time_step_before", following.last);
+  visit("time_step_age", following.age);
+  visit("time_step_due", following.due);
+}
+
 }  // namespace
 
 /// Visits every number of the whole: (name, double, integer, bool or enumeration).
@@ -67,20 +79,8 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("servo_gain", now_.loading.servo.gain);
   visit("servo_integral_time", now_.loading.servo.integral_time);
   visit("servo_contact_stiffness", now_.loading.servo.contact_stiffness);
-  for_each_later_number(visit);
-}
-
-/// Those that the first versions of checkpoints lack: they had one time step for all time, and no details of broken bonds.
-template <class Visit>
-void Simulation::for_each_later_number(Visit&& visit) {
   visit("added_mass", added_mass_);
-  visit("follows_limit", following_.on);
-  visit("share_of_limit", following_.share);
-  visit("time_step_ceiling", following_.ceiling);
-  visit("time_step_leeway", following_.leeway);
-  visit("time_step_before", following_.last);
-  visit("time_step_age", following_.age);
-  visit("time_step_due", following_.due);
+  visit_following(following_, visit);
   visit("time_step_renewals", renewals_);
   visit_walls("step_wall", now_.choice.box.walls, visit);
   visit("largest_deviator", now_.largest.q);
@@ -128,9 +128,6 @@ SimulationState Simulation::state() {
 
 Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks)
     : ranks_(std::move(ranks)), laws_(laws), laws_of_choice_(laws), faults_(make_faults()) {
-  state.numbers.emplace("keeps_break_events", 1);  // as those did that do not say so
-  for_each_later_number(
-      [&](std::string const& name, auto const& value) { state.numbers.emplace(name, static_cast<double>(value)); });
   for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
   set_sums();
@@ -140,14 +137,10 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   if (state.numbers.at("marked_start") != 0) mark_start();
   wall_contacts_.rough = laws_.wall.friction > 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_, scratch_);
-  AuxiliaryFields with_discs = with(auxiliary_fields(wall_shear), derived());
-  auto const& columns = state.disc_columns;
-  bool const one_skin = std::find(columns.begin(), columns.end(), "verlet_skin") == columns.end();
-  if (one_skin) with_discs.pop_back();  // the first checkpoints have none: it was half the skin for all
-  state.discs = with_columns(std::move(state.discs), {state.disc_columns, state.history_columns},
-                             record_columns(with_discs, rows_.features));
+  AuxiliaryFields const with_discs = with(auxiliary_fields(wall_shear), derived());
+  if (record_columns(with_discs, rows_.features) != RecordColumns{state.disc_columns, state.history_columns})
+    throw std::runtime_error("a checkpoint's discs have other numbers than its laws ask for");
   rows_ = unpack_discs(records_of_own_discs(std::move(state.discs)), rows_.features, particles_, with_discs);
-  if (one_skin) Kokkos::deep_copy(particles_.verlet_skin, skin_ / 2);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their skins.
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * (reach_ - 2 * largest_radius_));
   find_listed_neighbours();

@@ -1,9 +1,9 @@
 #pragma once
 /// What a simulation needs to go on to the bit: this rank's part of it, by value, for checkpoints.
 ///
-/// Numbers by name and columns by name instead of a struct of bytes: a state of an earlier version is read by asking for what
-/// there is. Forces and the places of the last neighbour search are part of it, although they follow from the rest: they follow
-/// from how it came about, and a search at another instant would sum in another order.
+/// Numbers and columns by name, so that a checkpoint says what it holds. Forces and the places of the last neighbour search are
+/// part of it, although they follow from the rest: they follow from how it came about, and a search at another instant would sum
+/// in another order.
 #include <map>
 #include <string>
 #include <vector>

@@ -39,7 +39,7 @@ void flush_folder(std::filesystem::path const& folder);
 /// How far a file of rows had been written at some moment.
 struct RowsWritten {
   std::uintmax_t bytes = 0;
-  std::string digest;  ///< of these bytes; empty where it was not kept
+  std::string digest;  ///< of these bytes; empty where there is no file
 };
 
 /// A new file that grows by whole rows. What has its name before is removed (a link is never followed).

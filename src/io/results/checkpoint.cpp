@@ -52,9 +52,12 @@ FoundCheckpoint checkpoint_of(Json const& content, std::filesystem::path const& 
   c.sequence = content.at("sequence").get<std::int64_t>();
   c.step = content.at("step").get<std::int64_t>();
   c.digest = content.at("digest_xxh3_128").get<std::string>();
-  // Manifests of earlier versions have no digests of the rows.
-  c.progress.history = {content.at("history_bytes").get<std::uintmax_t>(), content.value("history_digest_xxh3_128", "")};
-  c.progress.events = {content.at("events_bytes").get<std::uintmax_t>(), content.value("events_digest_xxh3_128", "")};
+  auto const rows_of = [&](std::string const& table) {
+    return RowsWritten{content.at(table + "_bytes").get<std::uintmax_t>(),
+                       content.at(table + "_digest_xxh3_128").get<std::string>()};
+  };
+  c.progress.history = rows_of("history");
+  c.progress.events = rows_of("events");
   for (Json const& e : content.at("snapshots"))
     c.progress.snapshots.push_back({e.at("file").get<std::string>(), e.at("step").get<std::int64_t>(), e.at("eps1").get<double>(),
                                     e.at("discs").get<std::size_t>(), e.at("pairs").get<std::size_t>()});
@@ -72,8 +75,8 @@ FoundCheckpoint read_manifest(std::filesystem::path const& run_folder, int gener
     if (whole.at("format").get<std::string>() != manifest_format) throw bad("is no manifest of a checkpoint");
     Json const& content = whole.at("content");
     if (text_digest(content.dump()) != whole.at("content_digest_xxh3_128").get<std::string>()) throw bad("is damaged");
-    if (auto const version = content.at("version").get<std::int64_t>(); version < 1 || version > checkpoint_version)
-      throw bad(fmt::format("has version {}, this program reads 1 to {}", version, checkpoint_version));
+    if (auto const version = content.at("version").get<std::int64_t>(); version != checkpoint_version)
+      throw bad(fmt::format("has version {}, this program reads {}", version, checkpoint_version));
     bytes = content.at("bytes").get<std::uintmax_t>();
     c = checkpoint_of(content, run_folder, generation);
   } catch (Json::exception const&) {
@@ -200,7 +203,7 @@ FoundCheckpoints find_checkpoints(std::filesystem::path const& run_folder, Ranks
 
 void require_rows(std::filesystem::path const& run_folder, RunProgress const& progress) {
   for (auto const& [name, rows] : {std::pair{"history.csv", progress.history}, std::pair{"events.csv", progress.events}}) {
-    if (rows.digest.empty()) continue;
+    if (rows.digest.empty()) continue;  // there is no such table, as events.csv where nothing is bonded
     std::filesystem::path const file = run_folder / name;
     if (std::string const now = file_digest(file, rows.bytes); now != rows.digest)
       throw FileProblem(ExitCode::bad_input, file,

@@ -71,9 +71,8 @@ void require_rows(std::filesystem::path const& run_folder, RunProgress const& pr
 /// with the keys that differ
 TestState read_checkpoint(FoundCheckpoint const& checkpoint, Scene const& scene, Ranks const& ranks);
 
-/// The state hash that a checkpoint says it has; nothing where an earlier version wrote it, whose hash left fields out.
-/// @throws FileProblem
-std::optional<std::string> checkpoint_state_hash(std::filesystem::path const& file);
+/// The state hash that a checkpoint says it has.
+std::string checkpoint_state_hash(std::filesystem::path const& file);
 /// Whether an HDF5 file says that it is a checkpoint.
 bool is_checkpoint(std::filesystem::path const& file);
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/formats/former_names.hpp"
 #include "io/results/checkpoint.hpp"
 #include "io/results/event_columns.hpp"
 #include "io/results/run_record.hpp"
@@ -187,8 +186,8 @@ void write_checkpoint_content(std::filesystem::path const& path, Scene const& sc
 TestState read_checkpoint_content(std::filesystem::path const& path, Scene const& scene, Ranks const& ranks) {
   Hdf5File const file = Hdf5File::open(path);
   if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a checkpoint of Clathra");
-  if (std::int64_t const version = file.integer_attribute("version"); version < 1 || version > checkpoint_version)
-    file.fail(ExitCode::refused, fmt::format("has version {}, this program reads 1 to {}", version, checkpoint_version));
+  if (std::int64_t const version = file.integer_attribute("version"); version != checkpoint_version)
+    file.fail(ExitCode::refused, fmt::format("has version {}, this program reads {}", version, checkpoint_version));
   if (std::string const precision = file.text_attribute("precision"); precision != "double")
     file.fail(ExitCode::refused, fmt::format("has precision {}, this program computes in double", precision));
   Json const about = Json::parse(file.read_text("about"), nullptr, false);
@@ -208,18 +207,10 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   }
   read_records(file, state.simulation, ranks);
   read_events(file, state, ranks);
-  for (auto* names : {&state.simulation.disc_columns, &state.simulation.history_columns})
-    for (std::string& name : *names) name = present_name(name);
-  for (auto const& [name, value] : std::map(state.numbers)) state.numbers.emplace(present_name(name), value);
   return state;
 }
 
-std::optional<std::string> checkpoint_state_hash(std::filesystem::path const& path) {
-  Hdf5File const file = Hdf5File::open(path);
-  constexpr std::int64_t first_with_hash_of_all_fields = 4;
-  if (file.integer_attribute("version") < first_with_hash_of_all_fields) return std::nullopt;
-  return file.text_attribute("state_hash");
-}
+std::string checkpoint_state_hash(std::filesystem::path const& path) { return Hdf5File::open(path).text_attribute("state_hash"); }
 
 bool is_checkpoint(std::filesystem::path const& path) {
   Hdf5File const file = Hdf5File::open(path);

@@ -9,7 +9,6 @@
 #include "domain/scene/csv_rows.hpp"
 #include "domain/scene/units.hpp"
 #include "io/errors/problems.hpp"
-#include "io/formats/former_names.hpp"
 
 namespace clathra {
 namespace {
@@ -49,20 +48,13 @@ struct Parse {
   }
 };
 
-std::vector<std::string> present_names(std::vector<std::string_view> const& header) {
-  std::vector<std::string> names;
-  for (std::string_view const name : header) names.push_back(present_name(name));
-  return names;
-}
-
-/// @throws FileProblem where a column is missing without which a run cannot go on: all but those that earlier versions did not
-/// write
+/// @throws FileProblem where a column of the record is missing
 void require_columns(std::vector<std::string> const& columns, std::filesystem::path const& path) {
   Names wanted;
   HistoryRow const row;
   for_each_column(row, wanted);
   for (std::string const& name : wanted.columns)
-    if (name != "mechanical_coordination" && std::count(columns.begin(), columns.end(), name) == 0)
+    if (std::count(columns.begin(), columns.end(), name) == 0)
       throw FileProblem(ExitCode::bad_input, path, fmt::format("line 1: there is no column {}", name));
 }
 
@@ -75,7 +67,7 @@ std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::u
   bool ledger = false;
   for (CsvRows rows(text); rows.next();) {
     if (rows.line() == 1) {
-      columns = present_names(rows.cells());
+      columns.assign(rows.cells().begin(), rows.cells().end());
       require_columns(columns, path);
       ledger = std::count(columns.begin(), columns.end(), "boundary_work_J") > 0;
       continue;
@@ -109,7 +101,7 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::uintmax_t bytes) : fil
   std::string const text = read_text_file(path, bytes);
   CsvRows header(text);
   if (!header.next()) throw FileProblem(ExitCode::bad_input, path, "line 1: there are no names of columns");
-  columns_ = present_names(header.cells());
+  columns_.assign(header.cells().begin(), header.cells().end());
 }
 
 void HistoryFile::write(HistoryRow const& row) {

@@ -14,8 +14,7 @@ class HistoryFile {
   /// Writes the header. @param energy  the columns of the energy ledger follow those of the record
   /// @throws FileProblem cannot_create or io_error
   HistoryFile(std::filesystem::path path, bool energy);
-  /// Goes on with the file behind its first `bytes`, with the columns that it has: a table that an earlier version began keeps
-  /// its names and has none of the columns that came later. @throws FileProblem
+  /// Goes on with the file behind its first `bytes`, with the columns that it has. @throws FileProblem
   HistoryFile(std::filesystem::path path, std::uintmax_t bytes);
 
   /// One row, one write. @throws FileProblem io_error
@@ -26,7 +25,7 @@ class HistoryFile {
 
  private:
   RowFile file_;
-  std::vector<std::string> columns_;  // by their names of today
+  std::vector<std::string> columns_;
 };
 
 /// A row and, with the ledger, its energies.

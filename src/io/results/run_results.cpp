@@ -10,7 +10,6 @@
 #include "domain/measurement/history_row.hpp"
 #include "domain/scene/csv_rows.hpp"
 #include "domain/scene/units.hpp"
-#include "io/formats/former_names.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/snapshot_file.hpp"
 
@@ -104,7 +103,7 @@ HistoryTable::HistoryTable(std::filesystem::path const& path) {
   for (CsvRows rows(text); rows.next();) {
     std::vector<std::string_view> const& cells = rows.cells();
     if (rows.line() == 1) {
-      for (std::string_view const cell : cells) names.push_back(present_name(cell));
+      for (std::string_view const cell : cells) names.emplace_back(cell);
       known = known_columns(names, path);
       require_essentials(names, path);
       continue;

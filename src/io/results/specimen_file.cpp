@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "domain/parallel/redistribution.hpp"
 #include "io/errors/rank_errors.hpp"
-#include "io/formats/former_names.hpp"
 #include "io/formats/hdf5_file.hpp"
 #include "io/results/specimen_check.hpp"
 
@@ -21,9 +19,7 @@ namespace clathra {
 namespace {
 
 constexpr char format_name[] = "clathra specimen";
-constexpr std::int64_t format_version = 2;  // 1 knew nothing of the strain and of what bonds are made of; it is read, too
-
-constexpr double not_known = -1;  // an axial strain
+constexpr std::int64_t format_version = 2;
 
 constexpr double of_the_discs = std::numeric_limits<double>::quiet_NaN();
 
@@ -59,7 +55,7 @@ void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks)
   file.set_attribute("contacts", total(specimen.contacts.size()));
   file.set_attribute("periodic", std::int64_t{specimen.periodic});
   file.set_attribute("separate_bonds", std::int64_t{specimen.separate_bonds});
-  file.set_attribute("axial_strain", specimen.axial_strain.value_or(not_known), "");
+  file.set_attribute("axial_strain", specimen.axial_strain, "");
   for (SpecimenNumber const& number : specimen_numbers) file.set_attribute(number.name, specimen.*number.of, number.unit);
   file.write_text("provenance", specimen.provenance);
   file.write("particles/id", specimen.id, "");
@@ -143,9 +139,9 @@ void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   part.contacts.resize(id_a.size());
   for (std::size_t i = 0; i < id_a.size(); ++i) part.contacts[i].id_a = id_a[i], part.contacts[i].id_b = id_b[i];
   for (ContactNumber const& number : contact_numbers) {
-    std::string const name = std::string("contacts/") + number.name, before = "contacts/" + former_name(number.name);
-    if (!file.has(name) && !file.has(before)) continue;
-    std::vector<double> const column = file.read<double>(file.has(name) ? name : before, rows);
+    std::string const name = std::string("contacts/") + number.name;
+    if (!file.has(name)) continue;
+    std::vector<double> const column = file.read<double>(name, rows);
     for (std::size_t i = 0; i < column.size(); ++i) part.contacts[i].*number.of = column[i];
   }
 }
@@ -183,14 +179,11 @@ std::int64_t read_count(Hdf5File const& file, char const* attribute, std::string
   return file.has(column) ? static_cast<std::int64_t>(file.rows_of(column)) : 0;
 }
 
-/// A file of version 1 tells only of a specimen that was just generated that nobody has sheared it.
-std::optional<double> axial_strain_of(Hdf5File const& file, std::int64_t version, std::string const& provenance) {
-  if (version == 1)
-    return nlohmann::json::parse(provenance, nullptr, false).contains("generate") ? std::optional(0.0) : std::nullopt;
+double axial_strain_of(Hdf5File const& file) {
   if (!file.has_attribute("axial_strain")) return 0;
   double const strain = file.double_attribute("axial_strain");
   if (!std::isfinite(strain)) file.fail(ExitCode::bad_input, "axial_strain is not a finite number");
-  return strain == not_known ? std::nullopt : std::optional(strain);
+  return strain;
 }
 
 /// This rank's rows of a specimen file, checked as far as they can be without the others'.
@@ -199,15 +192,14 @@ Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std
   if (file.has_attribute("format") && file.text_attribute("format") != format_name)
     file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
   require_complete(file);
-  std::int64_t const version = file.integer_attribute("version");
-  if (version < 1 || version > format_version)
-    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads 1 to {}", version, format_version));
+  if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
+    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
   Specimen part;
   for (SpecimenNumber const& number : specimen_numbers) part.*number.of = read_number(file, number);
   part.periodic = read_switch(file, "periodic");
   part.separate_bonds = read_switch(file, "separate_bonds");
   if (file.has("provenance")) part.provenance = file.read_text("provenance");
-  part.axial_strain = axial_strain_of(file, version, part.provenance);
+  part.axial_strain = axial_strain_of(file);
   discs = read_count(file, "particles", path_of(particle_columns[0]));
   std::int64_t const contacts = read_count(file, "contacts", "contacts/id_a");
   if (discs < 0 || discs > 1'000'000'000 || contacts < 0 || contacts > 10'000'000'000)

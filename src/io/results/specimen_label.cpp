@@ -203,13 +203,11 @@ std::vector<std::string> compare_with_scene(std::filesystem::path const& file, S
         fmt::format("{}: says nothing of what its bonds are made of but h_max = {}; bond.law, bond.coefficients, "
                     "bond.moment_scale and hydrate are those of the scene",
                     file.string(), micrometres(specimen.critical_thickness)));
-  if (!specimen.axial_strain)
-    warnings.push_back(file.string() + ": does not say whether it was sheared (an earlier version wrote it)");
-  else if (*specimen.axial_strain != 0)
+  if (specimen.axial_strain != 0)
     warnings.push_back(
         fmt::format("{}: was sheared already, to an axial strain of {:.4g} %: it is consolidated and sheared from "
                     "there",
-                    file.string(), *specimen.axial_strain * 100));
+                    file.string(), specimen.axial_strain * 100));
   return warnings;
 }
 
