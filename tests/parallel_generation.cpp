@@ -14,6 +14,7 @@
 #include "domain/generation/loose_discs.hpp"
 #include "domain/generation/packing.hpp"
 #include "domain/scene/sample_design.hpp"
+#include "scenes.hpp"
 
 namespace clathra {
 namespace {
@@ -189,6 +190,21 @@ TEST(UnderCompaction, GoesSlowerWhereALargeDiscCrushesASmallOne) {
   EXPECT_NEAR(made.specimen.void_ratio, 0.2, 0.001);
   EXPECT_NEAR(predict(scene).at("generation_disc_steps") / made.record.at("disc_steps"), 1, 0.5) << "knows how wide the curve is";
   fs::remove(curve);
+}
+
+TEST(Layers, AreStrainedAboveTheirFloorAlone) {
+  Specimen const before = disordered_patch(6, 6);
+  Simulation simulation(before, {}, 0.1 * grain_d50);
+  double const floor = 0.5 * (before.bottom + before.top), strain = 1e-3;
+  simulation.strain_above(floor, strain);
+  Specimen const after = simulation.specimen();
+  auto const strained = [&](double y) { return y < floor ? y : floor + (1 - strain) * (y - floor); };
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_EQ(after.x[i], before.x[i]);
+    EXPECT_NEAR(after.y[i], strained(before.y[i]), 1e-12 * before.top) << i;
+  }
+  EXPECT_EQ(after.bottom, before.bottom);
+  EXPECT_NEAR(after.top, strained(before.top), 1e-12 * before.top);
 }
 
 /// Patches of a wide layer side by side: no overlap across their seams, and no gap along them either.

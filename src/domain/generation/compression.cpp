@@ -40,20 +40,10 @@ class Compression {
 
   /// @throws VoidRatioMissed, Refused
   PackedSpecimen run(Specimen const& loose) {
-    // In a small specimen some discs may jam by chance; another rate is another chance.
-    constexpr int most_paths = 4;
-    for (int path = 1;; ++path) {
-      try {
-        slowness_ = path;
-        return close_and_rest(loose);
-      } catch (VoidRatioMissed const& missed) {
-        if (path == most_paths || !missed.denser) throw;
-      } catch (Refused const&) {  // does not come to rest
-        if (path == most_paths) throw;
-      } catch (Diverged const&) {  // a large disc has crushed a small one
-        if (path == most_paths) throw;
-      }
-    }
+    return slower_where_it_fails([&](int slowness) {
+      slowness_ = slowness;
+      return close_and_rest(loose);
+    });
   }
 
  private:

@@ -25,6 +25,25 @@ struct VoidRatioMissed : Refused {
   bool denser;     ///< the wanted one is
 };
 
+/// make(1), or where that fails by chance make(2), make(3), make(4), which have to divide their rates by the number: in a small
+/// specimen some discs may jam, a large disc may crush a small one against another on its way, and at another rate they may not.
+/// @throws what the last one does;  VoidRatioMissed at once where the grains hold nothing as loose
+template <class Make>
+auto slower_where_it_fails(Make const& make) {
+  constexpr int most_attempts = 4;
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return make(attempt);
+    } catch (VoidRatioMissed const& missed) {
+      if (attempt == most_attempts || !missed.denser) throw;
+    } catch (Refused const&) {  // did not come to rest
+      if (attempt == most_attempts) throw;
+    } catch (Diverged const&) {
+      if (attempt == most_attempts) throw;
+    }
+  }
+}
+
 /// Strains box and discs together from a loose state, first by the height alone, until the discs are about to jam, then from all
 /// sides; the friction is lowered where the stress inside exceeds that of the design and raised where it falls short, so that the
 /// assembly yields everywhere alike. A periodic cell closes from all sides throughout. Most of the way the grains are soft. Then

@@ -53,19 +53,6 @@ void compact(Simulation& simulation, LayerClosing const& layer, Progress const& 
   }
 }
 
-/// make(1), or where that diverges make(2), make(3), make(4), which have to divide their speeds by the number. @throws Diverged
-template <class Make>
-auto slower_where_it_diverges(Make const& make) {
-  constexpr int most_attempts = 4;
-  for (int attempt = 1; attempt < most_attempts; ++attempt) {
-    try {
-      return make(attempt);
-    } catch (Diverged const&) {  // the last attempt's goes to the caller
-    }
-  }
-  return make(most_attempts);
-}
-
 /// All discs in layers, each compacted to its own void ratio of Jiang's rule on those below it; unjammed and without motion.
 /// @param slowness  divides the rates;  @param counted  gets the disc-steps of all layers
 Specimen compacted_layers(Scene const& scene, SampleDesign const& design, SimulationLaws const& laws, double slowness,
@@ -111,9 +98,8 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   GenerationFriction friction = generation_friction(design.void_ratio);
   friction.share = share_in_layers;
   SimulationLaws const laws = flowing_laws(generation_laws(scene, friction), scene.bond.stress, design.grading);
-  // A large disc on its way may crush a small one against another: then all go slower.
-  Specimen const layers = slower_where_it_diverges(
-      [&](int attempt) { return compacted_layers(scene, design, laws, attempt, counted, of_layers, ranks); });
+  Specimen const layers = slower_where_it_fails(
+      [&](int slowness) { return compacted_layers(scene, design, laws, slowness, counted, of_layers, ranks); });
   PackedSpecimen packed = compress(layers, scene, design, counted, ranks);
   packed.disc_steps += of_layers;
   return packed;

@@ -1,7 +1,6 @@
 #include "domain/parallel/disc_packing.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <type_traits>
 
 namespace clathra {

@@ -5,7 +5,6 @@
 /// who, so that a file, a permutation and the shares of ranks mean the same.
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <vector>
 
