@@ -81,5 +81,18 @@ TEST_F(Threads, HaveAllCoresWhereTheUserBindsThem) {
 }
 #endif
 
+/// By which `ps` shows it: a program that starts itself through /proc is called "exe" there.
+TEST(StartedAnew, TheProgramKeepsItsName) {
+  fs::path const none = fs::temp_directory_path() / ("clathra_named_" + std::to_string(::getpid()) + ".h5");
+  CommandResult const named = run_clathra(
+      "--version > /dev/null; env -u GLIBC_TUNABLES " CLATHRA_BINARY " generate " CLATHRA_EXAMPLES "/sand.toml -o '" +
+      none.string() +
+      "' > /dev/null 2>&1 & pid=$!; "
+      "for n in $(seq 200); do grep -qz ^GLIBC_TUNABLES= /proc/$pid/environ && break; sleep 0.005; done; cat /proc/$pid/comm; "
+      "kill $pid; wait");
+  EXPECT_EQ(named.output, "clathra\n");
+  EXPECT_FALSE(fs::exists(none)) << "told to stop";
+}
+
 }  // namespace
 }  // namespace clathra

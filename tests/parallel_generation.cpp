@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "domain/biaxial/scene_cost.hpp"
+#include "domain/generation/compression.hpp"
 #include "domain/generation/generation.hpp"
 #include "domain/generation/loose_discs.hpp"
 #include "domain/generation/packing.hpp"
@@ -179,8 +180,27 @@ TEST(Sizes, OfAGapGradedSandMakeASpecimen) {
   EXPECT_NEAR(packed.specimen.void_ratio, 0.2, 0.001);
 }
 
-/// With this seed a large disc crushed a small one against another on the way down, at the usual speed.
-TEST(UnderCompaction, GoesSlowerWhereALargeDiscCrushesASmallOne) {
+/// What diverges, jams too loose or does not rest is tried at lower rates; grains that hold nothing as loose are not.
+TEST(SlowerWhereItFails, TriesFourTimesWhatMayFailByChance) {
+  int last = 0;
+  auto const failing_until = [&](int success, auto const& failure) {
+    return [&last, success, failure](int slowness) {
+      last = slowness;
+      if (slowness < success) throw failure;
+      return 10 * slowness;
+    };
+  };
+  EXPECT_EQ(slower_where_it_fails(failing_until(3, Diverged("crushed"))), 30);
+  EXPECT_EQ(slower_where_it_fails(failing_until(4, Refused("no rest"))), 40);
+  EXPECT_EQ(slower_where_it_fails(failing_until(2, VoidRatioMissed("jammed", 0.3, true))), 20);
+  EXPECT_THROW(slower_where_it_fails(failing_until(5, Diverged("crushed"))), Diverged);
+  EXPECT_EQ(last, 4);
+  EXPECT_THROW(slower_where_it_fails(failing_until(2, VoidRatioMissed("too loose", 0.2, false))), VoidRatioMissed);
+  EXPECT_EQ(last, 1);
+}
+
+/// With this seed a large disc crushed a small one against another when a wall compacted the layers.
+TEST(UnderCompaction, OfAGapGradedSandMakesASpecimen) {
   fs::path const curve = fs::temp_directory_path() / ("clathra_crushed_" + std::to_string(::getpid()) + ".csv");
   std::ofstream(curve) << "d_mm,percent_finer\n0.42,0\n0.50,35\n2.08,35\n2.40,100\n";
   Scene scene = scene_of(Generator::under_compaction, 0.2, 300);
