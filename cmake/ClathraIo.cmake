@@ -29,7 +29,7 @@ endif()
 
 # For the small linear algebra and the statistics of domain/measurement. No header shows them, so what is installed does not need
 # them; without vectors of its own Eigen's results are the same on all processors. Boost.Math is headers only.
-set(clathra_measurement_sources "fabric|principal_axes|strain_field|grain_strain|strength_fit|paired_strength|claims|confidence|setting_error|setting_search")
+set(clathra_measurement_sources "fabric|principal_axes|strain_field|grain_strain|strength_fit|paired_strength|claims|confidence")
 if(Eigen3_FOUND AND Boost_FOUND)
   set(CLATHRA_MEASUREMENT ON)
   add_library(clathra_measurement_libraries INTERFACE)

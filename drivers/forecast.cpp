@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "available_memory.hpp"
-#include "domain/biaxial/expected_error.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/sample_design.hpp"
+#include "expected_error.hpp"
 #include "progress_line.hpp"
 #include "threads.hpp"
 

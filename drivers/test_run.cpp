@@ -266,17 +266,17 @@ class TestRun::Running {
     constexpr double poll_interval = 0.25;  // [s]
     double const now = wall_.seconds();
     bool const due = limits_.checkpoint_every > 0 && now - last_checkpoint_ > limits_.checkpoint_every;
-    double wish[] = {now - last_glance_, due ? 1.0 : 0.0, interrupted() ? 1.0 : 0.0,
-                     limits_.most_seconds > 0 && now > limits_.most_seconds ? 1.0 : 0.0};
-    ranks_.max(wish, 4);
+    double request[] = {now - last_glance_, due ? 1.0 : 0.0, interrupted() ? 1.0 : 0.0,
+                        limits_.most_seconds > 0 && now > limits_.most_seconds ? 1.0 : 0.0};
+    ranks_.max(request, 4);
     last_glance_ = now;
     // A record that is due cuts a stretch short: it says little of the pace.
     constexpr double most = 100000;
-    pace_ = std::llround(std::clamp(static_cast<double>(pace_) * poll_interval / std::max(wish[0], 1e-6), 1.0,
+    pace_ = std::llround(std::clamp(static_cast<double>(pace_) * poll_interval / std::max(request[0], 1e-6), 1.0,
                                     std::min(4.0 * static_cast<double>(pace_), most)));
-    bool const stop = wish[2] + wish[3] > 0 && !test.finished();
-    if (stop || wish[1] > 0) write_checkpoint(test);
-    if (stop) throw Stopped(wish[2] > 0 ? "by a signal" : "as its wall time is over");
+    bool const stop = request[2] + request[3] > 0 && !test.finished();
+    if (stop || request[1] > 0) write_checkpoint(test);
+    if (stop) throw Stopped(request[2] > 0 ? "by a signal" : "as its wall time is over");
   }
 
   void write_checkpoint(BiaxialTest& test) {

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double ladder_rates[] = {3e-3, 1e-3, 3e-4, 1e-4, 3e-5};
 
-/// Keys that the rungs set themselves.
+/// Keys that the levels set themselves.
 constexpr std::string_view tuned_keys[] = {"test.inertial_number", "test.strain_rate", "test.wave_number",    "run.precision",
                                            "run.dt_safety",        "run.accuracy",     "run.inertia_scaling", "run.mass_scaling"};
 
-/// Keys of the command line that no rung takes: each has its own.
+/// Keys of the command line that no level takes: each has its own.
 constexpr std::string_view own_keys[] = {"run.seed", "run.threads", "output.folder"};
 
 bool is_one_of(std::string_view text, std::span<std::string_view const> keys) {
@@ -61,7 +61,7 @@ std::vector<Setting> keys_of_rung(TuneSetting const& s) {
           {"run.mass_scaling", share_text(s.mass_scaling)}};
 }
 
-/// The size of a rung: that of the scene, in smaller.
+/// The size of a level: that of the scene, in smaller.
 std::vector<std::string> sample_of_rung(Scene const& scene, SampleDesign const& design, std::int64_t discs) {
   double const smaller = std::sqrt(static_cast<double>(discs) / static_cast<double>(design.particles));
   std::vector<std::string> overrides = {"sample.generator=under_compaction",
@@ -74,7 +74,7 @@ std::vector<std::string> sample_of_rung(Scene const& scene, SampleDesign const& 
   return overrides;
 }
 
-/// Of a rung whose narrower side has grains enough across.
+/// Of a level whose narrower side has grains enough across.
 std::int64_t fewest_discs(SampleDesign const& design) {
   double const side = std::min(design.width, design.height),
                share = std::pow(fewest_grains_across * design.grading.largest() / side, 2);
@@ -138,7 +138,7 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
   plan.goal = goal;
   Scene const& base = plan.base.scene;
   if (base.sample.generator == Generator::file)
-    throw Refused("rungs need specimens of several seeds: a specimen from a file (sample.generator) is one only");
+    throw Refused("tune needs specimens of several seeds: a specimen from a file (sample.generator) is one only");
   SampleDesign const design = design_sample(base);
   discs = std::max(discs, fewest_discs(design));
   plan.reduced = discs < design.particles;

@@ -34,7 +34,7 @@ std::string verdict_text(SettingSearch const& search, std::size_t setting, doubl
   return "";
 }
 
-/// A larger scene has another W than its rungs.
+/// A larger scene has another W than its levels.
 std::string as_it_stands_text(TunePlan const& plan) {
   double const own = predict(plan.base.scene).at("wave_number");
   return plan.reduced ? fmt::format("as it stands, there with a W of {:.2g}", own) : "as it stands";
@@ -74,7 +74,7 @@ std::string measured_text(TunePlan const& plan, SettingError const& error) {
 
 std::string tune_table(TunePlan const& plan, SettingSearch const& search, std::vector<std::string> const& failures) {
   std::string text =
-      fmt::format("{}: error of {}, rungs of {} discs\n", plan.study.study.scene.string(), plan.goal.quantity, plan.discs);
+      fmt::format("{}: error of {}, tests of {} discs\n", plan.study.study.scene.string(), plan.goal.quantity, plan.discs);
   text += fmt::format("  {:<8} {:<6} {:<7} {:<6} {:<10} {:>5}  {:>14}  {:>7}\n", "I", "W", "numbers", "step", "inertia", "seeds",
                       "error [%]", "cost");
   for (std::size_t i = 0; i < plan.settings.size(); ++i)

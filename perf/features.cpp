@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "domain/biaxial/throughput.hpp"
 #include "domain/parallel/host_memory.hpp"
+#include "throughput/throughput.hpp"
 
 namespace {
 
@@ -43,7 +43,7 @@ void with_laws(Simulation& s, std::function<void(SimulationLaws&)> const& change
   SimulationLaws laws = s.laws();
   change(laws);
   s.set_laws(laws);
-  s.request_rebuild();
+  s.request_search();
 }
 
 struct Feature {

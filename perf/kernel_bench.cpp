@@ -5,10 +5,10 @@
 #include <map>
 #include <memory>
 
-#include "domain/biaxial/throughput.hpp"
 #include "domain/parallel/host_memory.hpp"
 #include "kernels/integrate.hpp"
 #include "kernels/measures.hpp"
+#include "throughput/throughput.hpp"
 
 namespace {
 
@@ -47,7 +47,7 @@ void measure_call(benchmark::State& state, Call const& call) {
 void contact_forces(benchmark::State& state) {
   Faults const faults = make_faults();
   measure_call(state, [&](Simulation& s) {
-    compute_forces(s.particles(), s.rows(), s.laws().contact, 0, 0, BreakLog(), EnergyLosses(), faults);
+    compute_forces(s.particles(), s.rows(), s.laws().contact, 0, 0, BreakLog(), Dissipation(), faults);
     Kokkos::fence();
   });
 }
@@ -58,15 +58,15 @@ void kick_and_drift(benchmark::State& state) {
   StepState const start;
   measure_call(state, [&](Simulation& s) {
     steps.set(start);
-    integrate(s.particles(), s.laws().motion, {0, 0}, EnergyLosses(), faults, steps);
-    benchmark::DoNotOptimize(steps.get().displacement);
+    integrate(s.particles(), s.laws().motion, {0, 0}, Dissipation(), faults, steps);
+    benchmark::DoNotOptimize(steps.get().step_displacement);
   });
 }
 
 /// Sorting, binning and filling of the rows, and one evaluation of the forces.
 void neighbour_search(benchmark::State& state) {
   measure_call(state, [](Simulation& s) {
-    s.request_rebuild();
+    s.request_search();
     s.evaluate_forces();
     Kokkos::fence();
   });

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/biaxial/throughput.hpp"
 #include "domain/parallel/host_memory.hpp"
 #include "kernels/phases.hpp"
+#include "throughput/throughput.hpp"
 
 namespace {
 

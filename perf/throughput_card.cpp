@@ -1,6 +1,6 @@
 /// The table of `clathra bench --card`, of kernels and domain alone: for machines without the libraries of files, like GPU nodes.
 ///   throughput_card [--case rolling|bonded|breaking] [--most-discs N] [--seconds S]
-#include "domain/biaxial/throughput_card.hpp"
+#include "throughput/throughput_card.hpp"
 
 #include <algorithm>
 #include <cstdio>

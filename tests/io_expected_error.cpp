@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "domain/biaxial/expected_error.hpp"
+#include "expected_error.hpp"
 
 namespace clathra {
 namespace {

@@ -39,7 +39,7 @@ TEST_F(TuneCommand, WritesASceneWithTheCheapestSettingThatIsWithinTheTolerance) 
   ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
   CommandResult const result = tune("--tolerance 60% --quantity peak_q --budget 10min");
   ASSERT_EQ(result.code, 0) << result.output;
-  EXPECT_NE(result.output.find("mine.toml: error of peak_q_Pa, rungs of 300 discs\n"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("mine.toml: error of peak_q_Pa, tests of 300 discs\n"), std::string::npos) << result.output;
   EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.003 +\\S+ +double  0\\.475  x1 +[5-9] +[+-]\\S+ ± ")))
       << result.output;
   EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.0002 +\\S+ +mixed   usual  x3 .* 1  \\S+, as it stands\n")))
@@ -82,7 +82,7 @@ TEST_F(TuneCommand, SaysSoWhereTheBudgetDoesNotTellAndWritesNothing) {
   EXPECT_FALSE(fs::exists(tuned));
 }
 
-/// 20,000 discs, six of the largest grains high: a rung of 60 would be two high.
+/// 20,000 discs, six of the largest grains high: a level of 60 would be two high.
 TEST_F(TuneCommand, GivesFlatSpecimensRungsOfEnoughGrainsAcross) {
   std::ofstream(scene) << "[sample]\nwidth = \"210 mm\"\nheight = \"1.81 mm\"\nvoid_ratio = 0.26\nlayers = 2\n[test]\n"
                           "axial_strain = \"0.2 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
@@ -101,7 +101,7 @@ TEST_F(TuneCommand, RefusesWhatItCannotTune) {
   EXPECT_EQ(tune("--budget soon").code, 64);
   CommandResult const file = tune("--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen.h5");
   EXPECT_EQ(file.code, 77);
-  EXPECT_NE(file.output.find("rungs need specimens of several seeds"), std::string::npos) << file.output;
+  EXPECT_NE(file.output.find("tune needs specimens of several seeds"), std::string::npos) << file.output;
   EXPECT_EQ(run_clathra("tune '" + (folder / "none.toml").string() + "'").code, 66);
 }
 

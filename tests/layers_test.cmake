@@ -120,7 +120,8 @@ set(knows_kokkos
     drivers/verbs/bench.cpp)
 
 function(check_thin)
-  file(GLOB_RECURSE sources RELATIVE ${SOURCE} ${SOURCE}/src/*.hpp ${SOURCE}/src/io/*.cpp ${SOURCE}/drivers/*.hpp ${SOURCE}/drivers/*.cpp)
+  file(GLOB_RECURSE sources RELATIVE ${SOURCE} ${SOURCE}/src/*.hpp ${SOURCE}/src/io/*.cpp ${SOURCE}/drivers/*.hpp ${SOURCE}/drivers/*.cpp
+       ${SOURCE}/perf/throughput/*.hpp)
   set(undecided "")
   foreach(source ${sources})
     file(STRINGS ${SOURCE}/${source} includes REGEX "^#include [<\"]")
@@ -133,7 +134,7 @@ function(check_thin)
     set(includes_of_${source} "")
     foreach(include ${includes})
       string(REPLACE "\"" "" include "${include}")
-      foreach(folder src drivers)
+      foreach(folder src drivers perf)
         if(EXISTS ${SOURCE}/${folder}/${include})
           list(APPEND includes_of_${source} ${folder}/${include})
         endif()

@@ -34,12 +34,12 @@ std::vector<double> numbers_of(double scale) {
   std::vector<double> numbers{sim.stable_time_step() / scale, sim.largest_frequency() * scale};
   sim.step(4000);
   Measures const m = sim.measures();
-  LossTotals const lost = sim.losses();
+  DissipationTotals const lost = sim.losses();
   double const area = scale * scale;
   numbers.insert(numbers.end(),
                  {sim.stress().x, sim.stress().y, m.stress_area_xx / area, m.touching, m.kinetic / area, m.grain_energy / area,
                   lost.sliding / area, lost.rolling / area, lost.dashpot / area, lost.damping / area, sim.boundary_work() / area,
-                  sim.void_ratio(), static_cast<double>(sim.rebuilds()), static_cast<double>(sim.time_step_renewals()),
+                  sim.void_ratio(), static_cast<double>(sim.upkeep().searches()), static_cast<double>(sim.time_steps().updates()),
                   sim.time() / scale, sim.time_step / scale});
   Specimen const end = sim.specimen();
   for (std::size_t i = 0; i < end.size(); ++i)

@@ -8,7 +8,7 @@ namespace {
 TEST(State, AfterThousandsOfStepsThroughBreakageIsTheGoldenOne) {
   for (Golden const& g : golden) {
     Simulation const sim = sheared(bonded_patch(g.composite), g.composite, g.precision);
-    EXPECT_GT(sim.rebuilds(), 5);
+    EXPECT_GT(sim.upkeep().searches(), 5);
     EXPECT_GT(sim.broken_bonds(), 20);
     EXPECT_EQ(sim.broken_bonds(), g.broken);
     EXPECT_EQ(sim.hash(), g.hash) << "composite " << static_cast<int>(g.composite) << ", "
@@ -54,8 +54,8 @@ void expect_equal_steps(Simulation const& one, Simulation const& many) {
   EXPECT_EQ(one.steps(), many.steps());
   EXPECT_EQ(one.time(), many.time());
   EXPECT_EQ(one.time_step, many.time_step);
-  EXPECT_EQ(one.rebuilds(), many.rebuilds());
-  EXPECT_EQ(one.time_step_renewals(), many.time_step_renewals());
+  EXPECT_EQ(one.upkeep().searches(), many.upkeep().searches());
+  EXPECT_EQ(one.time_steps().updates(), many.time_steps().updates());
   EXPECT_EQ(one.loading().x.integral, many.loading().x.integral);
   EXPECT_EQ(one.losses().breakage, many.losses().breakage);
   for (int wall = 0; wall < wall_count; ++wall) {
@@ -73,8 +73,8 @@ TEST_P(StateIn, IsThatOfStepsOneByOneAfterManyAtOnce) {
     expect_equal_steps(one, many);
     expect_equal_measures(one, many);
   }
-  EXPECT_GT(many.rebuilds(), 5);
-  EXPECT_GT(many.time_step_renewals(), 3);
+  EXPECT_GT(many.upkeep().searches(), 5);
+  EXPECT_GT(many.time_steps().updates(), 3);
   BreakEvents const first = one.detailed_break_events(0), second = many.detailed_break_events(0);
   ASSERT_GT(first.rows.size(), 10U);
   ASSERT_EQ(first.rows.size(), second.rows.size());
@@ -125,7 +125,7 @@ TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
     Simulation copy(shuffled(original.specimen(), 3), laws, 0.05 * grain_d50);
     EXPECT_EQ(copy.hash(), original.hash());
     // Rows are ordered by touch at the last search: both search at the same state.
-    original.request_rebuild();
+    original.request_search();
     original.evaluate_forces();
     copy.time_step = original.time_step;
     for (Simulation* sim : {&original, &copy}) {
@@ -161,7 +161,7 @@ TEST(State, TakenWhileASearchIsDueKeepsTheForcesOfEachDisc) {
     return places;
   };
   std::vector<int> const places = order();
-  sim.request_rebuild();
+  sim.request_search();
   (void)sim.state();
   EXPECT_NE(order(), places);  // the search has put them in another order
   EXPECT_EQ(forces_of(sim), before);
@@ -186,7 +186,7 @@ TEST(State, OfABondAcrossAPeriodicEdgeIsKeptByASearchInAnyStep) {
   ASSERT_EQ(sim.measures().bonded, 1);
   sim.time_step = 1e-7;
   for (int n = 0; n < 20; ++n) {
-    sim.request_rebuild();
+    sim.request_search();
     sim.step();
     ASSERT_EQ(sim.measures().bonded, 1) << "step " << n;
   }

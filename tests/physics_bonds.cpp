@@ -174,7 +174,7 @@ TEST(RigidTurn, LeavesTheForcesOfAFreePairUnchanged) {
     EXPECT_NEAR(c.moment / (pull * grain_radius), 0, 1e-8);
   }
   EXPECT_NEAR(disc(sim, 1).x / radius, 1, 1e-3);
-  EXPECT_GT(sim.rebuilds(), 1000);
+  EXPECT_GT(sim.upkeep().searches(), 1000);
 }
 
 /// Carries disc 1 about disc 0 by `angle` in one step, both discs turning along at `spin`.

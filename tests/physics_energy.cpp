@@ -5,7 +5,7 @@ namespace clathra {
 namespace {
 
 double stored(Measures const& m) { return m.kinetic + m.grain_energy + m.bond_energy + m.wall_energy; }
-double lost(LossTotals const& l) { return l.sliding + l.rolling + l.dashpot + l.breakage + l.damping; }
+double lost(DissipationTotals const& l) { return l.sliding + l.rolling + l.dashpot + l.breakage + l.damping; }
 
 /// What a bonded pair flies with before and after its bond broke; both times nothing but kinetic energy.
 struct BrokenPair {
@@ -79,7 +79,7 @@ Balance shear_packing(Composite composite, double dt_share, double dashpot) {
   sim.loading().y = AxisDrive::at_rate(300);
   double const start = stored(sim.measures());
   while (std::log(s.height() / sim.walls().height()) < 0.06) sim.step();
-  LossTotals const l = sim.losses();
+  DissipationTotals const l = sim.losses();
   Balance b{sim.boundary_work(), 0, 0, sim.broken_bonds()};
   b.residual = b.work - (stored(sim.measures()) - start) - lost(l);
   b.flow = std::abs(b.work) + std::abs(l.breakage);
@@ -108,7 +108,7 @@ TEST(EnergyLedger, StandsStillWithoutIt) {
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
   sim.time_step = 1e-8;
   sim.step();
-  LossTotals const l = sim.losses();
+  DissipationTotals const l = sim.losses();
   EXPECT_EQ(l.sliding + l.rolling + l.dashpot + l.breakage + l.damping, 0);
 }
 

@@ -77,7 +77,7 @@ TEST(Features, ASceneWithoutHydrateHasNoBondField) {
   EXPECT_EQ(rows.formation_overlap.extent(0) + rows.width.extent(0) + rows.bond_shear.extent(0) + rows.bond_moment.extent(0), 0u);
   EXPECT_EQ(sim.wall_contacts().shear.extent(0), 0u);  // smooth walls
   EXPECT_EQ(sim.broken_bonds(), 0);
-  LossTotals const none = sim.losses();
+  DissipationTotals const none = sim.losses();
   EXPECT_EQ(none.sliding + none.rolling + none.damping, 0);
 }
 
@@ -171,8 +171,8 @@ std::string accounts_of(SimulationLaws const& laws, bool hydrate) {
   sim.set_ledger(true);
   std::string names;
   int accounts = 0;
-  EnergyLosses losses = sim.energy_losses();
-  for_each_account(losses, {}, [&](std::string const& name, Field<Accum> const& account, bool) {
+  Dissipation losses = sim.energy_losses();
+  for_each_dissipation(losses, {}, [&](std::string const& name, Field<Accum> const& account, bool) {
     if (account.extent(0) == 0) return;
     names += name.substr(5) + " ";
     ++accounts;

@@ -58,7 +58,7 @@ double force_after_turns(int steps_a_turn, int turns, Composite composite) {
   double const turn = 2 * pi / steps_a_turn, x0 = 5 * grain_radius, y0 = 4 * grain_radius;
   auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sim.particles().x);
   for (int n = 0; n < steps_a_turn * turns; ++n) {
-    if (n % 50 == 0) sim.request_rebuild();  // discs without inertia do not ask for one
+    if (n % 50 == 0) sim.request_search();  // discs without inertia do not ask for one
     Specimen const now = sim.specimen();
     for (std::size_t i = 0; i < s.size(); ++i) {
       double const dx = now.x[i] - x0, dy = now.y[i] - y0, c = std::cos(turn) - 1, w = std::sin(turn);

@@ -93,7 +93,7 @@ TEST(TimeStep, IsNeverAboveTheLimitWhileACloudCollapses) {
   sim.loading().x = sim.loading().y = AxisDrive::at_rate(400);
   expect_stable_steps(sim, 5000, 0.96);
   EXPECT_GT(sim.measures().touching, 100);
-  EXPECT_GT(sim.time_step_renewals(), 10);
+  EXPECT_GT(sim.time_steps().updates(), 10);
 }
 
 TEST(TimeStep, IsNeverAboveTheLimitWhileBondsBreak) {
@@ -122,19 +122,19 @@ TEST(TimeStep, FollowsTheLaws) {
     largest = std::max(largest, sim.time_step / present_limit(sim));
   }
   EXPECT_LE(largest, 0.98);
-  EXPECT_GT(sim.time_step_renewals(), 5);
-  std::int64_t const before = sim.time_step_renewals();
+  EXPECT_GT(sim.time_steps().updates(), 5);
+  std::int64_t const before = sim.time_steps().updates();
   EXPECT_LT(before, 60) << "not at each of them";
   laws.contact.grain.shape_factor = 0.5;  // softer
   sim.set_laws(laws);
   sim.step();
-  EXPECT_EQ(sim.time_step_renewals(), before);
+  EXPECT_EQ(sim.time_steps().updates(), before);
   double const undamped = sim.time_step;
   laws.motion.damping = 0.7;
   sim.set_laws(laws);
   sim.step();
   EXPECT_LE(sim.time_step, 0.97 * present_limit(sim));
-  EXPECT_GT(sim.time_step_renewals(), before);
+  EXPECT_GT(sim.time_steps().updates(), before);
   EXPECT_NE(sim.time_step, undamped);
 }
 
@@ -198,8 +198,8 @@ TEST(MassScaling, RaisesTheSmallestMassesAndAllMomentsOfInertia) {
     EXPECT_NEAR(value(sim.particles().inverse_mass, index_of(sim, id)) * mass, 1, within(1e-14, 1e-7));
     EXPECT_NEAR(value(sim.particles().inverse_inertia, index_of(sim, id)) * 3 * 0.5 * mass * r * r, 1, within(1e-14, 1e-7));
   }
-  EXPECT_NEAR(sim.added_mass(), 1.25 / 5, 1e-14);
-  EXPECT_NEAR(sim.moving_density(), 1.25 * sand_density, 1e-9);
+  EXPECT_NEAR(sim.facts().added_mass, 1.25 / 5, 1e-14);
+  EXPECT_NEAR(sim.facts().moving_density(), 1.25 * sand_density, 1e-9);
 }
 
 TEST(MassScaling, FindsTheRadiusThatAShareOfTheDiscsLiesBelow) {

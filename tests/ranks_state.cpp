@@ -61,8 +61,8 @@ TEST(Ranks, FollowTheLimitOfStabilityAlike) {
   }
   EXPECT_EQ(one.hash(), many.hash());
   EXPECT_EQ(one.time(), many.time());
-  EXPECT_EQ(one.time_step_renewals(), many.time_step_renewals());
-  EXPECT_GT(many.time_step_renewals(), 3);
+  EXPECT_EQ(one.time_steps().updates(), many.time_steps().updates());
+  EXPECT_GT(many.time_steps().updates(), 3);
 }
 
 std::int64_t neighbours_listed(Simulation const& sim) {
@@ -93,7 +93,7 @@ TEST(Ranks, MissNoContactOfFlyingDiscs) {
     for (int n = 0; n < 4000; ++n) sim->step();
   }
   EXPECT_EQ(one.hash(), many.hash());
-  EXPECT_EQ(one.rebuilds(), many.rebuilds());
+  EXPECT_EQ(one.upkeep().searches(), many.upkeep().searches());
 }
 
 TEST(Ranks, MeasureWhatOneRankMeasures) {
@@ -128,7 +128,7 @@ TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
   // Cutting anew asks for a neighbour search, and searches order rows: the lone rank searches at the same steps.
   Simulation one = ready(whole, Composite::parallel);
   for (int n = 0; n < 3000; ++n) {
-    if (n == 400 || n == 1200 || n == 2000) one.request_rebuild();
+    if (n == 400 || n == 1200 || n == 2000) one.request_search();
     one.step();
   }
   EXPECT_EQ(sim.hash(), one.hash());

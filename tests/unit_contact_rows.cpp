@@ -28,7 +28,7 @@ TEST(ContactRows, EntriesKnownToCarryNothingMayBeLeftOut) {
     }
     EXPECT_EQ(quick.hash(), thorough.hash());
     EXPECT_GT(quick.broken_bonds(), 10);
-    EXPECT_GT(quick.rebuilds(), 3);
+    EXPECT_GT(quick.upkeep().searches(), 3);
   }
 }
 
@@ -38,7 +38,7 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
   bond_all(s, scene);
   s.contacts.resize(2 * s.contacts.size() / 3);  // some discs carry less than others
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
-  sim.request_rebuild();
+  sim.request_search();
   (void)sim.state();  // searches, and evaluates nothing behind that
   HostRows const rows(sim.rows());
   auto const carrying = [&](int i) {
@@ -83,7 +83,7 @@ TEST(ContactRows, AreSortedInSpaceAgainWithinSixteenSearches) {
     assign(p.y, i, ys[static_cast<std::size_t>(i)]);
   }
   auto const search = [&] {
-    sim.request_rebuild();
+    sim.request_search();
     sim.step();
   };
   search();

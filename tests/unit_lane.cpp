@@ -109,17 +109,17 @@ TEST(Lane, MasksTheFirstOnes) {
 TEST(Lane, FusesProductsAndSumsInSinglePrecisionOnly) {
   // (1 + u)(1 - u) - 1 = -u^2, of which nothing is left where the product is rounded.
   double const u = 0x1p-30;
-  EXPECT_EQ(times_plus(1 + u, 1 - u, -1.0), 0);
-  EXPECT_EQ(minus_times(1 + u, 1 - u, 1.0), 0);
-  EXPECT_EQ(fused_times_plus(1 + u, 1 - u, -1.0), -u * u);
+  EXPECT_EQ(multiply_add(1 + u, 1 - u, -1.0), 0);
+  EXPECT_EQ(negative_multiply_add(1 + u, 1 - u, 1.0), 0);
+  EXPECT_EQ(fused_multiply_add(1 + u, 1 - u, -1.0), -u * u);
   float const v = 0x1p-14F;
-  EXPECT_EQ(times_plus(1 + v, 1 - v, -1.0F), -v * v);
-  EXPECT_EQ(minus_times(1 + v, 1 - v, 1.0F), v * v);
-  EXPECT_EQ(largest(times_plus(Lanes(1 + u), Lanes(1 - u), Lanes(-1))), 0);
-  EXPECT_EQ(largest(minus_times(Lanes(1 + u), Lanes(1 - u), Lanes(1))), 0);
-  EXPECT_EQ(largest(fused_times_plus(Lanes(1 + u), Lanes(1 - u), Lanes(-1))), -u * u);
-  EXPECT_EQ(largest(times_plus(FloatLanes(1 + v), FloatLanes(1 - v), FloatLanes(-1.0F))), -v * v);
-  EXPECT_EQ(largest(minus_times(FloatLanes(1 + v), FloatLanes(1 - v), FloatLanes(1.0F))), v * v);
+  EXPECT_EQ(multiply_add(1 + v, 1 - v, -1.0F), -v * v);
+  EXPECT_EQ(negative_multiply_add(1 + v, 1 - v, 1.0F), v * v);
+  EXPECT_EQ(largest(multiply_add(Lanes(1 + u), Lanes(1 - u), Lanes(-1))), 0);
+  EXPECT_EQ(largest(negative_multiply_add(Lanes(1 + u), Lanes(1 - u), Lanes(1))), 0);
+  EXPECT_EQ(largest(fused_multiply_add(Lanes(1 + u), Lanes(1 - u), Lanes(-1))), -u * u);
+  EXPECT_EQ(largest(multiply_add(FloatLanes(1 + v), FloatLanes(1 - v), FloatLanes(-1.0F))), -v * v);
+  EXPECT_EQ(largest(negative_multiply_add(FloatLanes(1 + v), FloatLanes(1 - v), FloatLanes(1.0F))), v * v);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// Verlet skins of discs: how far they may move beside their box before neighbours are searched again.
-#include "kernels/survey.hpp"
+#include "kernels/rebuild_inputs.hpp"
 #include "on_host.hpp"
 #include "scenes.hpp"
 
@@ -21,9 +21,9 @@ double skin_of(Simulation const& sim, int id) { return value(sim.particles().ver
 
 /// Gives discs their skins as a search does. @return the largest
 double give_skins(Simulation const& sim, AffineFrame const& frame, SkinRange const& range) {
-  Survey const all = survey(sim.particles(), sim.rows(), frame, make_faults(), {});
+  RebuildInputs const all = rebuild_inputs(sim.particles(), sim.rows(), frame, make_faults(), {});
   assign_verlet_skins(sim.particles(), frame, range, all.mean_of_speeds({}));
-  return range.skin(all.largest[Survey::speed], all.mean_of_speeds({}));
+  return range.skin(all.largest[RebuildInputs::speed], all.mean_of_speeds({}));
 }
 
 TEST(VerletSkin, GrowsWithTheSpeedUpToFiveTimesTheLeast) {
@@ -68,12 +68,12 @@ TEST(VerletSkin, OneDiscThatFliesSeldomCallsForASearch) {
   s.top = 1;
   Simulation sim(s, {}, 2 * h);
   sim.time_step = 1e-6;
-  std::int64_t const before = sim.rebuilds();
+  std::int64_t const before = sim.upkeep().searches();
   auto const steps = static_cast<int>(way / sim.time_step);
   sim.step(steps);
   // Without a skin of its own it would be one for each h of the way.
-  EXPECT_LE(sim.rebuilds() - before, way / (4.5 * h) + 3);
-  EXPECT_GE(sim.rebuilds() - before, way / (5.5 * h) - 3);
+  EXPECT_LE(sim.upkeep().searches() - before, way / (4.5 * h) + 3);
+  EXPECT_GE(sim.upkeep().searches() - before, way / (5.5 * h) - 3);
 }
 
 bool in_row(HostRows const& rows, int i, int j) {
@@ -122,7 +122,7 @@ TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   }
   EXPECT_EQ(missing, 0);
   EXPECT_GT(touching, 3000);
-  EXPECT_GT(sim.rebuilds(), 20);
+  EXPECT_GT(sim.upkeep().searches(), 20);
 }
 
 // The first checkpoints have no column of skins.
@@ -163,12 +163,12 @@ double greatest_displacement(HostDiscs const& p, AffineFrame const& f) {
 /// Steps, and expects that no non-affine displacement ever exceeds its skin, and that some disc comes near it.
 void expect_searches_in_time(Simulation& sim, int steps) {
   Walls at_search = sim.walls();
-  std::int64_t const before = sim.rebuilds();
+  std::int64_t const before = sim.upkeep().searches();
   double largest = 0;
   for (int n = 0; n < steps; ++n) {
-    std::int64_t const searches = sim.rebuilds();
+    std::int64_t const searches = sim.upkeep().searches();
     sim.step();
-    if (sim.rebuilds() > searches) at_search = sim.walls();
+    if (sim.upkeep().searches() > searches) at_search = sim.walls();
     AffineFrame const motion = motion_since(at_search, sim.walls());
     double const displacement = greatest_displacement(HostDiscs(sim.particles()), motion);
     EXPECT_NEAR(std::sqrt(largest_nonaffine_displacement2(sim.particles(), sim.particles().reference_x,
@@ -178,7 +178,7 @@ void expect_searches_in_time(Simulation& sim, int steps) {
     largest = std::max(largest, displacement);
   }
   EXPECT_GT(largest, 0.8);
-  EXPECT_GE(sim.rebuilds() - before, 3);
+  EXPECT_GE(sim.upkeep().searches() - before, 3);
 }
 
 TEST(VerletSkin, SearchesComeInTimeForDiscsThatFly) {

@@ -6,10 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "domain/biaxial/throughput_card.hpp"
 #include "io/results/run_record.hpp"
 #include "print.hpp"
 #include "threads.hpp"
+#include "throughput/throughput_card.hpp"
 #include "verbs.hpp"
 
 namespace clathra {

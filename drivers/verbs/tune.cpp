@@ -48,8 +48,8 @@ class Tuning {
     speed_ = speed_of(Precision::full);
     plan_.speed_of_mixed = speed_of(Precision::mixed) / speed_;
     add({{plan_.as_it_stands}, SettingSearch::first_seeds});
-    wish_ = *search_.next();
-    add(wish_);
+    request_ = *search_.next();
+    add(request_);
     limits_ = usual_limits(plan_.study, options.parallel, 0, {});
     limits_.most_seconds = budget_;
     limits_.options = {"--checkpoint-every", "1m"};
@@ -65,7 +65,7 @@ class Tuning {
       if (code != ExitCode::done && interrupted()) return code;
       take_results();
       if (code != ExitCode::done) break;  // the budget is spent
-      std::optional<Wish> next = search_.next();
+      std::optional<RunRequest> next = search_.next();
       if (next && !fits(*next)) {
         search_.stop_growing();
         next = search_.next();
@@ -116,12 +116,12 @@ class Tuning {
   std::size_t values_of(std::size_t trial) const { return search_.trials()[trial].values.size(); }
 
   /// Masses scaled further than usual, which a guard may refuse at the rate, are tried with one seed first.
-  void add(Wish const& wish) {
-    for (std::size_t const trial : wish.trials) {
+  void add(RunRequest const& request) {
+    for (std::size_t const trial : request.trials) {
       TuneSetting const& setting = plan_.settings[trial];
       bool const tried =
           has_member(trial, 1) || (setting.inertia_scaling <= RunScene::usual_inertia_scaling && setting.mass_scaling == 0);
-      for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tried ? wish.seeds : 1); ++seed)
+      for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tried ? request.seeds : 1); ++seed)
         if (!has_member(trial, seed)) {
           add_member(plan_.study, trial, seed);
           find_finished(plan_.study, plan_.study.members.size() - 1);
@@ -171,22 +171,22 @@ class Tuning {
   }
 
   /// Of what is not run yet.
-  double seconds_of(Wish const& wish) const {
+  double seconds_of(RunRequest const& request) const {
     double seconds = 0;
     int seeds_before = 0;
-    for (std::size_t const trial : wish.trials) {
+    for (std::size_t const trial : request.trials) {
       int runs = 0;
-      for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(wish.seeds); ++seed)
+      for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(request.seeds); ++seed)
         runs += has_result(trial, seed) ? 0 : 1;
       seconds += runs * seconds_of(trial);
       seeds_before = std::max(seeds_before, static_cast<int>(values_of(trial)));
     }
     double specimen = 0;
     for (StudyTask const& task : plan_.study.specimens) specimen = std::max(specimen, task.disc_steps);
-    seconds += std::max(0, wish.seeds - seeds_before) * specimen / (generation_speedup * speed_);
+    seconds += std::max(0, request.seeds - seeds_before) * specimen / (generation_speedup * speed_);
     return seconds / std::max(1, limits_.parallel);
   }
-  double seconds_of_wish() const { return seconds_of(wish_); }
+  double seconds_of_wish() const { return seconds_of(request_); }
 
   bool has_result(std::size_t trial, std::uint64_t seed) const {
     return std::any_of(plan_.study.members.begin(), plan_.study.members.end(), [&](MemberResult const& m) {
@@ -194,13 +194,13 @@ class Tuning {
     });
   }
 
-  bool fits(Wish const& wish) const { return now() - begin_ + seconds_of(wish) <= budget_; }
+  bool fits(RunRequest const& request) const { return now() - begin_ + seconds_of(request) <= budget_; }
 
   TunePlan plan_;
   SettingSearch search_;
   std::vector<std::string> failures_;
   StudyLimits limits_;
-  Wish wish_;  // the first one
+  RunRequest request_;  // the first one
   double budget_, begin_, speed_ = 1;
 };
 
@@ -263,14 +263,14 @@ void add_tune(CLI::App& program, Verb& chosen) {
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
   verb->add_option("--discs", options->discs,
-                   "discs of a rung; the scene's own number where that is smaller, more where they would be too few across")
+                   "discs of a test; the scene's own number where that is smaller, more where they would be too few across")
       ->capture_default_str()
       ->check(CLI::Range(16, 1000000000))
       ->type_name("N");
   verb->add_option("--parallel", options->parallel, "runs at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and rungs that another program made");
+  verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and tests that another program made");
   verb->footer("Example: clathra tune examples/quick.toml --tolerance \"5%\" --budget \"10 min\" -o tuned.toml");
   verb->callback([options, &chosen] { chosen = [options] { return tune(*options); }; });
 }

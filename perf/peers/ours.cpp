@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "domain/biaxial/throughput.hpp"
 #include "domain/generation/bonding.hpp"
 #include "domain/measurement/snapshot.hpp"
 #include "domain/parallel/host_memory.hpp"
@@ -24,6 +23,7 @@
 #include "domain/simulation/simulation.hpp"
 #include "io/results/specimen_file.hpp"
 #include "kernels/stability.hpp"
+#include "throughput/throughput.hpp"
 
 namespace {
 
@@ -130,7 +130,7 @@ void write_for_peers(char const* path, std::string const& folder) {
               specimen.density);
   std::printf("left %.17g\nright %.17g\nbottom %.17g\ntop %.17g\n", specimen.left, specimen.right, specimen.bottom, specimen.top);
   std::printf("discs %d\ntouching %.0f\nbonds %.0f\nbond_reach %.17g\nd50 %.17g\n", rolling.discs(), rolling.measures().touching,
-              bonded.measures().bonded, bonded.critical_thickness(), specimen.d50);
+              bonded.measures().bonded, bonded.facts().critical_thickness, specimen.d50);
 }
 
 /// Stress of the contacts between discs [Pa], without those at the walls: all that the peers report alike.
@@ -153,13 +153,13 @@ void run(char const* path, std::string const& what, double dt, int check, int st
   simulation.time_step = dt;
   for (int n = 0; n < check; ++n) simulation.step();
   print_stress(simulation);
-  std::int64_t const searches = simulation.rebuilds();
+  std::int64_t const searches = simulation.upkeep().searches();
   Kokkos::fence();
   Kokkos::Timer const clock;
   for (int n = 0; n < steps; ++n) simulation.step();
   Kokkos::fence();
-  std::printf("loop %.9g\nsearches %lld\nbroken %d\n", clock.seconds(), static_cast<long long>(simulation.rebuilds() - searches),
-              simulation.broken_bonds());
+  std::printf("loop %.9g\nsearches %lld\nbroken %d\n", clock.seconds(),
+              static_cast<long long>(simulation.upkeep().searches() - searches), simulation.broken_bonds());
 }
 
 }  // namespace

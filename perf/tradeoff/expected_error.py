@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the tables of src/domain/biaxial/expected_error.cpp: expected_error.py DATA.csv
+"""Prints the tables of drivers/expected_error.cpp: expected_error.py DATA.csv
 
 Errors of the peak of q, paired specimen by specimen with the reference (docs/accuracy.md), with Student's intervals."""
 import sys

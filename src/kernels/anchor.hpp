@@ -56,8 +56,8 @@ template <class L, class Ints>
 KOKKOS_FORCEINLINE_FUNCTION BranchSinceAnchor<L> branch_since(Ints const& anchor, Ints const& ticks_x, Ints const& ticks_y,
                                                               L const& dx, L const& dy, L const& inverse2) {
   L const bx = to_float(difference(ticks_x, anchor_x(anchor))), by = to_float(difference(ticks_y, anchor_y(anchor)));
-  L const sine = minus_times(bx, dy, by * dx) * inverse2;
-  return {sine, sine * sine, times_plus(bx, dx, by * dy) * inverse2};
+  L const sine = negative_multiply_add(bx, dy, by * dx) * inverse2;
+  return {sine, sine * sine, multiply_add(bx, dx, by * dy) * inverse2};
 }
 
 template <class L>
@@ -71,11 +71,11 @@ struct WaySinceAnchor {
 template <class L>
 KOKKOS_FORCEINLINE_FUNCTION WaySinceAnchor<L> way_since(BranchSinceAnchor<L> const& branch, L const& arm, L const& other_arm,
                                                         L const& turn, L const& other_turn) {
-  L const share = times_plus(L(0.5F), branch.along, minus_times(L(1.0F / 12), branch.turned2, L(1)));
-  L const longer = minus_times(L(0.5F), branch.turned2, branch.along);  // (d - d_0) / d
+  L const share = multiply_add(L(0.5F), branch.along, negative_multiply_add(L(1.0F / 12), branch.turned2, L(1)));
+  L const longer = negative_multiply_add(L(0.5F), branch.turned2, branch.along);  // (d - d_0) / d
   // Both sides of a pair get the same bits: a fused product must not be that of one disc. A quarter is exact.
-  L const rolled = turn * arm + other_turn * other_arm, quarter = times_plus(L(0.25F), other_turn, L(0.25F) * turn);
-  return {times_plus(times_plus(quarter, longer, branch.sine * share), arm + other_arm, -rolled), other_turn - turn};
+  L const rolled = turn * arm + other_turn * other_arm, quarter = multiply_add(L(0.25F), other_turn, L(0.25F) * turn);
+  return {multiply_add(multiply_add(quarter, longer, branch.sine * share), arm + other_arm, -rolled), other_turn - turn};
 }
 
 /// The overlap [m] of a pair that has an anchor. A distance of 2^28 ticks is known to 16 of them in single precision, and a pair
@@ -87,9 +87,9 @@ template <class L, class Ints>
 KOKKOS_FORCEINLINE_FUNCTION L overlap_since(Ints const& anchor, BranchSinceAnchor<L> const& branch, L const& distance,
                                             L const& inverse2, L const& reach, float tick, MaskOf<L> const& none) {
   L const first2 = to_float(squares_of_halves(anchor)) * L(0x1p32F),
-          square = minus_times(branch.along, branch.along, branch.along + branch.along) - branch.turned2;
-  L const lacking = select(none, L(0), times_plus(minus_times(distance, distance, first2), inverse2, square));
-  return minus_times(distance * L(0.5F * tick), lacking, minus_times(distance, L(tick), reach));
+          square = negative_multiply_add(branch.along, branch.along, branch.along + branch.along) - branch.turned2;
+  L const lacking = select(none, L(0), multiply_add(negative_multiply_add(distance, distance, first2), inverse2, square));
+  return negative_multiply_add(distance * L(0.5F * tick), lacking, negative_multiply_add(distance, L(tick), reach));
 }
 
 }  // namespace clathra

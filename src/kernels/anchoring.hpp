@@ -41,7 +41,7 @@ struct Anchoring {
     auto const of_grains = Separate ? at.touching : at.touching || at.intact;
     auto const set = [&](RealField const& field, auto const& force, FloatLanes const& way, MaskOf<FloatLanes> const& carries) {
       float* const to = field.data<float>() + at.entry;
-      FloatLanes const anew = select(carries, minus_times(force.stiffness, way, force.now), FloatLanes(Kept::none));
+      FloatLanes const anew = select(carries, negative_multiply_add(force.stiffness, way, force.now), FloatLanes(Kept::none));
       store(to, select(where, anew, load(to)));
     };
     if constexpr (Shears) set(rows.shear, now.shear, slip, of_grains);

@@ -35,7 +35,7 @@ struct BondLawOf {
   /// Thickness h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION L bond_thickness(L const& formation_overlap) const {
-    return minus_times(L(thickness_weight), lane_min(formation_overlap, L(0)), L(plate_thickness));
+    return negative_multiply_add(L(thickness_weight), lane_min(formation_overlap, L(0)), L(plate_thickness));
   }
   /// B [m] of a bond with the given common radius and h_cr [m].
   template <class L>
@@ -56,8 +56,8 @@ using BondLaw = BondLawOf<Real>;
 
 /// The same law in the numbers of a kernel.
 template <class R>
-KOKKOS_INLINE_FUNCTION BondLawOf<R> in_numbers(BondLaw const& law) {
-  return {in_numbers<R>(law.strength),  R(law.modulus),           R(law.particle_stiffness),
+KOKKOS_INLINE_FUNCTION BondLawOf<R> cast(BondLaw const& law) {
+  return {cast<R>(law.strength),        R(law.modulus),           R(law.particle_stiffness),
           R(law.critical_thickness),    R(law.thickness_partner), R(law.thickness_weight),
           R(law.plate_thickness),       R(law.preload_stiffness), R(law.least_shape_of_shear),
           R(law.least_shape_of_rolling)};
@@ -81,8 +81,8 @@ KOKKOS_FORCEINLINE_FUNCTION BondForce<L> bond_springs(BondLawOf<R> const& law, C
   bond.thickness = law.bond_thickness(formation_overlap);
   bond.width = width;
   bond.stiffness = law.stiffness(bond.width, bond.thickness);
-  bond.force.normal = times_plus(bond.stiffness.normal, motion.overlap - formation_overlap,
-                                 law.preload_stiffness * lane_max(formation_overlap, L(0)));
+  bond.force.normal = multiply_add(bond.stiffness.normal, motion.overlap - formation_overlap,
+                                   law.preload_stiffness * lane_max(formation_overlap, L(0)));
   bond.force.shear = bond.force.moment = L(0);
   return bond;
 }

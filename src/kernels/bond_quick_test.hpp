@@ -11,7 +11,7 @@ struct OfWidth {
   R at_zero, per_width;
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION L of(L const& width) const {
-    return times_plus(L(per_width), width, L(at_zero));
+    return multiply_add(L(per_width), width, L(at_zero));
   }
 };
 
@@ -61,13 +61,13 @@ LeastStrengthOf<R> least_strength(BondLaw const& law) {
 template <class R, class L>
 KOKKOS_FORCEINLINE_FUNCTION auto is_far_from_breaking(LeastStrengthOf<R> const& least, BondForce<L> const& bond) {
   ContactForce<L> const& force = bond.force;
-  L const rising = times_plus(L(least.rising_per_normal), force.normal, least.rising.of(bond.width)),
-          falling = minus_times(L(least.falling_per_normal), force.normal, least.falling.of(bond.width)),
+  L const rising = multiply_add(L(least.rising_per_normal), force.normal, least.rising.of(bond.width)),
+          falling = negative_multiply_add(L(least.falling_per_normal), force.normal, least.falling.of(bond.width)),
           moment_slope = least.moment.of(bond.width);
   L const size = lane_min(lane_min(rising, least.flat.of(bond.width)), falling);
   L const of_shear = force.shear * moment_slope, of_moment = force.moment * least.shear_slope;
   L const limit = moment_slope * lane_max(size, L(0));
-  return times_plus(of_shear, of_shear, of_moment * of_moment) < limit * limit;
+  return multiply_add(of_shear, of_shear, of_moment * of_moment) < limit * limit;
 }
 
 /// True where a bond is certainly within its strength: a close lower bound of its envelope already holds. Where false, the exact

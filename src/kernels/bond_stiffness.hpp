@@ -17,7 +17,7 @@ KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> bond_stiffness(scalar_of<L> part
                                                                L const& width, L const& thickness) {
   L const hydrate = modulus * width;
   L const safe_thickness = lane_max(thickness, L(least_thickness<scalar_of<L>>));
-  L const series = times_plus(L(particle_stiffness), safe_thickness, hydrate + hydrate);
+  L const series = multiply_add(L(particle_stiffness), safe_thickness, hydrate + hydrate);
   L const shared = L(1) / (series * safe_thickness);  // one division serves both quotients
   ContactStiffness<L> stiffness;
   stiffness.normal = particle_stiffness * hydrate * (safe_thickness * shared);

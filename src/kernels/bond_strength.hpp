@@ -30,7 +30,7 @@ using BondStrengthLaw = BondStrengthLawOf<Real>;
 
 /// The same law in the numbers of a kernel.
 template <class R>
-KOKKOS_INLINE_FUNCTION BondStrengthLawOf<R> in_numbers(BondStrengthLaw const& law) {
+KOKKOS_INLINE_FUNCTION BondStrengthLawOf<R> cast(BondStrengthLaw const& law) {
   return {R(law.tensile_stress), R(law.compressive_stress), R(law.moment_length),       R(law.moment_width_ratio),
           R(law.rod_scale),      R(law.rod_share),          R(law.rod_share_per_width), R(law.least_rod_thickness),
           R(law.floor_friction), R(law.floor_shape_factor)};

@@ -20,7 +20,7 @@ struct ContactConstants {
 /// The laws as the kernel takes them, in numbers R.
 template <class R>
 ContactConstants<R> constants_in(ContactLaws const& laws, Real dt, Real tick) {
-  return {in_numbers<R>(laws.grain), in_numbers<R>(laws.bond), least_strength<R>(laws.bond), R(dt), R(tick), R(1 / tick)};
+  return {cast<R>(laws.grain), cast<R>(laws.bond), least_strength<R>(laws.bond), R(dt), R(tick), R(1 / tick)};
 }
 
 }  // namespace clathra

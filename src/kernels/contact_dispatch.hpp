@@ -33,7 +33,7 @@ inline AnySwitch on(bool yes) {
 /// @tparam P  FullPrecision or MixedPrecision
 template <class P>
 void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
-                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps,
+                       BreakLog const& breaks, Dissipation const& losses, Faults const& faults, Field<StepState> const& steps,
                        StepLaunches const& launches) {
   using R = typename P::Real;
   ContactConstants<R> const constants = constants_in<R>(laws, dt, particles.mirror.tick);

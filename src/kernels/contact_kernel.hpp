@@ -42,7 +42,7 @@ struct ContactKernel {
   std::int64_t step;  ///< its number, where there are no `steps`
   Field<StepState> steps;
   BreakLog breaks;
-  EnergyLosses losses;
+  Dissipation losses;
   Faults faults;
   std::size_t discs_ahead;  ///< that are fetched before a neighbour needs them, discs_ahead()
 
@@ -83,10 +83,10 @@ struct ContactKernel {
     store(p.force_y.data<R>() + first, own.force_y);
     store(p.torque.data<R>() + first, own.torque);
     if constexpr (Ledger) {
-      if constexpr (shears) Discs::book(losses.sliding, first, own.sliding);
-      if constexpr (Rolling) Discs::book(losses.rolling, first, own.rolling);
-      if constexpr (Dashpot) Discs::book(losses.dashpot, first, own.dashpot);
-      if constexpr (bonded_code) Discs::book(losses.breakage, first, own.breakage);
+      if constexpr (shears) Discs::add_dissipation(losses.sliding, first, own.sliding);
+      if constexpr (Rolling) Discs::add_dissipation(losses.rolling, first, own.rolling);
+      if constexpr (Dashpot) Discs::add_dissipation(losses.dashpot, first, own.dashpot);
+      if constexpr (bonded_code) Discs::add_dissipation(losses.breakage, first, own.breakage);
     }
   }
 
@@ -113,8 +113,8 @@ struct ContactKernel {
     if constexpr (Discs::moves) moving = Discs::other_motion(p, j);
     ContactMotion<V> motion;
     motion.overlap = Discs::overlap_at(distance, reach, law.tick);
-    V const half = constant<V>(0.5), arm = minus_times(half, motion.overlap, disc.radius),
-            other_arm = minus_times(half, motion.overlap, other_radius);  // arm + other_arm = distance
+    V const half = constant<V>(0.5), arm = negative_multiply_add(half, motion.overlap, disc.radius),
+            other_arm = negative_multiply_add(half, motion.overlap, other_radius);  // arm + other_arm = distance
     StepWay in_step{V(0), V(0)};
     if constexpr (Discs::moves) {
       motion.closing_velocity = -((moving.vx - disc.motion.vx) * nx + (moving.vy - disc.motion.vy) * ny);
@@ -198,12 +198,12 @@ struct ContactKernel {
                                                     Own& own) {
     constexpr bool sheared = shears || bonded_code;
     if constexpr (mixed) {
-      own.force_x = minus_times(force.normal, nx, own.force_x);
-      own.force_y = minus_times(force.normal, ny, own.force_y);
+      own.force_x = negative_multiply_add(force.normal, nx, own.force_x);
+      own.force_y = negative_multiply_add(force.normal, ny, own.force_y);
       if constexpr (sheared) {
-        own.force_x = minus_times(force.shear, ny, own.force_x);
-        own.force_y = times_plus(force.shear, nx, own.force_y);
-        own.torque = times_plus(arm, force.shear, own.torque);
+        own.force_x = negative_multiply_add(force.shear, ny, own.force_x);
+        own.force_y = multiply_add(force.shear, nx, own.force_y);
+        own.torque = multiply_add(arm, force.shear, own.torque);
       }
       own.torque += force.moment;
     } else if constexpr (sheared) {
@@ -335,8 +335,8 @@ struct ContactKernel {
   KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> before(History const& h, Forces const& now, StepWay const& in_step) {
     if constexpr (!mixed) return {V(0), h.shear, h.moment};
     ContactForce<V> force{V(0), V(0), V(0)};
-    if constexpr (shears) force.shear = minus_times(now.shear.stiffness, in_step.slip, now.shear.trial);
-    if constexpr (moments) force.moment = minus_times(now.moment.stiffness, in_step.rotation, now.moment.trial);
+    if constexpr (shears) force.shear = negative_multiply_add(now.shear.stiffness, in_step.slip, now.shear.trial);
+    if constexpr (moments) force.moment = negative_multiply_add(now.moment.stiffness, in_step.rotation, now.moment.trial);
     return force;
   }
 

@@ -108,7 +108,7 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real
 #if defined(CLATHRA_SIMD) && defined(__AVX512F__)
   auto const sum = [&](int h) {
     return _mm512_castpd_ps(
-        static_cast<PlainVector<double>>(fused_times_plus(place.of[h], Lanes(per_tick), Lanes(DiscMirror::shift))));
+        static_cast<PlainVector<double>>(fused_multiply_add(place.of[h], Lanes(per_tick), Lanes(DiscMirror::shift))));
   };
   __m512i const low_of_each = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
   return FloatLanes(_mm512_permutex2var_ps(sum(0), low_of_each, sum(1)));
@@ -116,7 +116,7 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real
   // The low halves of the numbers' bits, which are in order within 128 bits, and then the pairs.
   auto const sum = [&](int h) {
     return _mm256_castpd_ps(
-        static_cast<PlainVector<double>>(fused_times_plus(place.of[h], Lanes(per_tick), Lanes(DiscMirror::shift))));
+        static_cast<PlainVector<double>>(fused_multiply_add(place.of[h], Lanes(per_tick), Lanes(DiscMirror::shift))));
   };
   __m256 const low = _mm256_shuffle_ps(sum(0), sum(1), 0x88);
   return FloatLanes(_mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(low), 0xd8)));
@@ -129,7 +129,7 @@ KOKKOS_FORCEINLINE_FUNCTION FloatLanes ticks_of(LanesOfHalves const& place, Real
 }
 
 /// Adds losses to accounts, which are sums in double precision.
-KOKKOS_FORCEINLINE_FUNCTION void book(Field<Accum> const& account, std::size_t first, FloatLanes const& loss) {
+KOKKOS_FORCEINLINE_FUNCTION void add_dissipation(Field<Accum> const& account, std::size_t first, FloatLanes const& loss) {
   LanesOfHalves const wide = in_double(loss);
   for (int h = 0; h < halves; ++h) {
     Accum* const to = &account(first + static_cast<std::size_t>(h * lane_count));

@@ -87,7 +87,7 @@ struct DiscReader {
   /// The square of a branch; one of ticks is a little more than zero, for the same reason as distance_of().
   KOKKOS_FORCEINLINE_FUNCTION static V squared(V const& dx, V const& dy) {
     if constexpr (mixed)
-      return times_plus(dx, dx, times_plus(dy, dy, constant<V>(1e-12)));
+      return multiply_add(dx, dx, multiply_add(dy, dy, constant<V>(1e-12)));
     else
       return dx * dx + dy * dy;
   }
@@ -108,7 +108,7 @@ struct DiscReader {
   /// @param distance  in what branches count in
   KOKKOS_FORCEINLINE_FUNCTION static V overlap_at(V const& distance, V const& reach, [[maybe_unused]] R tick) {
     if constexpr (mixed)
-      return minus_times(distance, V(tick), reach);
+      return negative_multiply_add(distance, V(tick), reach);
     else
       return reach - distance;
   }
@@ -136,9 +136,9 @@ struct DiscReader {
   }
 
   /// Adds a group's losses to its accounts, which are sums in double precision.
-  KOKKOS_FORCEINLINE_FUNCTION static void book(Field<Accum> const& account, std::size_t first, V const& loss) {
+  KOKKOS_FORCEINLINE_FUNCTION static void add_dissipation(Field<Accum> const& account, std::size_t first, V const& loss) {
     if constexpr (mixed) {
-      clathra::book(account, first, loss);
+      clathra::add_dissipation(account, first, loss);
     } else {
       store(&account(first), load(&account(first)) + loss);
     }

@@ -44,7 +44,7 @@ void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const
 }
 
 void compute_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
-                    BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps,
+                    BreakLog const& breaks, Dissipation const& losses, Faults const& faults, Field<StepState> const& steps,
                     StepLaunches const& launches) {
   auto const compute =
       particles.precision == Precision::full ? compute_forces_in<FullPrecision> : compute_forces_in<MixedPrecision>;

@@ -24,7 +24,7 @@ void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const
 /// compute_forces() in one precision.
 template <class P>
 void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
-                       BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps,
+                       BreakLog const& breaks, Dissipation const& losses, Faults const& faults, Field<StepState> const& steps,
                        StepLaunches const& launches);
 
 /// Sets force and torque of every owned disc from its contacts and bonds, advances their history by one step of length `dt` [s],
@@ -32,7 +32,7 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
 /// @param losses  written only with `laws.ledger`;  @param step  number noted with broken bonds, where there are no `steps`
 /// @param steps  under way; nothing happens while they are stopped;  @param launches  where the kernel goes
 void compute_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,
-                    BreakLog const& breaks, EnergyLosses const& losses, Faults const& faults, Field<StepState> const& steps = {},
+                    BreakLog const& breaks, Dissipation const& losses, Faults const& faults, Field<StepState> const& steps = {},
                     StepLaunches const& launches = {});
 
 }  // namespace clathra

@@ -3,7 +3,7 @@
 namespace clathra {
 
 template void compute_forces_in<MixedPrecision>(ParticleSoA const&, ContactRows const&, ContactLaws const&, Real, std::int64_t,
-                                                BreakLog const&, EnergyLosses const&, Faults const&, Field<StepState> const&,
+                                                BreakLog const&, Dissipation const&, Faults const&, Field<StepState> const&,
                                                 StepLaunches const&);
 
 }  // namespace clathra

@@ -20,7 +20,7 @@ using GrainLaw = GrainLawOf<Real>;
 
 /// The same law in the numbers of a kernel.
 template <class R>
-KOKKOS_INLINE_FUNCTION GrainLawOf<R> in_numbers(GrainLaw const& law) {
+KOKKOS_INLINE_FUNCTION GrainLawOf<R> cast(GrainLaw const& law) {
   return {R(law.normal_stiffness), R(law.shear_stiffness), R(law.friction), R(law.shape_factor), R(law.damping_ratio)};
 }
 

@@ -36,9 +36,9 @@ struct HistoryOf {
     if constexpr (!mixed)
       return kept + stiffness * way;
     else if constexpr (sizeof...(None) == 0)
-      return times_plus(V(stiffness), way, kept);
+      return multiply_add(V(stiffness), way, kept);
     else
-      return times_plus_where(!(none, ...), V(stiffness), way, kept);
+      return multiply_add_where(!(none, ...), V(stiffness), way, kept);
   }
 
   /// What is kept after the step: in mixed precision less by what has slipped.

@@ -49,7 +49,7 @@ struct AnchorRows {
     auto const count = [e](RealField const& field, float stiffness, float way) {
       if (field.extent(0) == 0) return;
       float& force = field.data<float>()[e];
-      force = minus_times(stiffness, way, force == no_bond_single ? 0 : force);
+      force = negative_multiply_add(stiffness, way, force == no_bond_single ? 0 : force);
     };
     count(rows.shear, pair.of_grains.shear, pair.way.slip);
     count(rows.moment, pair.of_grains.rolling, pair.way.rotation);
@@ -81,7 +81,7 @@ struct KeepMomentsSinceAnchor {
       PlacesOfDiscs const other = p.mirror.gather_places(&rows.neighbour(e));
       float* const moments = rows.moment.data<float>() + e;
       FloatLanes const common = common_radius(own.radius, other.radius), at_anchor = load(moments),
-                       kept = times_plus(less * common * common, counted_on(other.turn) - counted_on(own.turn), at_anchor);
+                       kept = multiply_add(less * common * common, counted_on(other.turn) - counted_on(own.turn), at_anchor);
       auto stays = at_anchor == FloatLanes(no_bond_single);
       if (not_of_bonds) stays = stays || is_bonded(load(rows.formation_overlap.data<float>() + e));
       store(moments, select(stays, at_anchor, kept));
@@ -113,7 +113,7 @@ void anchor_rows(ParticleSoA const& particles, ContactRows const& rows, ContactL
 
 void keep_moments(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& before, ContactLaws const& now) {
   if (particles.precision == Precision::full || !rows.features.rolling) return;
-  float const less = in_numbers<float>(before.grain).rolling_factor() - in_numbers<float>(now.grain).rolling_factor();
+  float const less = cast<float>(before.grain).rolling_factor() - cast<float>(now.grain).rolling_factor();
   Kokkos::parallel_for("keep_moments", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned, lane_count_of<float>)),
                        KeepMomentsSinceAnchor{particles, rows, less, now.bond_kind == BondKind::replace});
 }

@@ -29,19 +29,19 @@ CLATHRA_COLD_FUNCTION inline AnchoredPair anchored_pair(ParticleSoA const& p, Co
   float const *const a = row_of(i), *const b = row_of(rows.neighbour(e));
   std::int32_t const dx = difference(bits_of(b[0]), bits_of(a[0])), dy = difference(bits_of(b[1]), bits_of(a[1]));
   auto const tick = static_cast<float>(p.mirror.tick);
-  float const x = to_float(dx), y = to_float(dy), distance2 = times_plus(x, x, times_plus(y, y, 1e-12F));
-  float const distance = lane_sqrt(distance2), overlap = minus_times(distance, tick, a[2] + b[2]);
+  float const x = to_float(dx), y = to_float(dy), distance2 = multiply_add(x, x, multiply_add(y, y, 1e-12F));
+  float const distance = lane_sqrt(distance2), overlap = negative_multiply_add(distance, tick, a[2] + b[2]);
   AnchoredPair pair;
   pair.anchor = anchor_at(x, y);
   pair.overlap = overlap;
   bool const keeps = rows.anchor.extent(0) > 0;
   std::int32_t const anchor = anew || !keeps ? pair.anchor : rows.anchor.data<std::int32_t>()[e];
-  pair.way = way_since(branch_since(anchor, dx, dy, x, y, 1 / distance2), minus_times(0.5F, overlap, a[2]),
-                       minus_times(0.5F, overlap, b[2]), counted_on(a[3]), counted_on(b[3]));
-  pair.of_grains = grain_stiffness(in_numbers<float>(laws.grain), overlap, common_radius(a[2], b[2]));
+  pair.way = way_since(branch_since(anchor, dx, dy, x, y, 1 / distance2), negative_multiply_add(0.5F, overlap, a[2]),
+                       negative_multiply_add(0.5F, overlap, b[2]), counted_on(a[3]), counted_on(b[3]));
+  pair.of_grains = grain_stiffness(cast<float>(laws.grain), overlap, common_radius(a[2], b[2]));
   pair.bond = {0, 0, 0};
   if (laws.bond_kind == BondKind::none || !is_bonded(rows.formation_overlap(e))) return pair;
-  BondLawOf<float> const law = in_numbers<float>(laws.bond);
+  BondLawOf<float> const law = cast<float>(laws.bond);
   pair.bond = law.stiffness(rows.width.data<float>()[e], law.bond_thickness(rows.formation_overlap.data<float>()[e]));
   if (laws.bond_kind == BondKind::replace) pair.of_grains = pair.bond;
   return pair;
@@ -53,7 +53,7 @@ CLATHRA_COLD_FUNCTION inline HistoryForces anchored_forces(ParticleSoA const& p,
                                                            int i, std::size_t e, HistoryForces const& held) {
   AnchoredPair const pair = anchored_pair(p, rows, laws, i, e);
   auto const force = [](Real at_anchor, float stiffness, float way) {
-    return at_anchor == no_bond ? Real(0) : Real(times_plus(stiffness, way, static_cast<float>(at_anchor)));
+    return at_anchor == no_bond ? Real(0) : Real(multiply_add(stiffness, way, static_cast<float>(at_anchor)));
   };
   ContactStiffness<float> const& k = pair.of_grains;
   return {force(held.shear, k.shear, pair.way.slip), force(held.moment, k.rolling, pair.way.rotation),

@@ -127,17 +127,17 @@ struct KickAndDriftMixed : Moving {
       vx += select(free, V(by.pull_x), V(0));
       vy += select(free, V(by.pull_y), V(0));
     }
-    places.turn = times_plus(omega, V(static_cast<R>(by.drift)), places.turn);
+    places.turn = multiply_add(omega, V(static_cast<R>(by.drift)), places.turn);
     x = move(&p.x(i), x, vx, by.drift);
     y = move(&p.y(i), y, vy, by.drift);
     places.x = ticks_of(x, by.per_tick);
     places.y = ticks_of(y, by.per_tick);
     p.mirror.store(i, places);
     p.mirror.store(i, motion);
-    if constexpr (Ledger) book(lost_to_damping, i, lost);
+    if constexpr (Ledger) add_dissipation(lost_to_damping, i, lost);
     // At least the way: more by a millionth than its rounding takes away. No number where a spin or a place is none, whose frame
     // has no velocity either.
-    return times_plus(lane_abs(vx) + lane_abs(vy), constant<V>(by.drift * (1 + 1e-6)), (omega + frame_x + frame_y) * V(0));
+    return multiply_add(lane_abs(vx) + lane_abs(vy), constant<V>(by.drift * (1 + 1e-6)), (omega + frame_x + frame_y) * V(0));
   }
 
  private:
@@ -147,7 +147,7 @@ struct KickAndDriftMixed : Moving {
                                                     MotionConstants<R> const& by, [[maybe_unused]] V& lost) {
     V const relative = velocity - frame;
     V const damping = select(relative != V(0), lane_copysign(by.damping * force, relative), V(0));
-    V const after = times_plus(force - damping, of_force, velocity);
+    V const after = multiply_add(force - damping, of_force, velocity);
     if constexpr (Ledger) lost += damping * (constant<V>(0.5) * (velocity + after)) * by.kick;
     return after;
   }
@@ -155,7 +155,7 @@ struct KickAndDriftMixed : Moving {
   /// Velocity of the homogeneous motion at these places (AffineFrame), from their exact distances from its centre.
   KOKKOS_FORCEINLINE_FUNCTION static V frame_velocity(LanesOfHalves from_centre, Coord centre, Real gradient, Real drift) {
     for (Lanes& half : from_centre.of) half = half - Lanes(centre);
-    return times_plus(V(static_cast<R>(gradient)), in_single(from_centre), V(static_cast<R>(drift)));
+    return multiply_add(V(static_cast<R>(gradient)), in_single(from_centre), V(static_cast<R>(drift)));
   }
 
   /// Their pairs have been anchored anew: the discs count their turns from now on.
@@ -177,44 +177,46 @@ struct KickAndDriftMixed : Moving {
   KOKKOS_FORCEINLINE_FUNCTION static LanesOfHalves move(double* to, LanesOfHalves places, V const& velocity, Real drift) {
     LanesOfHalves const rate = in_double(velocity);
     for (int h = 0; h < halves; ++h) {
-      places.of[h] = fused_times_plus(rate.of[h], Lanes(drift), places.of[h]);
+      places.of[h] = fused_multiply_add(rate.of[h], Lanes(drift), places.of[h]);
       store(to + h * lane_count, places.of[h]);
     }
     return places;
   }
 };
 
-/// The reduction to the longest ways, with the end of the move.
+/// The reduction to the largest displacements, with the end of the move.
 template <class Kernel>
-struct LongestWays {
-  using value_type = Ways;
+struct LargestOfDiscs {
+  using value_type = LargestDisplacements;
   Kernel kernel;
 
-  KOKKOS_FUNCTION void init(Ways& longest) const { longest = {}; }
-  KOKKOS_FUNCTION void join(Ways& into, Ways const& from) const { join_each(into, from); }
+  KOKKOS_FUNCTION void init(LargestDisplacements& largest_of) const { largest_of = {}; }
+  KOKKOS_FUNCTION void join(LargestDisplacements& into, LargestDisplacements const& from) const { join_each(into, from); }
   // Kokkos before 4 calls join with volatile numbers.
-  KOKKOS_FUNCTION void join(Ways volatile& into, Ways const volatile& from) const { join_each(into, from); }
+  KOKKOS_FUNCTION void join(LargestDisplacements volatile& into, LargestDisplacements const volatile& from) const {
+    join_each(into, from);
+  }
   /// Called once, when all are done.
-  KOKKOS_FUNCTION void final(Ways& longest) const {
-    if (!is_stopped(kernel.steps)) kernel.steps(0).end_move(longest);
+  KOKKOS_FUNCTION void final(LargestDisplacements& largest_of) const {
+    if (!is_stopped(kernel.steps)) kernel.steps(0).end_move(largest_of);
   }
 
  private:
   template <class To, class From>
   KOKKOS_FORCEINLINE_FUNCTION static void join_each(To& into, From& from) {
     into.of_step = lane_max(Real(into.of_step), Real(from.of_step));
-    into.search2 = lane_max(Real(into.search2), Real(from.search2));
-    into.choice2 = lane_max(Real(into.choice2), Real(from.choice2));
+    into.since_search2 = lane_max(Real(into.since_search2), Real(from.since_search2));
+    into.since_update2 = lane_max(Real(into.since_update2), Real(from.since_update2));
   }
 };
 
 /// The groups of one thread, backwards, since what the forces touched last is still in its cache.
 template <class Kernel>
-struct ByShares : LongestWays<Kernel> {
+struct ByShares : LargestOfDiscs<Kernel> {
   int groups, share;  ///< in all, and of a thread
-  using LongestWays<Kernel>::kernel;
+  using LargestOfDiscs<Kernel>::kernel;
 
-  KOKKOS_FUNCTION void operator()(int n, Ways& longest) const {
+  KOKKOS_FUNCTION void operator()(int n, LargestDisplacements& largest_of) const {
     if (is_stopped(kernel.steps)) return;
     using R = typename Kernel::R;
     using V = LanesOf<R>;
@@ -227,36 +229,38 @@ struct ByShares : LongestWays<Kernel> {
       if (any(!(displacement < constant<V>(1e5)))) kernel.report(i, displacement);
       most = lane_max(displacement, most);  // not one that is no number
     }
-    longest.of_step = lane_max(longest.of_step, Real(largest(most)));
+    largest_of.of_step = lane_max(largest_of.of_step, Real(largest(most)));
   }
 };
 
 /// On a GPU a disc a thread, so that neighbouring threads touch neighbouring discs.
 template <class Kernel>
-struct ByDiscs : LongestWays<Kernel> {
-  PlacesOfChoice choice;
-  using LongestWays<Kernel>::kernel;
+struct ByDiscs : LargestOfDiscs<Kernel> {
+  UpdatePlaces at_update;
+  using LargestOfDiscs<Kernel>::kernel;
 
-  KOKKOS_FUNCTION void operator()(int i, Ways& longest) const {
+  KOKKOS_FUNCTION void operator()(int i, LargestDisplacements& largest_of) const {
     if (is_stopped(kernel.steps)) return;
     using R = typename Kernel::R;
     auto const disc = static_cast<std::size_t>(i);
     auto const displacement = kernel.of_owned(disc, kernel.step(MotionConstants<R>(kernel), disc));
     if (any(!(displacement < constant<LanesOf<R>>(1e5)))) kernel.report(disc, displacement);
-    longest.of_step = lane_max(Real(largest(displacement)), longest.of_step);
+    largest_of.of_step = lane_max(Real(largest(displacement)), largest_of.of_step);
     StepState const& now = kernel.steps(0);
     ParticleSoA const& p = kernel.p;
-    if (now.looks_at_search)
-      longest.search2 = lane_max(longest.search2, nonaffine_displacement2(p, p.reference_x, p.reference_y, now.frame, i));
-    if (now.looks_at_choice)
-      longest.choice2 = lane_max(longest.choice2, nonaffine_displacement2(p, choice.x, choice.y, now.frame_of_choice, i));
+    if (now.measures_since_search)
+      largest_of.since_search2 =
+          lane_max(largest_of.since_search2, nonaffine_displacement2(p, p.reference_x, p.reference_y, now.frame, i));
+    if (now.measures_since_update)
+      largest_of.since_update2 =
+          lane_max(largest_of.since_update2, nonaffine_displacement2(p, at_update.x, at_update.y, now.frame_since_update, i));
   }
 };
 
 }  // namespace
 
-void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
-               Faults const& faults, DeviceSteps const& steps, PlacesOfChoice const& choice, StepLaunches const& launches) {
+void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, Dissipation const& losses,
+               Faults const& faults, DeviceSteps const& steps, UpdatePlaces const& at_update, StepLaunches const& launches) {
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
   int const threads = ExecutionSpace().concurrency(), share = std::max(1, (groups + threads - 1) / threads);
@@ -265,12 +269,12 @@ void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
     if constexpr (for_gpu) {
       static_assert(lane_count_of<float> == 1 && lane_count == 1);
       launches.parallel_reduce("kick_and_drift", groups,
-                               ByDiscs<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, choice},
-                               steps.ways);
+                               ByDiscs<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, at_update},
+                               steps.displacements);
     } else {
       launches.parallel_reduce("kick_and_drift", (groups + share - 1) / share,
                                ByShares<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, groups, share},
-                               steps.ways);
+                               steps.displacements);
     }
   };
   auto const run_with = [&](auto ledger) {

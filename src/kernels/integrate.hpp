@@ -20,21 +20,22 @@ struct StepLengths {
   Real kick, drift;
 };
 
-/// Where the last choice of the time step found the discs.
-struct PlacesOfChoice {
+/// Where the last update of the time step found the discs.
+struct UpdatePlaces {
   Field<Coord> x, y;  ///< [owned] [m]
 };
 
 /// v(t+dt/2) = v(t-dt/2) + (F + F_d)/m dt, then x(t+dt) = x(t) + v dt; likewise omega and the angle. Second order for forces of
 /// position.
-/// The longest way of a disc, max (|Delta x| + |Delta y|) at least, goes into the state of the steps, and the move ends there
-/// unless the host goes along (StepState). On a GPU steps that may leave a doubt measure the discs' own ways as well.
-/// @param losses  the damping account is written when its field exists
+/// The largest displacement of a disc, max (|Delta x| + |Delta y|) at least, goes into the state of the steps, and the move ends
+/// there unless the host has a part in it (StepState). On a GPU, steps after which a search or an update of the time step may be
+/// due measure each disc's displacement since then as well.
+/// @param losses  those to damping are written when its field exists
 /// @param steps  whose frame is that of the step; nothing happens while they are stopped
-/// @param choice  where the last choice of dt found the discs, empty without one
+/// @param at_update  where the last update of the time step found the discs, empty without one
 /// @param launches  where the kernel goes
-void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, EnergyLosses const& losses,
-               Faults const& faults, DeviceSteps const& steps, PlacesOfChoice const& choice = {},
+void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths const& dt, Dissipation const& losses,
+               Faults const& faults, DeviceSteps const& steps, UpdatePlaces const& at_update = {},
                StepLaunches const& launches = {});
 
 }  // namespace clathra

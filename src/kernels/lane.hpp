@@ -1,7 +1,7 @@
 #pragma once
 /// The lane type: laws and kernels are written once on `Lanes` and become SIMD vectors on a CPU (one disc a lane) and plain
 /// numbers on a GPU (one disc a thread). Every operation is exact IEEE arithmetic lane by lane: the width never changes a bit.
-/// Products and sums are fused where times_plus() says so, and nowhere else. With CLATHRA_UNFUSED nothing asks for a fused
+/// Products and sums are fused where multiply_add() says so, and nowhere else. With CLATHRA_UNFUSED nothing asks for a fused
 /// operation: the test no_fma compiles the kernels so, and whatever fused instruction is left is one that the compiler made up.
 #include <Kokkos_Core.hpp>
 #include <cmath>
@@ -111,19 +111,21 @@ KOKKOS_FORCEINLINE_FUNCTION float lane_min(float a, float b) { return a < b ? a 
 /// a b + c: in double precision rounded twice, in single precision once, which is one operation instead of two where vectors are
 /// all that a processor is busy with. A processor without it (x86 before 2013, cheap ones later) calls the library's, number by
 /// number.
-KOKKOS_FORCEINLINE_FUNCTION double times_plus(double a, double b, double c) { return a * b + c; }
-KOKKOS_FORCEINLINE_FUNCTION float times_plus(float a, float b, float c) { return may_fuse ? ::fmaf(a, b, c) : a * b + c; }
-/// times_plus() where the mask is set, else 0.
-KOKKOS_FORCEINLINE_FUNCTION float times_plus_where(bool mask, float a, float b, float c) {
-  return mask ? times_plus(a, b, c) : 0;
+KOKKOS_FORCEINLINE_FUNCTION double multiply_add(double a, double b, double c) { return a * b + c; }
+KOKKOS_FORCEINLINE_FUNCTION float multiply_add(float a, float b, float c) { return may_fuse ? ::fmaf(a, b, c) : a * b + c; }
+/// multiply_add() where the mask is set, else 0.
+KOKKOS_FORCEINLINE_FUNCTION float multiply_add_where(bool mask, float a, float b, float c) {
+  return mask ? multiply_add(a, b, c) : 0;
 }
 /// a b + c rounded once, of double precision too: in what mixed precision alone computes.
-KOKKOS_FORCEINLINE_FUNCTION double fused_times_plus(double a, double b, double c) {
+KOKKOS_FORCEINLINE_FUNCTION double fused_multiply_add(double a, double b, double c) {
   return may_fuse ? ::fma(a, b, c) : a * b + c;
 }
-/// c - a b, as times_plus().
-KOKKOS_FORCEINLINE_FUNCTION double minus_times(double a, double b, double c) { return c - a * b; }
-KOKKOS_FORCEINLINE_FUNCTION float minus_times(float a, float b, float c) { return may_fuse ? ::fmaf(-a, b, c) : c - a * b; }
+/// c - a b, as multiply_add().
+KOKKOS_FORCEINLINE_FUNCTION double negative_multiply_add(double a, double b, double c) { return c - a * b; }
+KOKKOS_FORCEINLINE_FUNCTION float negative_multiply_add(float a, float b, float c) {
+  return may_fuse ? ::fmaf(-a, b, c) : c - a * b;
+}
 
 #ifdef CLATHRA_SIMD
 template <class R, class Abi>
@@ -232,26 +234,26 @@ KOKKOS_FORCEINLINE_FUNCTION Simd<R, Abi> fused(Simd<R, Abi> const& a, Simd<R, Ab
   return Simd<R, Abi>(sum);
 #endif
 }
-KOKKOS_FORCEINLINE_FUNCTION Lanes times_plus(Lanes const& a, Lanes const& b, Lanes const& c) { return a * b + c; }
-KOKKOS_FORCEINLINE_FUNCTION Lanes minus_times(Lanes const& a, Lanes const& b, Lanes const& c) { return c - a * b; }
-KOKKOS_FORCEINLINE_FUNCTION Lanes fused_times_plus(Lanes const& a, Lanes const& b, Lanes const& c) {
+KOKKOS_FORCEINLINE_FUNCTION Lanes multiply_add(Lanes const& a, Lanes const& b, Lanes const& c) { return a * b + c; }
+KOKKOS_FORCEINLINE_FUNCTION Lanes negative_multiply_add(Lanes const& a, Lanes const& b, Lanes const& c) { return c - a * b; }
+KOKKOS_FORCEINLINE_FUNCTION Lanes fused_multiply_add(Lanes const& a, Lanes const& b, Lanes const& c) {
   return fused<false>(a, b, c);
 }
-KOKKOS_FORCEINLINE_FUNCTION FloatLanes times_plus(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes multiply_add(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
   return fused<false>(a, b, c);
 }
-KOKKOS_FORCEINLINE_FUNCTION FloatLanes minus_times(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes negative_multiply_add(FloatLanes const& a, FloatLanes const& b, FloatLanes const& c) {
   return fused<true>(a, b, c);
 }
-/// times_plus() where the mask is set, else 0.
-KOKKOS_FORCEINLINE_FUNCTION FloatLanes times_plus_where(MaskOf<FloatLanes> const& mask, FloatLanes const& a, FloatLanes const& b,
-                                                        FloatLanes const& c) {
+/// multiply_add() where the mask is set, else 0.
+KOKKOS_FORCEINLINE_FUNCTION FloatLanes multiply_add_where(MaskOf<FloatLanes> const& mask, FloatLanes const& a,
+                                                          FloatLanes const& b, FloatLanes const& c) {
 #if defined(__AVX512F__) && !defined(CLATHRA_UNFUSED)
   auto const x = static_cast<PlainVector<float>>(a), y = static_cast<PlainVector<float>>(b),
              z = static_cast<PlainVector<float>>(c);
   return FloatLanes(PlainVector<float>(_mm512_maskz_fmadd_ps(static_cast<__mmask16>(stdx::__data(mask)), x, y, z)));
 #else
-  return select(mask, times_plus(a, b, c), FloatLanes(0));
+  return select(mask, multiply_add(a, b, c), FloatLanes(0));
 #endif
 }
 KOKKOS_FORCEINLINE_FUNCTION Lanes load(double const* from) { return Lanes(from, stdx::element_aligned); }

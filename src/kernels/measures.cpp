@@ -117,7 +117,7 @@ void set_units(SumUnits const& scale, Real (&unit)[pair_sums]) {
 }
 
 struct LossSums {
-  EnergyLosses losses;
+  Dissipation losses;
   KOKKOS_FUNCTION void operator()(int i, Real* out) const {
     auto const of = [i](Field<Accum> const& account) { return account.extent(0) > 0 ? account(i) : 0; };
     out[0] = of(losses.sliding);
@@ -200,7 +200,7 @@ Real deepest_overlap(ParticleSoA const& particles, ContactRows const& rows) {
   return lane_max(deepest, Real(0));
 }
 
-LossTotals total_losses(EnergyLosses const& losses, int discs, Summation const& summation) {
+DissipationTotals total_losses(Dissipation const& losses, int discs, Summation const& summation) {
   Real sums[5] = {};
   Real const unit = summation.unit.energy();
   exact_sums<5>("total_losses", discs, LossSums{losses}, {unit, unit, unit, unit, unit}, sums, summation.over_ranks);

@@ -41,10 +41,10 @@ Measures measure(ParticleSoA const& particles, ContactRows const& rows, ContactL
 Real deepest_overlap(ParticleSoA const& particles, ContactRows const& rows);
 
 /// Sums of an energy ledger's loss accounts [J/m].
-struct LossTotals {
+struct DissipationTotals {
   Real sliding = 0, rolling = 0, dashpot = 0, breakage = 0, damping = 0;
 };
-LossTotals total_losses(EnergyLosses const& losses, int discs, Summation const& sums = {});
+DissipationTotals total_losses(Dissipation const& losses, int discs, Summation const& sums = {});
 
 /// Identity of a state: 64 bits over (id, position, angle, velocity, history, bonds) of all owned discs, independent of how they
 /// are stored. The sum of a mix per disc and per row entry, so ranks may add their parts. -0 and +0 count as equal.

@@ -4,7 +4,11 @@
 #include <type_traits>
 
 #include "kernels/light_launch.hpp"
-#include "kernels/near_discs.hpp"
+#ifdef CLATHRA_SIMD
+#include "kernels/near_discs_on_processor.hpp"
+#else
+#include "kernels/near_discs_on_device.hpp"
+#endif
 
 namespace clathra {
 
@@ -193,7 +197,7 @@ Search prepared(ParticleSoA const& particles, SearchReach const& reach, Candidat
   Real const cell = 2 * reach.largest_radius + lane_max(2 * reach.largest_skin + slack, bonded_reach);
   CellGrid const grid = bin_particles(particles, particles.all(), cell, reach.bounds, scratch);
   Kokkos::parallel_for("line_up", light_launch(particles.all() + lane_count), LineUp{particles, grid.disc, candidates});
-  return {particles, grid, candidates, bonded_reach, slack, old, slot};
+  return {{particles, grid, candidates, bonded_reach, slack, old, slot}};
 }
 
 /// Room for so many entries: a little more than needed, so that the next search finds fields of the right size; never nothing.

@@ -81,7 +81,7 @@ inline Faults make_faults() {
 
 /// Energy lost since the ledger was opened [J/m], by disc (half of each contact's loss on either disc). An empty field is an
 /// account that the laws have no use for; all are empty where there is no ledger.
-struct EnergyLosses {
+struct Dissipation {
   Field<Accum> sliding;   ///< Coulomb slip
   Field<Accum> rolling;   ///< plastic rolling
   Field<Accum> dashpot;   ///< viscous contact damping
@@ -90,13 +90,13 @@ struct EnergyLosses {
 };
 
 /// Which ways there are to lose energy.
-struct LossKinds {
+struct DissipationKinds {
   bool sliding = true, rolling = true, dashpot = true, breakage = true, damping = true;
 };
 
 /// Visits (name, account, whether it is needed).
 template <class Visit>
-void for_each_account(EnergyLosses& losses, LossKinds const& needed, Visit&& visit) {
+void for_each_dissipation(Dissipation& losses, DissipationKinds const& needed, Visit&& visit) {
   visit("lost_sliding", losses.sliding, needed.sliding);
   visit("lost_rolling", losses.rolling, needed.rolling);
   visit("lost_dashpot", losses.dashpot, needed.dashpot);
@@ -105,15 +105,16 @@ void for_each_account(EnergyLosses& losses, LossKinds const& needed, Visit&& vis
 }
 
 /// Opens the accounts that are needed and not open yet; what stands in the others stays.
-inline void open_accounts(EnergyLosses& losses, LossKinds const& needed, std::size_t discs) {
-  for_each_account(losses, needed, [&](char const* name, Field<Accum>& account, bool wanted) {
+inline void allocate_dissipation(Dissipation& losses, DissipationKinds const& needed, std::size_t discs) {
+  for_each_dissipation(losses, needed, [&](char const* name, Field<Accum>& account, bool wanted) {
     if (wanted && account.extent(0) == 0) account = Field<Accum>(std::string(name), discs);
   });
 }
 
-inline std::size_t bytes(EnergyLosses losses) {
+inline std::size_t bytes(Dissipation losses) {
   std::size_t total = 0;
-  for_each_account(losses, {}, [&](char const*, Field<Accum> const& account, bool) { total += account.span() * sizeof(Accum); });
+  for_each_dissipation(losses, {},
+                       [&](char const*, Field<Accum> const& account, bool) { total += account.span() * sizeof(Accum); });
   return total;
 }
 

@@ -28,7 +28,7 @@ struct Spring {
 /// stiffer of the two), and with grain contacts in gaps that may close.
 struct SpringSet {
   bool to_come = false;
-  Real leeway = 0;           ///< gaps below this share of both discs' Verlet skins may close, bonded or not
+  Real skin_fraction = 0;    ///< gaps below this share of both discs' Verlet skins may close, bonded or not
   bool bonds_close = false;  ///< all bonded gaps, however wide
 };
 
@@ -99,7 +99,7 @@ KOKKOS_INLINE_FUNCTION void for_each_spring(SpringNetwork const& net, int i, Spr
     int const j = net.rows.neighbour(e);
     Real const formation_overlap = bonds ? Real(net.rows.formation_overlap(e)) : no_bond;
     bool const closes = set.bonds_close && is_bonded(formation_overlap);
-    Real const closing = closes ? no_bond : set.leeway * (p.verlet_skin(i) + p.verlet_skin(j));
+    Real const closing = closes ? no_bond : set.skin_fraction * (p.verlet_skin(i) + p.verlet_skin(j));
     Pair<Real> const pair{p.x(j) - p.x(i),
                           p.y(j) - p.y(i),
                           p.radius(i),
@@ -113,7 +113,7 @@ KOKKOS_INLINE_FUNCTION void for_each_spring(SpringNetwork const& net, int i, Spr
   }
   for (int wall = 0; wall < wall_count; ++wall) {
     Spring<Real> const spring =
-        wall_spring(net, wall, p.x(i), p.y(i), p.radius(i), p.inverse_mass(i), set.leeway * p.verlet_skin(i));
+        wall_spring(net, wall, p.x(i), p.y(i), p.radius(i), p.inverse_mass(i), set.skin_fraction * p.verlet_skin(i));
     if (spring.normal > 0) visit(spring, -1);
   }
 }

@@ -72,9 +72,9 @@ AbsoluteStiffness make_absolute_stiffness(SpringNetwork const& net) {
 struct FillAbsoluteStiffness {
   SpringNetwork net;
   AbsoluteStiffness to;
-  Real twice_rate;  ///< 2 / dt [1/s], 0 without dashpots
-  Real leeway;      ///< SpringSet
-  Real slip;        ///< mu where sliding contacts may vibrate faster than sticking ones, else 0
+  Real twice_rate;     ///< 2 / dt [1/s], 0 without dashpots
+  Real skin_fraction;  ///< SpringSet
+  Real slip;           ///< mu where sliding contacts may vibrate faster than sticking ones, else 0
   std::size_t ahead = discs_ahead(net.particles.owned);
 
   struct Own {
@@ -86,7 +86,7 @@ struct FillAbsoluteStiffness {
     auto const first = static_cast<std::size_t>(group) * lane_count;
     fetch_discs(first + ahead, p.x, p.y, p.radius, p.verlet_skin);
     Lanes const x = load(&p.x(first)), y = load(&p.y(first)), radius = load(&p.radius(first)),
-                inverse_mass = load(p.inverse_mass, first), may_close = leeway * load(&p.verlet_skin(first));
+                inverse_mass = load(p.inverse_mass, first), may_close = skin_fraction * load(&p.verlet_skin(first));
     bool const bonds = net.laws.bond_kind != BondKind::none, viscous = net.laws.grain.damping_ratio > 0;
     Own own{0, 0, 0, 0, 0, 0};
     HistoryFormat const& format = net.rows.features.format;
@@ -99,7 +99,7 @@ struct FillAbsoluteStiffness {
       std::size_t const e = (static_cast<std::size_t>(k) << shift) | (first & ((std::size_t(1) << shift) - 1));
       int const* const j = &net.rows.neighbour(e);
       Lanes const dx = gather(p.x.data(), j) - x, dy = gather(p.y.data(), j) - y, other_radius = gather(p.radius.data(), j),
-                  closing = may_close + leeway * gather(p.verlet_skin.data(), j), reach = radius + other_radius + closing;
+                  closing = may_close + skin_fraction * gather(p.verlet_skin.data(), j), reach = radius + other_radius + closing;
       auto const formed = [&] { return bonds ? load(net.rows.formation_overlap, e) : Lanes(no_bond); };
       // Whether an entry of a wider group carries something need not hold for one of this group.
       if ((narrow || (active & bit) == 0) && !any(dx * dx + dy * dy < reach * reach) &&
@@ -245,7 +245,7 @@ Real local_time_step(SpringNetwork const& network, int least_contacts) {
   return std::sqrt(2 * least);
 }
 
-Real stable_limit(SpringNetwork const& network, Real alpha, Real leeway, AcrossRanks const& across) {
+Real stable_limit(SpringNetwork const& network, Real alpha, Real skin_fraction, AcrossRanks const& across) {
   ParticleSoA const& particles = network.particles;
   across.refresh_ghosts(particles.verlet_skin);
   Motion u = make_motion(particles), w = make_motion(particles);
@@ -263,7 +263,7 @@ Real stable_limit(SpringNetwork const& network, Real alpha, Real leeway, AcrossR
   for (int n = 0; n < products; ++n) {
     if (n == 0 || dashpots)
       Kokkos::parallel_for("fill_absolute_stiffness", groups,
-                           FillAbsoluteStiffness{network, stiffness, dashpots ? 2 / step : 0, leeway, slip});
+                           FillAbsoluteStiffness{network, stiffness, dashpots ? 2 / step : 0, skin_fraction, slip});
     Real greatest = 0;
     Kokkos::parallel_reduce("absolute_product", groups, AbsoluteProduct{network, stiffness, u, w, factor, n > 0},
                             Kokkos::Max<Real>(greatest));

@@ -22,6 +22,6 @@ Real local_time_step(SpringNetwork const& network, int least_contacts = 4);
 /// @param leeway  gaps below this share of both discs' Verlet skins count as closed: the bound holds until a disc has strayed by
 /// that share of its own
 /// @return 1e300 where no disc has a spring
-Real stable_limit(SpringNetwork const& network, Real alpha, Real leeway, AcrossRanks const& across);
+Real stable_limit(SpringNetwork const& network, Real alpha, Real skin_fraction, AcrossRanks const& across);
 
 }  // namespace clathra

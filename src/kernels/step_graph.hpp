@@ -69,11 +69,11 @@ class StepGraph {
     time_step_ = time_step;
   }
 
-  /// Asks for as many steps as there are, by graphs as far as these pay.
-  /// @param step  step(StepLaunches, n) asks for the n-th of them. All give their kernels the same, but for the first one behind
+  /// Enqueues as many steps as there are, by graphs as far as these pay.
+  /// @param step  step(StepLaunches, n) enqueues the n-th of them. All give their kernels the same, but for the first one behind
   /// a drop, which no graph does.
   template <class Step>
-  void ask_for(int count, Step const& step) {
+  void enqueue(int count, Step const& step) {
     int n = 0;
     while (n < count) {
       if (for_gpu && done_ >= steps_before && count - n >= steps) {

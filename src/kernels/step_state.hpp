@@ -5,49 +5,49 @@
 
 namespace clathra {
 
-/// The box when the discs were where somebody looked at them, and how far they have strayed since.
-struct Mark {
+/// The box when somebody looked at where the discs were, and how far they have been displaced since.
+struct ReferenceState {
   Box box;
-  Real strayed = 1e300;  ///< at most, beside the homogeneous motion, as a share of a skin
+  Real displacement = 1e300;  ///< the largest since then, at most, beside the homogeneous motion, as a share of a skin
 
   /// What the homogeneous motion since then brings two discs nearer, relatively.
   KOKKOS_INLINE_FUNCTION Real closing(Box const& now) const {
     AffineFrame const f = frame_since(now, box);
     return lane_max(lane_abs(1 - f.stretch_x), lane_abs(1 - f.stretch_y));
   }
-  /// Whether two discs whose gap was wider than a share of both their skins could touch: by how far the discs have strayed, as a
-  /// share of their skins, and what the homogeneous motion itself brings them nearer, as a share of the least skin.
-  /// @param reach  of a pair, in skins;  @param leeway  that share
-  KOKKOS_INLINE_FUNCTION bool has_strayed(Box const& now, Real reach, Real leeway) const {
-    return strayed + closing(now) * reach >= leeway;
+  /// Whether two discs whose gap was wider than a share of both their skins could touch: by their displacements, as a share of
+  /// their skins, and what the homogeneous motion itself brings them nearer, as a share of the least skin.
+  /// @param reach  of a pair, in skins;  @param skin_fraction  that share
+  KOKKOS_INLINE_FUNCTION bool is_outdated(Box const& now, Real reach, Real skin_fraction) const {
+    return displacement + closing(now) * reach >= skin_fraction;
   }
-  /// Adds the way of a step. @return whether ways could amount to a share of both their skins by which two discs were apart: then
-  /// the discs' own ones tell whether they do
-  /// @param way  in least skins;  @param reach  of a pair, in skins;  @param leeway  that share
-  KOKKOS_INLINE_FUNCTION bool may_have_strayed(Box const& now, Real way, Real reach, Real leeway) {
+  /// Adds the displacement of a step. @return whether the sum could be a share of both their skins by which two discs were apart:
+  /// then each disc's own displacement tells whether it is
+  /// @param of_step  in least skins;  @param reach  of a pair, in skins;  @param skin_fraction  that share
+  KOKKOS_INLINE_FUNCTION bool add_displacement(Box const& now, Real of_step, Real reach, Real skin_fraction) {
     Real const nearer = closing(now);
-    strayed += way;
-    return !(strayed * (1 + nearer) + nearer * reach < leeway);
+    displacement += of_step;
+    return !(displacement * (1 + nearer) + nearer * reach < skin_fraction);
   }
 };
 
 /// Why steps that are under way stop: all kernels that follow do nothing until the host has looked.
 enum class StepStop : int {
   none,
-  after_move,   ///< the discs have moved and may have strayed too far, or the host asked for it: their forces are missing
+  after_move,   ///< the discs have moved and may be displaced too far, or the host asked for it: their forces are missing
   low_box,      ///< the box has become as low as the host waits for
   out_of_range  ///< a force on a wall is not finite or beyond all scale: the step has not ended
 };
 
 /// What the host says of the steps to come.
 struct StepOrders {
-  Real dt = 0;                  ///< [s]
-  Real least_skin = 1;          ///< [m]
-  Real reach = 0;               ///< of a pair, in skins
-  Real leeway = 1;              ///< share of its skin that a disc may stray before dt is chosen anew
-  Real height = 0;              ///< of the box, at which steps stop [m]
-  bool follows_limit = false;   ///< whether dt is ever chosen anew
-  bool host_goes_along = true;  ///< the host has a part in each step: other ranks, images of discs, a search
+  Real dt = 0;                   ///< [s]
+  Real least_skin = 1;           ///< [m]
+  Real reach = 0;                ///< of a pair, in skins
+  Real skin_fraction = 1;        ///< that discs may be displaced by before the time step is updated
+  Real height = 0;               ///< of the box, at which steps stop [m]
+  bool follows_limit = false;    ///< whether the time step is ever updated
+  bool host_synchronous = true;  ///< the host has a part in each step: other ranks, images of discs, a search
 };
 
 /// The largest sigma_y - sigma_x after any step since somebody asked [Pa], and the height of the box then [m].
@@ -55,13 +55,13 @@ struct LargestDeviator {
   Real q = -1e300, height = 0;
 };
 
-inline constexpr int numbers_of_survey = 15;
+inline constexpr int numbers_of_rebuild_inputs = 15;
 
-/// The longest of all discs.
-struct Ways {
-  Real of_step = 0;  ///< [m], at least
-  Real search2 = 0;  ///< (d / skin)^2 since the last search (largest_nonaffine_displacement2()), where somebody looks at it
-  Real choice2 = 0;  ///< since the last choice of dt
+/// The largest of all discs.
+struct LargestDisplacements {
+  Real of_step = 0;        ///< [m], at least
+  Real since_search2 = 0;  ///< (d / skin)^2 (largest_nonaffine_displacement2()), where somebody looks at it
+  Real since_update2 = 0;  ///< likewise, since the last update of the time step
 };
 
 struct StepState {
@@ -71,67 +71,68 @@ struct StepState {
   Real time = 0, boundary_work = 0;  ///< [s], [J/m]
   LargestDeviator largest;
   std::int64_t step = 0;
-  Mark search, choice;  ///< of the last neighbour search, of the last choice of dt
+  ReferenceState at_search, at_update;  ///< the last neighbour search, the last update of the time step
   StepOrders orders;
-  AffineFrame frame;                                      ///< of the box as the next step moves it
-  Real displacement = 0;                                  ///< at least the longest way of a disc in the last step [m]
-  Real way = 0;                                           ///< of that step beside the homogeneous motion, at most, in least skins
-  bool search_in_doubt = false, choice_in_doubt = false;  ///< which the discs' own ways have not settled
-  bool search_is_due = false, choice_is_due = false;      ///< by the discs' own ways
+  AffineFrame frame;                                          ///< of the box as the next step moves it
+  Real step_displacement = 0;                                 ///< at least the largest of a disc in the last step [m]
+  Real relative_displacement = 0;                             ///< the same beside the homogeneous motion, at most, in least skins
+  bool search_may_be_due = false, update_may_be_due = false;  ///< by sums of displacements, each disc's own are yet to be seen
+  bool search_is_due = false, update_is_due = false;          ///< by each disc's own
   // On a GPU:
-  AffineFrame frame_of_choice;                            ///< of the box as the next step moves it, since the last choice
-  bool looks_at_search = false, looks_at_choice = false;  ///< the next step may leave a doubt: it measures the discs' own ways
+  AffineFrame frame_since_update;                                     ///< of the box as the next step moves it
+  bool measures_since_search = false, measures_since_update = false;  ///< whether the next step looks at each disc's own
   StepStop stop = StepStop::none;
-  std::int64_t out_of_range = 0;                  ///< terms of the forces on the walls
-  std::int64_t surveyed[numbers_of_survey] = {};  ///< where a search is due: what it has to know (survey.hpp)
+  std::int64_t out_of_range = 0;                                ///< terms of the forces on the walls
+  std::int64_t rebuild_inputs[numbers_of_rebuild_inputs] = {};  ///< where a search is due (rebuild_inputs.hpp)
 
   /// To be called before steps, and done by a step for the next one.
   KOKKOS_INLINE_FUNCTION void begin_step() {
     Box moved = box;
     moved.walls.move(orders.dt);
-    frame = frame_since(moved, search.box);
+    frame = frame_since(moved, at_search.box);
     if constexpr (for_gpu) {
-      frame_of_choice = frame_since(moved, choice.box);
-      looks_at_search = may_be_in_doubt(search, moved, 1);
-      looks_at_choice = orders.follows_limit && may_be_in_doubt(choice, moved, orders.leeway);
+      frame_since_update = frame_since(moved, at_update.box);
+      measures_since_search = may_be_due_after(at_search, moved, 1);
+      measures_since_update = orders.follows_limit && may_be_due_after(at_update, moved, orders.skin_fraction);
     }
   }
-  /// Whether a step whose way is no more than twice that of the last one may leave a doubt.
-  KOKKOS_INLINE_FUNCTION bool may_be_in_doubt(Mark mark, Box const& moved, Real leeway) const {
-    return !orders.host_goes_along && mark.may_have_strayed(moved, 2 * way, orders.reach, leeway);
+  /// Whether after a step whose displacement is no more than twice that of the last one each disc's own may have to be seen.
+  KOKKOS_INLINE_FUNCTION bool may_be_due_after(ReferenceState reference, Box const& moved, Real skin_fraction) const {
+    return !orders.host_synchronous && reference.add_displacement(moved, 2 * relative_displacement, orders.reach, skin_fraction);
   }
 
   /// After kick and drift: the box has moved too.
-  KOKKOS_INLINE_FUNCTION void end_move(Ways const& ways) {
-    displacement = ways.of_step;
+  KOKKOS_INLINE_FUNCTION void end_move(LargestDisplacements const& largest_of) {
+    step_displacement = largest_of.of_step;
     box.walls.move(orders.dt);
-    if (orders.host_goes_along) {
+    if (orders.host_synchronous) {
       stop = StepStop::after_move;
       return;
     }
-    look_for_doubts();
-    if (search_in_doubt && looks_at_search) search_in_doubt = search_is_due = settle(search, ways.search2, 1);
-    if (!search_is_due && choice_in_doubt && looks_at_choice)
-      choice_in_doubt = choice_is_due = settle(choice, ways.choice2, orders.leeway);
-    if (search_in_doubt || choice_in_doubt) stop = StepStop::after_move;
+    add_displacements();
+    if (search_may_be_due && measures_since_search)
+      search_may_be_due = search_is_due = is_outdated(at_search, largest_of.since_search2, 1);
+    if (!search_is_due && update_may_be_due && measures_since_update)
+      update_may_be_due = update_is_due = is_outdated(at_update, largest_of.since_update2, orders.skin_fraction);
+    if (search_may_be_due || update_may_be_due) stop = StepStop::after_move;
   }
-  /// Settles a doubt by the discs' own ways. @param share2  (d / skin)^2 of the disc that strayed most;  @return whether there
-  /// was reason for it
-  KOKKOS_INLINE_FUNCTION bool settle(Mark& mark, Real share2, Real leeway) const {
-    mark.strayed = lane_sqrt(share2);
-    return mark.has_strayed(box, orders.reach, leeway);
+  /// By each disc's own displacement. @param share2  (d / skin)^2 of the disc with the largest
+  KOKKOS_INLINE_FUNCTION bool is_outdated(ReferenceState& reference, Real share2, Real skin_fraction) const {
+    reference.displacement = lane_sqrt(share2);
+    return reference.is_outdated(box, orders.reach, skin_fraction);
   }
-  /// Whether the discs' ways since the last search, and since the last choice of dt, call for a closer look.
-  KOKKOS_INLINE_FUNCTION void look_for_doubts() {
+  /// Whether the displacements since the last search, and since the last update of the time step, may have become too large.
+  KOKKOS_INLINE_FUNCTION void add_displacements() {
     Walls const& walls = box.walls;
     Real const of_frame = box.periodic() ? 0 : (walls.largest_speed(left, right) + walls.largest_speed(bottom, top)) * orders.dt;
-    way = (displacement + of_frame) / orders.least_skin;
-    search_in_doubt = search.may_have_strayed(box, way, orders.reach, 1);
-    choice_in_doubt = orders.follows_limit && choice.may_have_strayed(box, way, orders.reach, orders.leeway);
-    search_is_due = choice_is_due = false;
+    relative_displacement = (step_displacement + of_frame) / orders.least_skin;
+    search_may_be_due = at_search.add_displacement(box, relative_displacement, orders.reach, 1);
+    update_may_be_due =
+        orders.follows_limit && at_update.add_displacement(box, relative_displacement, orders.reach, orders.skin_fraction);
+    search_is_due = update_is_due = false;
   }
 
-  /// After the forces of the walls: books their work, keeps the largest deviator stress and steers them.
+  /// After the forces of the walls: adds up their work, keeps the largest deviator stress and steers them.
   KOKKOS_INLINE_FUNCTION void end_step(WallReactions const& now) {
     // The mean force over the step times the way: what leapfrog's kinetic energy sees to the digit.
     for (int wall = 0; wall < wall_count; ++wall) {
@@ -158,7 +159,8 @@ struct DeviceSteps {
   Field<StepState> state = Field<StepState>("step_state", 1);
   decltype(Kokkos::create_mirror_view(Kokkos::HostSpace(), state)) on_host =
       Kokkos::create_mirror_view(Kokkos::HostSpace(), state);
-  Kokkos::View<Ways, MemorySpace> ways = Kokkos::View<Ways, MemorySpace>("longest_ways");
+  Kokkos::View<LargestDisplacements, MemorySpace> displacements =
+      Kokkos::View<LargestDisplacements, MemorySpace>("largest_displacements");
   static constexpr std::size_t words_of_reactions = sum_words(3 * wall_count);
   Field<SumWord> reactions = Field<SumWord>("wall_reactions", words_of_reactions);
   /// Where a GPU sums them up, and the number of threads that have done so; zero between launches.
@@ -168,9 +170,9 @@ struct DeviceSteps {
     on_host(0) = now;
     Kokkos::deep_copy(state, on_host);
   }
-  /// StepState::surveyed on the device.
+  /// StepState::rebuild_inputs on the device.
   using Numbers = Kokkos::View<std::int64_t*, MemorySpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  Numbers surveyed() const { return Numbers(state.data()->surveyed, numbers_of_survey); }
+  Numbers rebuild_inputs() const { return Numbers(state.data()->rebuild_inputs, numbers_of_rebuild_inputs); }
   /// Waits for all that was asked for.
   StepState const& get() const {
     Kokkos::deep_copy(on_host, state);

@@ -21,11 +21,11 @@ struct SkinRange {
   }
 };
 
-/// Begins the ways of the owned discs anew: gives each its skin and remembers its present centre as that of a neighbour search.
-/// The few discs that no contact holds fly far while all others hardly move, and would call for a search of all. Rows that hold
-/// every pair nearer than h_i + h_j are complete until the non-affine displacement of some disc is its h_i. Does not depend on
-/// the discs' order.
-/// @param mean_speed  of all discs of all ranks (survey.hpp) [m/s]
+/// Resets the displacements of the owned discs: gives each its skin and remembers its present centre as that of a neighbour
+/// search. The few discs that no contact holds fly far while all others hardly move, and would call for a search of all. Rows
+/// that hold every pair nearer than h_i + h_j are complete until the non-affine displacement of some disc is its h_i. Does not
+/// depend on the discs' order.
+/// @param mean_speed  of all discs of all ranks (rebuild_inputs.hpp) [m/s]
 void assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame, SkinRange const& range, Real mean_speed);
 
 /// The largest (d / skin)^2 of a group of owned discs since they were at (x, y), as below.

@@ -41,7 +41,7 @@ struct WallForces : ReactionSums {
   Field<StepState> steps;
   GrainLaw law;
   Real dt;
-  EnergyLosses losses;
+  Dissipation losses;
   Faults faults;
   Real unit_of_force;
 
@@ -127,7 +127,7 @@ struct WallForces : ReactionSums {
       if (contacts.shear.extent(0) > 0) contacts.shear(first + l, wall) = lane(force.shear, l);
     });
     for_each_set(active && overlap > d.radius, [&](int l) { faults.report(Fault::deep_overlap, p.id(d.index[l])); });
-    book_losses(d, motion, old_shear, force, active);
+    add_dissipation(d, motion, old_shear, force, active);
     Lanes const on_wall = force.shear * Lanes(nx != 0 ? -nx : ny);  // opposite to the force on the disc
     ReactionSums::add(wall, select(active, force.normal, Lanes(0)), reactions);
     if (contacts.shear.extent(0) > 0) ReactionSums::add(wall_count + wall, select(active, on_wall, Lanes(0)), reactions);
@@ -135,8 +135,8 @@ struct WallForces : ReactionSums {
   }
 
   /// As between grains, but all of it on the disc's account.
-  KOKKOS_FORCEINLINE_FUNCTION void book_losses(WallDiscs const& d, ContactMotion<Lanes> const& motion, Lanes const& old_shear,
-                                               ContactForce<Lanes> const& now, Mask const& active) const {
+  KOKKOS_FORCEINLINE_FUNCTION void add_dissipation(WallDiscs const& d, ContactMotion<Lanes> const& motion, Lanes const& old_shear,
+                                                   ContactForce<Lanes> const& now, Mask const& active) const {
     if (law.friction > 0 && losses.sliding.extent(0) > 0) {
       Lanes const slid = motion.shear_increment + (old_shear - now.shear) / law.shear_stiffness;
       Lanes const lost = 0.5 * (old_shear + now.shear) * slid;
@@ -151,7 +151,7 @@ struct WallForces : ReactionSums {
   /// Called once, when all are done.
   KOKKOS_FUNCTION void final(SumWord* sums) const {
     StepState& now = steps(0);
-    if (now.stop != StepStop::none || now.orders.host_goes_along) return;
+    if (now.stop != StepStop::none || now.orders.host_synchronous) return;
     now.out_of_range = out_of_range(sums);
     if (now.out_of_range > 0) {
       now.stop = StepStop::out_of_range;
@@ -262,7 +262,7 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 }
 
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
-                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
+                     Dissipation const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
                      StepLaunches const& launches) {
   WallForces const forces{
       ReactionSums(ReactionUnits(unit).of), particles, contacts, steps.state, law.as_grain(), dt, losses, faults, unit.force()};

@@ -64,7 +64,7 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 /// @param losses  sliding and dashpot are written when their fields exist;  @param steps  nothing happens while they are stopped
 /// @param launches  where the kernel goes
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
-                     EnergyLosses const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
+                     Dissipation const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
                      StepLaunches const& launches = {});
 
 /// What the walls have felt of the discs of all ranks.

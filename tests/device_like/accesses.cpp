@@ -54,9 +54,9 @@ TEST_P(HostAccess, IsNotWhatABondedSpecimenThatBreaksNeeds) {
   sim.keep_break_details();
   sim.mark_start();
   sim.choose_time_step({});
-  std::int64_t const searches = sim.rebuilds();
+  std::int64_t const searches = sim.upkeep().searches();
   for (int n = 0; n < 600; ++n) sim.step();
-  EXPECT_GT(sim.rebuilds(), searches);
+  EXPECT_GT(sim.upkeep().searches(), searches);
   EXPECT_GT(sim.broken_bonds(), 0);
   use(sim);
   SimulationLaws const laws = sim.laws();

@@ -23,9 +23,9 @@ TEST(DiscRows, AreWhatTheFieldsHoldAfterWhateverChangesThem) {
   Simulation sim = ready(s, Composite::parallel);
   sim.step(1);
   expect_rows_as_fields(sim.particles(), "a step");
-  std::int64_t const searches = sim.rebuilds();
+  std::int64_t const searches = sim.upkeep().searches();
   sim.step(600);
-  ASSERT_GT(sim.rebuilds(), searches);
+  ASSERT_GT(sim.upkeep().searches(), searches);
   expect_rows_as_fields(sim.particles(), "a search");
   sim.add_uniform_strain_rate(3, -4);
   expect_rows_as_fields(sim.particles(), "a strain rate");

@@ -18,10 +18,10 @@ Asked for_steps(Precision precision, int steps) {
   sim.loading().x = sim.loading().y = AxisDrive::held();
   sim.set_skin(0.3 * grain_d50);
   sim.step();
-  std::int64_t const searches = sim.rebuilds();
+  std::int64_t const searches = sim.upkeep().searches();
   LaunchCount const count;
   sim.step(steps);
-  EXPECT_EQ(sim.rebuilds(), searches);
+  EXPECT_EQ(sim.upkeep().searches(), searches);
   return {count.launches(), count.round_trips(), count.allocations()};
 }
 
@@ -52,7 +52,7 @@ int difference(LaunchCount::Counts with, LaunchCount::Counts const& without) {
 
 /// For a step with a search.
 Asked for_a_search(Simulation& sim) {
-  sim.request_rebuild();
+  sim.request_search();
   LaunchCount const count;
   sim.step();
   return {count.launches(), count.round_trips(), count.allocations()};

@@ -44,9 +44,10 @@ HistoryRow BiaxialTest::record() {
   row.broken = s.break_counts();
   row.coordination = 2 * m.interacting / s.discs();
   row.mechanical_coordination = m.mechanical_coordination();
-  row.inertial_number = state_->rate.strain_rate * state_->d50 * std::sqrt(s.moving_density() / std::max(row.sigma3_Pa, 1.0));
+  row.inertial_number =
+      state_->rate.strain_rate * state_->d50 * std::sqrt(s.facts().moving_density() / std::max(row.sigma3_Pa, 1.0));
   row.wave_number = wave_number(state_->scene, state_->rate.strain_rate, s.walls().height(), row.void_ratio,
-                                state_->scene.grains.density * (1 + s.added_mass()));
+                                state_->scene.grains.density * (1 + s.facts().added_mass));
   row.unbalanced = m.unbalanced_ratio(s.discs());
   LargestDeviator const& largest = s.largest_deviator();
   bool const between = largest.q > row.q_Pa;
@@ -61,7 +62,7 @@ HistoryRow BiaxialTest::record() {
 EnergyRow BiaxialTest::energy() {
   Simulation const& s = *state_->simulation;
   Measures const& m = state_->measures();
-  LossTotals const lost = s.losses();
+  DissipationTotals const lost = s.losses();
   EnergyRow row;
   row.boundary_work = s.boundary_work();
   row.kinetic = m.kinetic;

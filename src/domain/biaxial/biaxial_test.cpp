@@ -124,7 +124,7 @@ void BiaxialTest::State::warn_of_density(double before, double made_under) {
 std::string BiaxialTest::State::text_of_scaling() const {
   char text[160];
   std::snprintf(text, sizeof text, "masses are scaled: %.3g %% of the mass of all grains added, moments of inertia times %g",
-                100 * simulation->added_mass(), scene.run.inertia_scaling);
+                100 * simulation->facts().added_mass, scene.run.inertia_scaling);
   return text;
 }
 
@@ -141,7 +141,7 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   constexpr double inertial_number = 2e-4;
   Simulation& s = *simulation;
   prepare_servo(s, stress, inertial_number, d50, scene.run.step_choice());
-  double const closing_rate = strain_rate_of(inertial_number, stress, s.moving_density(), d50);
+  double const closing_rate = strain_rate_of(inertial_number, stress, s.facts().moving_density(), d50);
   AxisDrive const servo_x = s.loading().x, servo_y = s.loading().y;
   std::int64_t const budget = scene.test.consolidation_steps,
                      most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (closing_rate * s.time_step)));
@@ -182,10 +182,10 @@ void BiaxialTest::State::begin_shear() {
   double const damped = 2 / std::sqrt(1 + scene.run.damping);
   preparation["time_step_margin"] = frequency > 0 ? damped / frequency / s.time_step : 0;
   preparation["time_step_limit_s"] = s.stable_limit();
-  preparation["added_mass_share"] = s.added_mass();
+  preparation["added_mass_share"] = s.facts().added_mass;
   height0 = s.walls().height();
   area0 = s.area();
-  rate = rate_numbers(scene, d50, height0, s.void_ratio(), s.added_mass());
+  rate = rate_numbers(scene, d50, height0, s.void_ratio(), s.facts().added_mass);
   for (std::string const& warning : check_rate(scene, rate)) warnings.push_back(warning);
   if (scene.run.scales_masses_further()) warnings.push_back(text_of_scaling());
   AxisDrive lateral = AxisDrive::at_stress(scene.test.confining_stress, largest_lateral_speed * 0.5 * rate.strain_rate * height0);
@@ -240,7 +240,7 @@ std::int64_t BiaxialTest::disc_steps() const {
 std::int64_t BiaxialTest::shear_disc_steps() const {
   return (state_->simulation->steps() - state_->first_step) * state_->simulation->discs();
 }
-double BiaxialTest::search_seconds() const { return state_->simulation->rebuild_seconds(); }
+double BiaxialTest::search_seconds() const { return state_->simulation->upkeep().seconds(); }
 std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->hash(); }
 
 Specimen BiaxialTest::specimen() const {
@@ -289,7 +289,8 @@ void BiaxialTest::State::check() {
   ShearCheck const seen = look_at_shear(*simulation, measures(), eps1());
   watch.add(seen);
   dilation.check(eps1(), eps_v());
-  preparation["quasi_static"] = began_quasi_static && watch.balanced(bonds0 > 0) ? 1 : 0;
+  bool const is_sand = collapse(simulation->void_ratio(), seen.deep_share).empty();
+  preparation["quasi_static"] = began_quasi_static && is_sand && watch.balanced(bonds0 > 0) ? 1 : 0;
   require_grains(seen.deep_share);
   if (!scene.run.scales_masses_further() || watch.is_slow(scene.test.axial_strain) || scene.run.force) return;
   throw Refused(watch.of_kinetic_energy() + "; scale less (run.inertia_scaling, run.mass_scaling) or shear slower");
@@ -308,7 +309,7 @@ std::vector<std::string> BiaxialTest::shear_warnings() const {
 
 StageRecord BiaxialTest::shear_checks() const {
   StageRecord checks = state_->watch.record();
-  checks["time_step_renewals"] = static_cast<double>(state_->simulation->time_step_renewals());
+  checks["time_step_renewals"] = static_cast<double>(state_->simulation->time_steps().updates());
   return checks;
 }
 

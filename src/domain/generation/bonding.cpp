@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "domain/parallel/near_pairs.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "kernels/bond_law.hpp"
 #include "kernels/exact_sum.hpp"
@@ -11,31 +12,6 @@
 namespace clathra {
 
 namespace {
-
-double gap_between(Specimen const& s, std::size_t a, std::size_t b) {
-  double const dx = s.x[b] - s.x[a], dy = s.y[b] - s.y[a];
-  return std::sqrt(dx * dx + dy * dy) - (s.radius[a] + s.radius[b]);
-}
-
-/// Discs by square cell.
-struct HostCells {
-  double left, bottom, size;
-  std::int64_t columns;
-  std::vector<std::pair<std::int64_t, std::size_t>> sorted;  // (cell, disc)
-  std::int64_t cell_of(double x, double y) const {
-    return static_cast<std::int64_t>((y - bottom) / size) * columns + static_cast<std::int64_t>((x - left) / size);
-  }
-};
-
-HostCells host_cells(Specimen const& s, double size) {
-  auto const [x0, x1] = std::minmax_element(s.x.begin(), s.x.end());
-  double const bottom = *std::min_element(s.y.begin(), s.y.end()) - size, left_edge = *x0 - size;
-  HostCells cells{left_edge, bottom, size, static_cast<std::int64_t>((*x1 - left_edge) / size) + 2, {}};
-  cells.sorted.reserve(s.size());
-  for (std::size_t i = 0; i < s.size(); ++i) cells.sorted.emplace_back(cells.cell_of(s.x[i], s.y[i]), i);
-  std::sort(cells.sorted.begin(), cells.sorted.end());
-  return cells;
-}
 
 enum class Bondability { bondable, no_tension, out_of_fit };
 
@@ -70,39 +46,6 @@ double area_of_equation_4(Scene const& scene, Specimen const& s) {
 
 }  // namespace
 
-std::vector<NearPair> near_pairs(Specimen const& s, double reach, std::size_t own) {
-  if (s.size() == 0) return {};
-  double const widest = 2 * *std::max_element(s.radius.begin(), s.radius.end());
-  HostCells const cells = host_cells(s, widest + std::max(reach, 0.0));
-  auto const first_of = [&](std::int64_t cell) {
-    return static_cast<std::size_t>(
-        std::lower_bound(cells.sorted.begin(), cells.sorted.end(), std::pair<std::int64_t, std::size_t>{cell, 0}) -
-        cells.sorted.begin());
-  };
-  std::vector<NearPair> pairs;
-  std::size_t row_begin[3] = {0, 0, 0};
-  std::int64_t current = -1;
-  for (auto const& [cell, i] : cells.sorted) {
-    if (cell != current) {
-      for (int r = 0; r < 3; ++r) row_begin[r] = first_of(cell + (r - 1) * cells.columns - 1);
-      current = cell;
-    }
-    for (int r = 0; r < 3; ++r) {
-      std::int64_t const last = cell + (r - 1) * cells.columns + 1;
-      for (std::size_t k = row_begin[r]; k < cells.sorted.size() && cells.sorted[k].first <= last; ++k) {
-        std::size_t const j = cells.sorted[k].second;
-        if (s.id[i] >= s.id[j] || i >= own) continue;
-        double const gap = gap_between(s, i, j);
-        if (gap < reach) pairs.push_back({i, j, gap});
-      }
-    }
-  }
-  std::sort(pairs.begin(), pairs.end(), [&](NearPair const& p, NearPair const& q) {
-    return s.id[p.a] != s.id[q.a] ? s.id[p.a] < s.id[q.a] : s.id[p.b] < s.id[q.b];
-  });
-  return pairs;
-}
-
 double critical_thickness(Scene const& scene, Specimen const& share, Ranks const& ranks) {
   switch (scene.bond.mode) {
     case BondingMode::eq3:
@@ -116,7 +59,7 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
   if (target <= 0) return 0;
   double low = 0, high = share.d50;  // a bond as thick as a grain is no bond any more
   Specimen const s = with_halo(ranks, share, high);
-  auto const pairs = near_pairs(s, high, share.size());
+  auto const pairs = near_pairs(s, share.size(), high);
   if (area_at(scene, s, pairs, high, ranks) < target) {
     throw Refused("bond.mode = 'areal_target': even bonds of thickness d50 hold less hydrate than the saturation " +
                   std::to_string(scene.hydrate.saturation) + " demands");
@@ -126,46 +69,6 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
     (area_at(scene, s, pairs, middle, ranks) < target ? low : high) = middle;
   }
   return 0.5 * (low + high);
-}
-
-Specimen with_halo(Ranks const& ranks, Specimen const& share, double reach) {
-  Specimen s;
-  s.id = share.id;
-  s.x = share.x;
-  s.y = share.y;
-  s.radius = share.radius;
-  s.d50 = share.d50;
-  if (ranks.alone()) return s;
-  double box[4] = {1e300, -1e300, 1e300, -1e300}, widest = 0;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    box[0] = std::min(box[0], s.x[i]);
-    box[1] = std::max(box[1], s.x[i]);
-    box[2] = std::min(box[2], s.y[i]);
-    box[3] = std::max(box[3], s.y[i]);
-    widest = std::max(widest, 2 * s.radius[i]);
-  }
-  double const far = ranks.max(widest) + std::max(reach, 0.0);
-  std::vector<double> boxes(4 * static_cast<std::size_t>(ranks.count()), -1e300);
-  for (std::size_t k = 0; k < 4; ++k) boxes[4 * static_cast<std::size_t>(ranks.rank()) + k] = k % 2 == 0 ? -box[k] : box[k];
-  ranks.max(boxes.data(), static_cast<int>(boxes.size()));
-  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
-  for (std::size_t r = 0; r < to.size(); ++r) {
-    if (static_cast<int>(r) == ranks.rank()) continue;
-    double const* const b = &boxes[4 * r];
-    for (std::size_t i = 0; i < share.size(); ++i) {
-      bool const near = s.x[i] > -b[0] - far && s.x[i] < b[1] + far && s.y[i] > -b[2] - far && s.y[i] < b[3] + far;
-      if (near) to[r].insert(to[r].end(), {double(s.id[i]), s.x[i], s.y[i], s.radius[i]});
-    }
-  }
-  for (auto const& part : ranks.exchange(std::move(to))) {
-    for (std::size_t k = 0; k < part.size(); k += 4) {
-      s.id.push_back(static_cast<int>(part[k]));
-      s.x.push_back(part[k + 1]);
-      s.y.push_back(part[k + 2]);
-      s.radius.push_back(part[k + 3]);
-    }
-  }
-  return s;
 }
 
 namespace {
@@ -204,7 +107,7 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   auto old = share.contacts.begin();
   // Both lists are sorted by ids: one walk merges the bonds into the contacts with history.
   auto const before = [](SpecimenContact const& c, int id_a, int id_b) { return c.id_a != id_a ? c.id_a < id_a : c.id_b < id_b; };
-  auto const pairs = near_pairs(s, outcome.critical_thickness, share.size());
+  auto const pairs = near_pairs(s, share.size(), outcome.critical_thickness);
   contacts.reserve(pairs.size() + share.contacts.size());
   for (NearPair const& p : pairs) {
     int const id_a = s.id[p.a], id_b = s.id[p.b];

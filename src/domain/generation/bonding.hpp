@@ -11,20 +11,6 @@
 
 namespace clathra {
 
-/// A pair of discs by index and the distance of their surfaces [m] (negative: overlap).
-struct NearPair {
-  std::size_t a, b;
-  double gap;
-};
-
-/// All pairs with a gap below `reach` [m], sorted by (id of a, id of b), a having the smaller id.
-/// @param own  only pairs whose disc a is among the first `own` discs of the list
-std::vector<NearPair> near_pairs(Specimen const& specimen, double reach, std::size_t own);
-
-/// This rank's share of a specimen with the discs of other ranks behind it that lie within `reach` [m] (surface to surface) of
-/// any of its own: ids, positions and radii alone. The share must be spatially together, or everything comes.
-Specimen with_halo(Ranks const& ranks, Specimen const& share, double reach);
-
 /// What bonding did.
 struct BondingOutcome {
   double critical_thickness = 0;  ///< h_max [m]

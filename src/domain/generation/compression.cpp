@@ -89,7 +89,7 @@ class Compression {
     constexpr double slowing_range = 0.004;  // in void ratio
     constexpr double scarce_friction = 0.1;  // share below which discs find denser places if given time
     constexpr double least_resistance = 0.05;  // of the stress
-    double const full_rate = strain_rate_of(part.inertial_number / slowness_, stress_, simulation.moving_density(), d50_);
+    double const full_rate = strain_rate_of(part.inertial_number / slowness_, stress_, simulation.facts().moving_density(), d50_);
     simulation.evaluate_forces();
     double stress = mean_inside(simulation);
     auto const above = [&] { return simulation.void_ratio() + part.softness * std::min(stress, 1.5 * stress_) - part.goal; };

@@ -94,7 +94,7 @@ double mean_stress(Simulation const& simulation) {
 }
 
 double wave_speed(Simulation const& simulation) {
-  double const bulk_density = simulation.moving_density() / (1 + simulation.void_ratio());
+  double const bulk_density = simulation.facts().moving_density() / (1 + simulation.void_ratio());
   return std::sqrt(packing_modulus(simulation.laws().contact.grain) / bulk_density);
 }
 
@@ -157,7 +157,7 @@ void prepare_servo(Simulation& simulation, double stress, double inertial_number
   simulation.choose_time_step(step);
   if (simulation.periodic()) return;
   Walls const& walls = simulation.walls();
-  double const rate = strain_rate_of(inertial_number, stress, simulation.moving_density(), d50);
+  double const rate = strain_rate_of(inertial_number, stress, simulation.facts().moving_density(), d50);
   simulation.loading().servo.contact_stiffness = simulation.laws().wall.normal_stiffness;
   simulation.loading().servo.integral_time =
       integral_share_of_transit * std::max(walls.width(), walls.height()) / wave_speed(simulation);

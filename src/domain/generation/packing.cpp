@@ -69,7 +69,7 @@ Specimen compacted_layers(Scene const& scene, SampleDesign const& design, Simula
     Simulation simulation(specimen, laws, usual_skin(specimen.d50, design.grading.smallest()), ranks);
     Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
-    double const unit = strain_rate_of(1, scene.bond.stress, simulation.moving_density(), specimen.d50) / slowness;
+    double const unit = strain_rate_of(1, scene.bond.stress, simulation.facts().moving_density(), specimen.d50) / slowness;
     compact(simulation,
             {floor, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed,
              unit * gentleness(design.grading) * loose_rate, unit * near_rate, 20 * scene.bond.stress},

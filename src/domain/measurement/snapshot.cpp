@@ -176,8 +176,8 @@ Snapshot take_snapshot(Simulation const& simulation) {
   WallStress const stress = simulation.stress();
   s.sigma1 = stress.y;
   s.sigma3 = stress.x;
-  s.density = simulation.density();
-  s.critical_thickness = simulation.critical_thickness();
+  s.density = simulation.facts().density;
+  s.critical_thickness = simulation.facts().critical_thickness;
   s.first_disc = simulation.ranks().sum_before(simulation.particles().owned);
   copy_discs(s, simulation);
   copy_pairs(s, simulation);

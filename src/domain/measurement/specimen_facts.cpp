@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <tuple>
-#include <vector>
+#include <utility>
 
 #include "domain/measurement/disc_grading.hpp"
-#include "domain/parallel/decomposition.hpp"
+#include "domain/parallel/near_pairs.hpp"
+#include "domain/parallel/redistribution.hpp"
 #include "kernels/exact_sum.hpp"
 
 namespace clathra {
@@ -31,73 +31,20 @@ void look_at_walls(Specimen const& part, std::array<DiscAtWall, 4>& at_wall) {
 /// The smallest of the ranks' ids that count.
 int smallest_id(Ranks const& ranks, bool counts, int id) { return static_cast<int>(ranks.min(counts ? id : none)); }
 
-struct PlacedDisc {
-  double x, y, radius;
-  int id;
-  bool own;  ///< of this rank, not one that reaches over from a neighbour
+/// This rank's discs by their places, and those of others that may touch them behind them.
+struct NearDiscs {
+  Specimen discs;
+  std::size_t own;
 };
-
-/// This rank's discs by their places, and those of others that may touch them.
-std::vector<PlacedDisc> with_neighbours(Specimen const& part, double largest, Ranks const& ranks) {
-  std::vector<PlacedDisc> discs;
-  if (ranks.alone()) {
-    for (std::size_t i = 0; i < part.size(); ++i) discs.push_back({part.x[i], part.y[i], part.radius[i], part.id[i], true});
-    return discs;
-  }
-  Decomposition const cuts = Decomposition::bisect(ranks, part.x, part.y, 1);
-  std::vector<Rectangle> rectangles;
-  for (int rank = 0; rank < ranks.count(); ++rank) rectangles.push_back(cuts.rectangle(rank));
-  std::vector<std::vector<double>> to(rectangles.size());
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    double const x = part.x[i], y = part.y[i], reach = part.radius[i] + largest;
-    auto const owner = static_cast<std::size_t>(cuts.owner(x, y));
-    for (std::size_t rank = 0; rank < to.size(); ++rank) {
-      Rectangle const& r = rectangles[rank];
-      if (rank == owner || (x > r.left - reach && x < r.right + reach && y > r.bottom - reach && y < r.top + reach))
-        to[rank].insert(to[rank].end(), {x, y, part.radius[i], double(part.id[i]), rank == owner ? 1.0 : 0.0});
-    }
-  }
-  for (auto const& numbers : ranks.exchange(std::move(to)))
-    for (auto n = numbers.begin(); n != numbers.end(); n += 5)
-      discs.push_back({n[0], n[1], n[2], static_cast<int>(n[3]), n[4] > 0});
-  return discs;
-}
-
-/// A disc and the cell that it lies in.
-struct Cell {
-  std::int64_t row, column;
-  PlacedDisc const* disc;
-  bool operator<(Cell const& other) const {
-    return std::tie(row, column, disc->id) < std::tie(other.row, other.column, other.disc->id);
-  }
-};
-
-/// Discs nearer than a few sizes are found by cells of that size: classes of discs from a largest radius down to half of it, each
-/// with the discs of its own class and of all smaller ones. Few of one class fit into a cell, so few are looked at.
-template <class Visit>
-void for_each_near_pair(std::vector<PlacedDisc> const& discs, double largest, Visit const& visit) {
-  for (double size = largest, smaller = 0; size > 0; size = smaller, smaller = 0) {
-    auto const index = [&](double at) { return static_cast<std::int64_t>(std::clamp(std::floor(at / (2 * size)), -1e18, 1e18)); };
-    auto const is_member = [&](PlacedDisc const& disc) { return disc.radius > size / 2; };
-    std::vector<Cell> cells, members;
-    for (PlacedDisc const& disc : discs) {
-      if (disc.radius > size) continue;
-      cells.push_back({index(disc.y), index(disc.x), &disc});
-      if (!is_member(disc)) smaller = std::max(smaller, disc.radius);
-    }
-    std::sort(cells.begin(), cells.end());
-    std::copy_if(cells.begin(), cells.end(), std::back_inserter(members), [&](Cell const& c) { return is_member(*c.disc); });
-    std::size_t from[3] = {0, 0, 0};  // in the rows below, of and above a disc: cells come in their order
-    for (Cell const& cell : cells) {
-      for (std::int64_t k = 0; k < 3; ++k) {
-        std::int64_t const row = cell.row + k - 1;
-        std::size_t& at = from[k];
-        while (at < members.size() && std::tie(members[at].row, members[at].column) < std::tuple(row, cell.column - 1)) ++at;
-        for (std::size_t m = at; m < members.size() && members[m].row == row && members[m].column <= cell.column + 1; ++m)
-          if (!is_member(*cell.disc) || cell.disc->id < members[m].disc->id) visit(*cell.disc, *members[m].disc);
-      }
-    }
-  }
+NearDiscs with_neighbours(Specimen const& part, Ranks const& ranks) {
+  Specimen bare;
+  bare.id = part.id;
+  for (ParticleColumn const& column : particle_columns) (bare.*column.of).resize(part.size());
+  bare.x = part.x;
+  bare.y = part.y;
+  bare.radius = part.radius;
+  Specimen const here = by_place(ranks, std::move(bare));
+  return {with_halo(ranks, here, 0), here.size()};
 }
 
 /// The deepest of all ranks' deepest pairs; of equal ones that with the smallest ids.
@@ -142,24 +89,22 @@ SpecimenOutline outline_of(Specimen const& part, Ranks const& ranks) {
 }
 
 SpecimenOverlaps overlaps_of(Specimen const& part, Ranks const& ranks) {
+  NearDiscs const near = with_neighbours(part, ranks);
+  Specimen const& s = near.discs;
   double largest = 0;
   for (double const r : part.radius) largest = std::max(largest, r);
   largest = ranks.max(largest);
   SpecimenOverlaps found;
   ExactSum stress(SumUnits::near(largest * largest));
-  std::vector<PlacedDisc> const discs = with_neighbours(part, largest, ranks);
-  for_each_near_pair(discs, largest, [&](PlacedDisc const& one, PlacedDisc const& other) {
-    PlacedDisc const &a = one.id < other.id ? one : other, &b = one.id < other.id ? other : one;
-    double const dx = b.x - a.x, dy = b.y - a.y, sum = a.radius + b.radius, square = dx * dx + dy * dy;
-    if (!a.own || !(square < sum * sum)) return;
-    double const branch = std::sqrt(square), share = (sum - branch) / std::min(a.radius, b.radius);
+  for_each_near_pair(s, near.own, 0, [&](NearPair const& p) {
+    double const sum = s.radius[p.a] + s.radius[p.b], share = -p.gap / std::min(s.radius[p.a], s.radius[p.b]);
     ++found.touching;
     found.deep += share > deep_pair;
     found.through += share > 1;
-    stress.add((sum - branch) * branch);
-    OverlappingPair const pair{share, a.id, b.id, a.x, a.y};
+    stress.add(-p.gap * (sum + p.gap));
+    OverlappingPair const pair{share, s.id[p.a], s.id[p.b], s.x[p.a], s.y[p.a]};
     OverlappingPair& deepest = found.deepest;
-    bool const first = std::tie(a.id, b.id) < std::tie(deepest.id_a, deepest.id_b);
+    bool const first = std::tie(pair.id_a, pair.id_b) < std::tie(deepest.id_a, deepest.id_b);
     if (share > deepest.share || (share == deepest.share && first)) deepest = pair;
   });
   agree(ranks, found.deepest);

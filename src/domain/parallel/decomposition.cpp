@@ -130,15 +130,6 @@ Decomposition Decomposition::bisect(Ranks const& ranks, std::vector<double> cons
   return Decomposition(std::move(cuts));
 }
 
-int Decomposition::owner(Coord x, Coord y) const {
-  int at = cuts_.empty() ? -1 : 0;
-  while (at >= 0) {
-    Cut const& cut = cuts_[static_cast<std::size_t>(at)];
-    at = (cut.upright ? x : y) < cut.at ? cut.below : cut.above;
-  }
-  return -1 - at;
-}
-
 Rectangle Decomposition::rectangle(int rank) const {
   Rectangle r;
   // From the cut that names the rank up to the first one.

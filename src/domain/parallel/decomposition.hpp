@@ -25,6 +25,13 @@ struct Cut {
   int below = -1, above = -1;  ///< index of the next cut, or -1 - rank
 };
 
+/// From the first of some cuts down to the rank that owns a place.
+KOKKOS_INLINE_FUNCTION int owner_by(Cut const* cuts, std::size_t count, Coord x, Coord y) {
+  int at = count > 0 ? 0 : -1;
+  while (at >= 0) at = (cuts[at].upright ? x : y) < cuts[at].at ? cuts[at].below : cuts[at].above;
+  return -1 - at;
+}
+
 /// Recursive bisection of the plane, one rectangle a rank. The cuts move with the homogeneous motion of the box, so that shear
 /// alone makes few discs change their owner.
 class Decomposition {
@@ -39,21 +46,14 @@ class Decomposition {
                               std::int64_t weight);
 
   bool single() const { return cuts_.empty(); }
-  int owner(Coord x, Coord y) const;
+  int owner(Coord x, Coord y) const { return owner_by(cuts_.data(), cuts_.size(), x, y); }
   Rectangle rectangle(int rank) const;
   void follow(AffineFrame const& motion);
 
   /// The owner of a place, for kernels.
   struct OwnerOf {
     Field<Cut> cuts;
-    KOKKOS_INLINE_FUNCTION int operator()(Coord x, Coord y) const {
-      int at = cuts.extent(0) > 0 ? 0 : -1;
-      while (at >= 0) {
-        Cut const& cut = cuts(at);
-        at = (cut.upright ? x : y) < cut.at ? cut.below : cut.above;
-      }
-      return -1 - at;
-    }
+    KOKKOS_INLINE_FUNCTION int operator()(Coord x, Coord y) const { return owner_by(cuts.data(), cuts.extent(0), x, y); }
   };
   OwnerOf owner_of() const;
 

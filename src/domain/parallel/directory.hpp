@@ -20,7 +20,7 @@ class Directory {
   /// sum(column) in the order of the ids, so that it does not depend on who owns what. Collective.
   template <class Term>
   double sum_by_id(Term const& term) const {
-    return ranks_.relay(0, [&](double sum) {
+    return ranks_.sequential_fold(0, [&](double sum) {
       for (std::size_t at = 0; at < values_.size(); at += columns_) sum += term(&values_[at]);
       return sum;
     });

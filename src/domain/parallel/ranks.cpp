@@ -30,7 +30,7 @@ std::vector<double> Ranks::gather(std::vector<double> const& values) const {
   return all;
 }
 
-double Ranks::relay(double value, std::function<double(double)> const& hand) const {
+double Ranks::sequential_fold(double value, std::function<double(double)> const& hand) const {
   for (int r = 0; r < count(); ++r) {
     if (r == rank()) value = hand(value);
     broadcast(&value, sizeof value, r);

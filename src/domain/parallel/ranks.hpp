@@ -76,7 +76,7 @@ class Ranks {
   /// All ranks' values on rank 0, in the order of the ranks; nothing elsewhere.
   std::vector<double> gather(std::vector<double> const& values) const;
   /// A number that passes through the hands of all ranks in their order: what one makes of it goes to the next. @return the last
-  double relay(double value, std::function<double(double)> const& hand) const;
+  double sequential_fold(double value, std::function<double(double)> const& hand) const;
   /// This rank's part of all ranks' values in ascending order, the parts in the order of the ranks.
   std::vector<double> sorted_part(std::vector<double> const& values) const;
   /// The text of rank 0.

@@ -127,7 +127,8 @@ std::string fault_text(Simulation const& simulation, ReportedFault const& fault,
   if (std::isfinite(share) && share > 1e-6)
     text += text_of("; the time step is %.3g of the stable limit of the present contacts", share);
   return text + ": " +
-         (fault.what == Fault::row_overflow ? advice_on_rows(simulation.skin(), simulation.d50()) : advice(fault.what, share));
+         (fault.what == Fault::row_overflow ? advice_on_rows(simulation.upkeep().skin(), simulation.facts().d50)
+                                            : advice(fault.what, share));
 }
 
 }  // namespace clathra

@@ -33,18 +33,6 @@ void visit_drive(std::string const& name, AxisDrive& drive, Visit&& visit) {
   visit(name + "_largest_speed", drive.largest_speed);
 }
 
-/// How the time step follows the limit.
-template <class Following, class Visit>
-void visit_following(Following& following, Visit&& visit) {
-  visit("follows_limit", following.on);
-  visit("share_of_limit", following.share);
-  visit("time_step_ceiling", following.ceiling);
-  visit("time_step_leeway", following.leeway);
-  visit("time_step_before", following.last);
-  visit("time_step_age", following.age);
-  visit("time_step_due", following.due);
-}
-
 }  // namespace
 
 /// Visits every number of the whole: (name, double, integer, bool or enumeration).
@@ -53,21 +41,11 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("step", now_.step);
   visit("time", now_.time);
   visit("time_step", time_step);
-  visit("rebuilds", rebuilds_);
-  visit("rebuild_pending", rebuild_pending_);
-  visit("skin", skin_);
-  visit("reach", reach_);
-  visit("discs", discs_);
-  visit("solid_area", solid_area_);
-  visit("largest_radius", largest_radius_);
-  visit("density", density_);
-  visit("d50", d50_);
-  visit("critical_thickness", critical_thickness_);
   visit("boundary_work", now_.boundary_work);
   visit("ledger", laws_.contact.ledger);
   visit("keeps_break_events", broken_bonds_.keeps_events);
   visit_walls("wall", now_.box.walls, visit);
-  visit_walls("reference_wall", now_.search.box.walls, visit);
+  visit_walls("wall_at_search", now_.at_search.box.walls, visit);
   for (int wall = 0; wall < wall_count; ++wall) {
     std::string const name = std::string("reaction_") + wall_names[wall];
     visit(name, now_.reactions.normal[wall]);
@@ -79,10 +57,10 @@ void Simulation::for_each_number(Visit&& visit) {
   visit("servo_gain", now_.loading.servo.gain);
   visit("servo_integral_time", now_.loading.servo.integral_time);
   visit("servo_contact_stiffness", now_.loading.servo.contact_stiffness);
-  visit("added_mass", added_mass_);
-  visit_following(following_, visit);
-  visit("time_step_renewals", renewals_);
-  visit_walls("step_wall", now_.choice.box.walls, visit);
+  facts_.for_each_number(visit);
+  upkeep_.for_each_number(visit);
+  time_steps_.for_each_number(visit);
+  visit_walls("wall_at_update", now_.at_update.box.walls, visit);
   visit("largest_deviator", now_.largest.q);
   visit("largest_deviator_height", now_.largest.height);
   visit("break_details_from_height", broken_bonds_.details_from_height);
@@ -94,18 +72,19 @@ AuxiliaryFields Simulation::forces() {
   return all;
 }
 
-/// What is derived from the state but must not be derived anew: forces, and where the last search and the last choice of the time
+/// What is derived from the state but must not be derived anew: forces, and where the last search and the last update of the time
 /// step found the discs.
 AuxiliaryFields Simulation::derived() {
   AuxiliaryFields all;
   for_each_derived_field(particles_, [&](DiscField const& about, auto& field) { all.push_back({about.name, &field}); });
-  if (following_.on) all.insert(all.begin(), {{"step_x", &step_x_}, {"step_y", &step_y_}});
+  UpdatePlaces& places = time_steps_.places();
+  if (time_steps_.follows()) all.insert(all.begin(), {{"x_at_update", &places.x}, {"y_at_update", &places.y}});
   return all;
 }
 
 SimulationState Simulation::state() {
   if (periodic()) throw std::logic_error("a periodic cell has no checkpoint");
-  if (rebuild_pending_) rebuild(survey_discs(), true, forces());  // rows as the next step would find them
+  if (upkeep_.is_asked()) rebuild(rebuild_inputs_of_all(), true, forces());  // rows as the next step would find them
   SimulationState s;
   for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
   s.numbers["marked_start"] = start_x_.extent(0) > 0 ? 1 : 0;
@@ -122,18 +101,19 @@ SimulationState Simulation::state() {
   s.disc_columns = columns.discs;
   s.history_columns = columns.history;
   broken_bonds_.collect();
-  broken_bonds_.write(s, ranks_);
+  broken_bonds_.write(s, ranks());
   return s;
 }
 
-Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks ranks)
-    : ranks_(std::move(ranks)), laws_(laws), laws_of_choice_(laws), faults_(make_faults()) {
+Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks among)
+    : ghosts_(std::move(among)), laws_(laws), upkeep_(0), faults_(make_faults()) {
   for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
+  time_steps_.go_on_with(laws);
   set_sums();
   rows_.features = features_of_rows();
-  particles_ = allocate_particles(0, laws_.precision, largest_radius_);
-  if (laws_.contact.ledger) open_accounts(losses_, laws_.losses(), 1);
+  particles_ = allocate_particles(0, laws_.precision, facts_.largest_radius);
+  if (laws_.contact.ledger) allocate_dissipation(losses_, laws_.losses(), 1);
   if (state.numbers.at("marked_start") != 0) mark_start();
   wall_contacts_.rough = laws_.wall.friction > 0;
   WallShear wall_shear = wall_shear_of_discs(particles_, wall_contacts_, scratch_);
@@ -142,7 +122,7 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
     throw std::runtime_error("a checkpoint's discs have other numbers than its laws ask for");
   rows_ = unpack_discs(records_of_own_discs(std::move(state.discs)), rows_.features, particles_, with_discs);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their skins.
-  if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles_, reach_ + 2 * (reach_ - 2 * largest_radius_));
+  ghosts_.rebuild(particles_, now_.box, upkeep_.reach() + 2 * (upkeep_.reach() - 2 * facts_.largest_radius));
   find_listed_neighbours();
   prepare_rows(particles_, rows_, laws_.contact.bond);
   make_room_for_breaks();
@@ -150,28 +130,28 @@ Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks 
   Field<int> const near_walls = list_near_walls(particles_, now_.box.walls, number, scratch_);
   auto const size = static_cast<int>(host_copy(number)(0));
   wall_contacts_ = make_wall_contacts(near_walls, size, laws_.wall.friction > 0, wall_shear, scratch_);
-  broken_bonds_.read(state, ranks_);
+  broken_bonds_.read(state, ranks());
 }
 
 /// The records of the discs that belong to this rank, from wherever they were read.
 std::vector<double> Simulation::records_of_own_discs(DiscRecords discs) {
-  if (ranks_.alone()) return std::move(discs.numbers);
+  if (ranks().alone()) return std::move(discs.numbers);
   // Behind the id come x and y.
   std::vector<double> x, y;
   for (std::size_t k = 0; k < discs.size(); ++k) {
     x.push_back(discs.numbers[discs.begin[k] + 1]);
     y.push_back(discs.numbers[discs.begin[k] + 2]);
   }
-  decomposition_ = Decomposition::bisect(ranks_, x, y, 1);
-  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks_.count()));
+  ghosts_.set_decomposition(Decomposition::bisect(ranks(), x, y, 1));
+  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks().count()));
   for (std::size_t k = 0; k < discs.size(); ++k) {
-    auto& part = to[static_cast<std::size_t>(decomposition_.owner(x[k], y[k]))];
+    auto& part = to[static_cast<std::size_t>(decomposition().owner(x[k], y[k]))];
     part.insert(part.end(), discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k]),
                 discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k + 1]));
   }
   discs = {};
   std::vector<double> home;
-  for (auto& part : ranks_.exchange(std::move(to))) {
+  for (auto& part : ranks().exchange(std::move(to))) {
     home.insert(home.end(), part.begin(), part.end());
     part = {};
   }
@@ -194,7 +174,7 @@ void Simulation::find_listed_neighbours() {
       lost = lost || index[e] < 0;
     }
   }
-  if (ranks_.any(lost)) throw std::runtime_error("a checkpoint's row names a neighbour that is not near");
+  if (ranks().any(lost)) throw std::runtime_error("a checkpoint's row names a neighbour that is not near");
   rows_.neighbour = uninitialised<int>("rows.neighbour", index.size());
   auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), rows_.neighbour);
   std::copy(index.begin(), index.end(), host.data());

@@ -165,23 +165,21 @@ std::vector<SpecimenContact> contacts_from_others(Ranks const& ranks, Specimen c
 
 }  // namespace
 
-Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin, Ranks ranks)
-    : ranks_(std::move(ranks)), laws_(laws), faults_(make_faults()), skin_(skin) {
-  std::int64_t const total = ranks_.sum(static_cast<std::int64_t>(s.size()));
+Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin, Ranks among)
+    : ghosts_(std::move(among)), laws_(laws), upkeep_(skin), faults_(make_faults()) {
+  std::int64_t const total = ranks().sum(static_cast<std::int64_t>(s.size()));
   if (total == 0) throw std::invalid_argument("a specimen needs at least one disc");
-  if (s.periodic && !ranks_.alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
-  require_finite(ranks_, s);
-  discs_ = static_cast<int>(total);
+  if (s.periodic && !ranks().alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
+  require_finite(ranks(), s);
+  facts_.discs = static_cast<int>(total);
   upload_discs(s);
   set_sums();
   rows_.features = features_of_rows();
-  decomposition_ = Decomposition::bisect(ranks_, particles_, 1);
+  ghosts_.set_decomposition(Decomposition::bisect(ranks(), particles_, 1));
   // The first search must reach the widest bond; the skin is its own again afterwards.
-  Real const own_skin = skin_;
-  skin_ = std::max(skin_, widest_gap(ranks_, s, total) * (1 + 1e-9));
-  rebuild(survey_discs(), /*skin_by_speed=*/false);
-  skin_ = own_skin;
-  rebuild_pending_ = true;
+  upkeep_.set_skin(std::max(skin, widest_gap(ranks(), s, total) * (1 + 1e-9)));
+  rebuild(rebuild_inputs_of_all(), /*skin_by_speed=*/false);
+  set_skin(skin);
   restore_history(s);
   evaluate_forces();
 }
@@ -194,26 +192,26 @@ void Simulation::upload_discs(Specimen const& s) {
   for (std::size_t i = 0; i < n; ++i) {
     inverse_mass[i] = 1 / (moving_area(s.radius[i]) * s.density);
     inverse_inertia[i] = 2 * inverse_mass[i] / (scaling.inertia * (s.radius[i] * s.radius[i]));
-    largest_radius_ = std::max(largest_radius_, s.radius[i]);
+    facts_.largest_radius = std::max(facts_.largest_radius, s.radius[i]);
   }
-  largest_radius_ = ranks_.max(largest_radius_);
-  particles_ = allocate_particles(static_cast<int>(n), laws_.precision, largest_radius_);
+  facts_.largest_radius = ranks().max(facts_.largest_radius);
+  particles_ = allocate_particles(static_cast<int>(n), laws_.precision, facts_.largest_radius);
   // Summed by id, so that the order of the input does not show.
-  Directory const radii(ranks_, discs_, s.id, {s.radius});
-  solid_area_ = radii.sum_by_id([](double const* r) { return pi * *r * *r; });
-  added_mass_ = radii.sum_by_id([&](double const* r) { return moving_area(*r); }) / solid_area_ - 1;
+  Directory const radii(ranks(), facts_.discs, s.id, {s.radius});
+  facts_.solid_area = radii.sum_by_id([](double const* r) { return pi * *r * *r; });
+  facts_.added_mass = radii.sum_by_id([&](double const* r) { return moving_area(*r); }) / facts_.solid_area - 1;
   upload(particles_.id, s.id);
   upload(particles_.inverse_mass, inverse_mass);
   upload(particles_.inverse_inertia, inverse_inertia);
   for_each_column_of_specimen(particles_,
                               [&](auto const& field, ParticleColumn const& column) { upload(field, or_zero(s.*column.of, n)); });
-  density_ = s.density;
-  d50_ = s.d50;
-  critical_thickness_ = s.critical_thickness;
+  facts_.density = s.density;
+  facts_.d50 = s.d50;
+  facts_.critical_thickness = s.critical_thickness;
   if (s.periodic) {
-    now_.box.cell = now_.search.box.cell = {s.left, s.bottom, s.width(), s.height()};
+    now_.box.cell = now_.at_search.box.cell = {s.left, s.bottom, s.width(), s.height()};
   } else {
-    now_.box.walls = now_.search.box.walls = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
+    now_.box.walls = now_.at_search.box.walls = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
   }
 }
 
@@ -235,7 +233,7 @@ void Simulation::restore_history(Specimen const& s) {
   };
   std::for_each(s.contacts.begin(), s.contacts.end(), write);
   auto const others =
-      contacts_from_others(ranks_, s, discs_, at, {id.data(), id.data() + static_cast<std::size_t>(particles_.owned)});
+      contacts_from_others(ranks(), s, facts_.discs, at, {id.data(), id.data() + static_cast<std::size_t>(particles_.owned)});
   std::for_each(others.begin(), others.end(), write);
   history.upload_to(rows_);
   prepare_rows(particles_, rows_, laws_.contact.bond);
@@ -251,11 +249,11 @@ Specimen Simulation::specimen() const {
   s.right = periodic() ? now_.box.cell.left + now_.box.cell.width : now_.box.walls.position[right];
   s.bottom = periodic() ? now_.box.cell.bottom : now_.box.walls.position[bottom];
   s.top = periodic() ? now_.box.cell.bottom + now_.box.cell.height : now_.box.walls.position[top];
-  s.density = density_;
-  s.d50 = d50_;
+  s.density = facts_.density;
+  s.d50 = facts_.d50;
   s.void_ratio = void_ratio();
   s.separate_bonds = laws_.contact.bond_kind == BondKind::parallel;
-  s.critical_thickness = laws_.contact.bond_kind == BondKind::none ? 0 : critical_thickness_;
+  s.critical_thickness = laws_.contact.bond_kind == BondKind::none ? 0 : facts_.critical_thickness;
   auto const n = static_cast<std::size_t>(particles_.owned);
   IdIndex const places(host_copy(particles_.id), particles_.owned);
   for (auto const& [id, index] : places.sorted()) s.id.push_back(id);

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "domain/biaxial/throughput.hpp"
+#include "throughput/throughput.hpp"
 
 namespace clathra {
 

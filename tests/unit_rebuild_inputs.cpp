@@ -1,35 +1,35 @@
 /// What a search has to know of all discs before it begins.
-#include "kernels/survey.hpp"
+#include "kernels/rebuild_inputs.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
 namespace {
 
-Survey survey_of(Simulation const& sim, Faults const& faults = make_faults()) {
-  return survey(sim.particles(), sim.rows(), {}, faults, {});
+RebuildInputs enqueued_rebuild_inputs(Simulation const& sim, Faults const& faults = make_faults()) {
+  return rebuild_inputs(sim.particles(), sim.rows(), {}, faults, {});
 }
 
-TEST(Survey, FindsBoundsAndSpeeds) {
+TEST(RebuildInputs, FindsBoundsAndSpeeds) {
   Specimen s = open_space();
   add_disc(s, -0.3, 0.1);
   add_disc(s, 0.2, -0.7);
   add_disc(s, -0.25, 0.05);
   s.vx = {0.3, 0, -2};
   s.vy = {0.4, 0, 0};
-  Survey const all = survey_of(Simulation(s, {}, 1e-4));
+  RebuildInputs const all = enqueued_rebuild_inputs(Simulation(s, {}, 1e-4));
   Bounds const bounds = all.bounds();
   EXPECT_EQ(bounds.left, -0.3);
   EXPECT_EQ(bounds.right, 0.2);
   EXPECT_EQ(bounds.bottom, -0.7);
   EXPECT_EQ(bounds.top, 0.1);
-  EXPECT_EQ(all.sums[Survey::discs], 3);
-  EXPECT_EQ(all.largest[Survey::speed], 2);
+  EXPECT_EQ(all.sums[RebuildInputs::discs], 3);
+  EXPECT_EQ(all.largest[RebuildInputs::speed], 2);
   EXPECT_NEAR(all.mean_of_speeds({}), 2.5 / 3, 1e-15);
-  EXPECT_EQ(all.largest[Survey::bonded_gap], 0);
-  for (int fault = 0; fault < fault_count; ++fault) EXPECT_EQ(all.largest[Survey::faults + fault], -1);
+  EXPECT_EQ(all.largest[RebuildInputs::bonded_gap], 0);
+  for (int fault = 0; fault < fault_count; ++fault) EXPECT_EQ(all.largest[RebuildInputs::faults + fault], -1);
 }
 
-TEST(Survey, FindsTheWidestGapOfAnIntactBond) {
+TEST(RebuildInputs, FindsTheWidestGapOfAnIntactBond) {
   Scene const scene = hydrate_scene(0.55, Composite::parallel);
   Specimen s = disordered_patch(10, 10, 0.03);
   bond_all(s, scene);
@@ -41,21 +41,21 @@ TEST(Survey, FindsTheWidestGapOfAnIntactBond) {
     widest = std::max(widest, std::hypot(s.x[b] - s.x[a], s.y[b] - s.y[a]) - (s.radius[a] + s.radius[b]));
   }
   EXPECT_GT(widest, 0);
-  EXPECT_NEAR(survey_of(sim).largest[Survey::bonded_gap], widest, 1e-12 * widest);
+  EXPECT_NEAR(enqueued_rebuild_inputs(sim).largest[RebuildInputs::bonded_gap], widest, 1e-12 * widest);
 }
 
-TEST(Survey, BringsFaultsAlong) {
+TEST(RebuildInputs, BringsFaultsAlong) {
   Faults const faults = make_faults();
   Kokkos::deep_copy(faults.disc, 7);
-  Survey const all = survey_of(Simulation(disordered_patch(3, 3), {}, 1e-4), faults);
-  for (int fault = 0; fault < fault_count; ++fault) EXPECT_EQ(all.largest[Survey::faults + fault], 7);
+  RebuildInputs const all = enqueued_rebuild_inputs(Simulation(disordered_patch(3, 3), {}, 1e-4), faults);
+  for (int fault = 0; fault < fault_count; ++fault) EXPECT_EQ(all.largest[RebuildInputs::faults + fault], 7);
 }
 
-TEST(Survey, RefusesSpeedsThatCannotBeSummed) {
-  Survey all;
-  all.sums[Survey::speeds_out_of_range] = 1;
+TEST(RebuildInputs, RefusesSpeedsThatCannotBeSummed) {
+  RebuildInputs all;
+  all.sums[RebuildInputs::speeds_out_of_range] = 1;
   EXPECT_THROW((void)all.mean_of_speeds({}), SumOutOfRange);
-  EXPECT_EQ(Survey().bounds().right, 0);  // of no disc
+  EXPECT_EQ(RebuildInputs().bounds().right, 0);  // of no disc
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace clathra {
 
 /// Of one rank. Where there are several, sums and maxima are to be replaced by those over all of them. None depends on the order
 /// of the discs.
-struct Survey {
+struct RebuildInputs {
   /// Of the speeds beside the homogeneous motion, digit by digit; of those out of range; of the discs.
   enum Sum : int { speed_digits, speeds_out_of_range = speed_digits + FixedPoint::words, discs, sum_count };
   /// Bounds of the discs [m], those on the left and at the bottom with the other sign; the speed beside the homogeneous motion
@@ -36,13 +36,13 @@ struct Survey {
 };
 
 /// The host waits for it. @param rows  with ghosts in their present places
-Survey survey(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame, Faults const& faults,
-              SumUnits const& unit);
+RebuildInputs rebuild_inputs(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame,
+                             Faults const& faults, SumUnits const& unit);
 
 /// Asks the device for the same, behind a move after which a search is due or the host goes along: it will be in the state of
-/// the steps, in which survey_of() finds it.
-void ask_for_survey(ParticleSoA const& particles, ContactRows const& rows, Faults const& faults, SumUnits const& unit,
-                    DeviceSteps const& steps, StepLaunches const& launches);
-Survey survey_of(StepState const& steps);
+/// the steps, in which enqueued_rebuild_inputs() finds it.
+void enqueue_rebuild_inputs(ParticleSoA const& particles, ContactRows const& rows, Faults const& faults, SumUnits const& unit,
+                            DeviceSteps const& steps, StepLaunches const& launches);
+RebuildInputs enqueued_rebuild_inputs(StepState const& steps);
 
 }  // namespace clathra

@@ -1,4 +1,4 @@
-#include "domain/biaxial/throughput_card.hpp"
+#include "throughput/throughput_card.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "domain/biaxial/expected_error.hpp"
+#include "expected_error.hpp"
 
 #include <algorithm>
 #include <cmath>

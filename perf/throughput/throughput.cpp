@@ -1,4 +1,4 @@
-#include "domain/biaxial/throughput.hpp"
+#include "throughput/throughput.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -150,15 +150,15 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
 
 Throughput measure_throughput(Simulation& simulation, double seconds) {
   Throughput result;
-  std::int64_t const first = simulation.steps(), first_rebuilds = simulation.rebuilds();
+  std::int64_t const first = simulation.steps(), first_rebuilds = simulation.upkeep().searches();
   int const broken = simulation.broken_bonds();
-  double const rebuilding = simulation.rebuild_seconds();
+  double const rebuilding = simulation.upkeep().seconds();
   Kokkos::Timer const clock;
   while (simulation.ranks().max(clock.seconds()) < seconds) simulation.step(20);
   Kokkos::fence();
   result.seconds = clock.seconds();
   result.steps = simulation.steps() - first;
-  result.rebuilds = simulation.rebuilds() - first_rebuilds;
+  result.rebuilds = simulation.upkeep().searches() - first_rebuilds;
   double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
   result.disc_steps_per_second = steps_per_s * simulation.discs();
   Measures const m = simulation.measures();
@@ -168,7 +168,7 @@ Throughput measure_throughput(Simulation& simulation, double seconds) {
   result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.discs();
   result.search_bytes_per_disc = static_cast<double>(total(simulation, simulation.search_bytes())) / simulation.discs();
   result.moved_per_step = moved_bytes(simulation);
-  result.rebuild_share = (simulation.rebuild_seconds() - rebuilding) / result.seconds;
+  result.rebuild_share = (simulation.upkeep().seconds() - rebuilding) / result.seconds;
   return result;
 }
 

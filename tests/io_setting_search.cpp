@@ -5,7 +5,7 @@
 #include <random>
 
 #include "domain/measurement/confidence.hpp"
-#include "domain/measurement/setting_search.hpp"
+#include "setting_search.hpp"
 
 namespace clathra {
 namespace {
@@ -144,14 +144,14 @@ double true_error(Planted const& planted, std::size_t trial) {
 /// Runs a search to its end. @param most  runs, after which there is no time for more seeds
 int run_search(SettingSearch& search, Planted const& planted, int most = 100000) {
   int runs = 0;
-  while (std::optional<Wish> const wish = search.next()) {
+  while (std::optional<RunRequest> const request = search.next()) {
     if (runs > most) {
       search.stop_growing();
       if (search.choice() || runs > 2 * most) break;
       continue;
     }
-    for (std::size_t const i : wish->trials)
-      for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(wish->seeds); ++seed) {
+    for (std::size_t const i : request->trials)
+      for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(request->seeds); ++seed) {
         auto const added = search.trials()[i].values.try_emplace(
             seed, planted.value(seed, search.trials()[i].rate, numerics[i % std::size(numerics)].error));
         runs += added.second ? 1 : 0;
@@ -234,7 +234,7 @@ TEST(SettingSearch, KeepsWhatItKnowsWhereASlowerRateCannotBeRunAnyMore) {
   planted.coefficient = 20;  // 2 % at 1e-3, which a slower rate would show to be within 2.5 %
   for (bool const fails : {false, true}) {
     SettingSearch search(0.025, planted_trials());
-    while (std::optional<Wish> const wish = search.next()) {
+    while (std::optional<RunRequest> const request = search.next()) {
       if (search.slow() == 3 * std::size(numerics) && search.trials()[search.slow()].values.empty()) {
         if (fails)
           search.trials()[search.slow()].failed = true;
@@ -242,8 +242,9 @@ TEST(SettingSearch, KeepsWhatItKnowsWhereASlowerRateCannotBeRunAnyMore) {
           search.stop_growing();
         continue;
       }
-      for (std::size_t const i : wish->trials)
-        search.trials()[i].values = planted.values(wish->seeds, search.trials()[i].rate, numerics[i % std::size(numerics)].error);
+      for (std::size_t const i : request->trials)
+        search.trials()[i].values =
+            planted.values(request->seeds, search.trials()[i].rate, numerics[i % std::size(numerics)].error);
     }
     ASSERT_TRUE(search.choice());
     EXPECT_EQ(*search.choice(), 2 * std::size(numerics) + 2) << "of 3e-4, with the slowest at that rate";

@@ -1,4 +1,4 @@
-#include "kernels/survey.hpp"
+#include "kernels/rebuild_inputs.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -24,9 +24,9 @@ double number_of(std::int64_t order) {
 }
 
 /// One group of discs.
-struct SurveyDiscs {
+struct ReduceRebuildInputs {
   using value_type = std::int64_t[];
-  static constexpr int value_number = int{Survey::sum_count} + int{Survey::largest_count};
+  static constexpr int value_number = int{RebuildInputs::sum_count} + int{RebuildInputs::largest_count};
   unsigned value_count = value_number;
   ParticleSoA p;
   ContactRows rows;
@@ -41,29 +41,30 @@ struct SurveyDiscs {
     if (of_steps && !is_asked(steps(0))) return;
     AffineFrame const frame = of_steps ? steps(0).frame : frame_of_host;
     int const first = group * lane_count, end = first + lane_count < p.owned ? first + lane_count : p.owned;
-    Real most[Survey::faults] = {-1e300, -1e300, -1e300, -1e300, 0, 0};
+    Real most[RebuildInputs::faults] = {-1e300, -1e300, -1e300, -1e300, 0, 0};
     for (int i = first; i < end; ++i) {
       Real const x = p.x(i), y = p.y(i), speed = wandering_speed(p, frame, i);
-      most[Survey::leftwards] = lane_max(most[Survey::leftwards], -x);
-      most[Survey::rightwards] = lane_max(most[Survey::rightwards], x);
-      most[Survey::downwards] = lane_max(most[Survey::downwards], -y);
-      most[Survey::upwards] = lane_max(most[Survey::upwards], y);
-      most[Survey::speed] = lane_max(most[Survey::speed], speed);
+      most[RebuildInputs::leftwards] = lane_max(most[RebuildInputs::leftwards], -x);
+      most[RebuildInputs::rightwards] = lane_max(most[RebuildInputs::rightwards], x);
+      most[RebuildInputs::downwards] = lane_max(most[RebuildInputs::downwards], -y);
+      most[RebuildInputs::upwards] = lane_max(most[RebuildInputs::upwards], y);
+      most[RebuildInputs::speed] = lane_max(most[RebuildInputs::speed], speed);
       add(speed, out);
     }
-    if (bonds) most[Survey::bonded_gap] = widest_gap(static_cast<std::size_t>(first));
-    for (int n = 0; n < Survey::faults; ++n) raise(out, n, most[n]);
+    if (bonds) most[RebuildInputs::bonded_gap] = widest_gap(static_cast<std::size_t>(first));
+    for (int n = 0; n < RebuildInputs::faults; ++n) raise(out, n, most[n]);
     if (group > 0) return;
-    for (int fault = 0; fault < fault_count; ++fault) raise(out, Survey::faults + fault, faults.disc(fault));
+    for (int fault = 0; fault < fault_count; ++fault) raise(out, RebuildInputs::faults + fault, faults.disc(fault));
   }
 
   KOKKOS_INLINE_FUNCTION static bool is_asked(StepState const& now) {
-    return now.stop == StepStop::after_move && (now.search_is_due || now.orders.host_goes_along);
+    return now.stop == StepStop::after_move && (now.search_is_due || now.orders.host_synchronous);
   }
 
   KOKKOS_INLINE_FUNCTION void add(Real speed, std::int64_t* sums) const {
-    if (!FixedPoint::add(lane_min(speed, Real(1e6)) * per_unit, sums + Survey::speed_digits)) ++sums[Survey::speeds_out_of_range];
-    sums[Survey::discs] += 1;
+    if (!FixedPoint::add(lane_min(speed, Real(1e6)) * per_unit, sums + RebuildInputs::speed_digits))
+      ++sums[RebuildInputs::speeds_out_of_range];
+    sums[RebuildInputs::discs] += 1;
   }
 
   /// Of the bonds in the rows of the group.
@@ -86,11 +87,11 @@ struct SurveyDiscs {
   }
 
   KOKKOS_INLINE_FUNCTION static void raise(std::int64_t* out, int which, double to) {
-    std::int64_t& value = out[Survey::sum_count + which];
+    std::int64_t& value = out[RebuildInputs::sum_count + which];
     value = ordered(to) > value ? ordered(to) : value;
   }
   KOKKOS_FUNCTION void init(std::int64_t* values) const {
-    for (int n = 0; n < value_number; ++n) values[n] = n < Survey::sum_count ? 0 : ordered(-1e300);
+    for (int n = 0; n < value_number; ++n) values[n] = n < RebuildInputs::sum_count ? 0 : ordered(-1e300);
   }
   KOKKOS_FUNCTION void join(std::int64_t* into, std::int64_t const* from) const { join_values(into, from); }
 #if KOKKOS_VERSION < 40000  // which calls join with volatile pointers
@@ -101,58 +102,58 @@ struct SurveyDiscs {
   KOKKOS_INLINE_FUNCTION void join_values(To* into, From* from) const {
     for (int n = 0; n < value_number; ++n) {
       std::int64_t const mine = into[n], other = from[n];
-      into[n] = n < Survey::sum_count ? mine + other : mine > other ? mine : other;
+      into[n] = n < RebuildInputs::sum_count ? mine + other : mine > other ? mine : other;
     }
   }
 };
 
-static_assert(SurveyDiscs::value_number == numbers_of_survey);
+static_assert(ReduceRebuildInputs::value_number == numbers_of_rebuild_inputs);
 
-SurveyDiscs survey_kernel(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame, Faults const& faults,
-                          SumUnits const& unit, Field<StepState> const& steps) {
+ReduceRebuildInputs rebuild_inputs_kernel(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame,
+                                          Faults const& faults, SumUnits const& unit, Field<StepState> const& steps) {
   bool const bonds = rows.formation_overlap.extent(0) > 0 && rows.length.extent(0) > 0;
-  return {SurveyDiscs::value_number, particles, rows, frame, faults, 1 / unit.speed(), bonds, steps};
+  return {ReduceRebuildInputs::value_number, particles, rows, frame, faults, 1 / unit.speed(), bonds, steps};
 }
 
 /// Of group_count() at least one, which reads the faults.
-int groups_of_survey(ParticleSoA const& particles) { return std::max(group_count(particles.owned), 1); }
+int groups_of_rebuild_inputs(ParticleSoA const& particles) { return std::max(group_count(particles.owned), 1); }
 
-Survey survey_in(std::int64_t const* values) {
-  Survey all;
-  for (int n = 0; n < Survey::sum_count; ++n) all.sums[n] = values[n];
-  for (int n = 0; n < Survey::largest_count; ++n) all.largest[n] = number_of(values[Survey::sum_count + n]);
+RebuildInputs rebuild_inputs_in(std::int64_t const* values) {
+  RebuildInputs all;
+  for (int n = 0; n < RebuildInputs::sum_count; ++n) all.sums[n] = values[n];
+  for (int n = 0; n < RebuildInputs::largest_count; ++n) all.largest[n] = number_of(values[RebuildInputs::sum_count + n]);
   return all;
 }
 
 }  // namespace
 
-Real Survey::mean_of_speeds(SumUnits const& unit) const {
+Real RebuildInputs::mean_of_speeds(SumUnits const& unit) const {
   require_in_range("speeds of discs", sums[speeds_out_of_range]);
   Real const speeds = FixedPoint::of(sums + speed_digits).value() * unit.speed();
   return lane_max(speeds / lane_max(static_cast<Real>(sums[discs]), Real(1)), Real(1e-300));
 }
 
-Bounds Survey::bounds() const {
+Bounds RebuildInputs::bounds() const {
   if (sums[discs] == 0) return {};
   return {-largest[leftwards], largest[rightwards], -largest[downwards], largest[upwards]};
 }
 
-Survey survey(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame, Faults const& faults,
-              SumUnits const& unit) {
-  std::int64_t values[SurveyDiscs::value_number];
-  Kokkos::parallel_reduce("survey", light_launch(groups_of_survey(particles)),
-                          survey_kernel(particles, rows, frame, faults, unit, {}),
+RebuildInputs rebuild_inputs(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame,
+                             Faults const& faults, SumUnits const& unit) {
+  std::int64_t values[ReduceRebuildInputs::value_number];
+  Kokkos::parallel_reduce("rebuild_inputs", light_launch(groups_of_rebuild_inputs(particles)),
+                          rebuild_inputs_kernel(particles, rows, frame, faults, unit, {}),
                           Kokkos::View<std::int64_t*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>(
-                              &values[0], SurveyDiscs::value_number));
-  return survey_in(values);
+                              &values[0], ReduceRebuildInputs::value_number));
+  return rebuild_inputs_in(values);
 }
 
-void ask_for_survey(ParticleSoA const& particles, ContactRows const& rows, Faults const& faults, SumUnits const& unit,
-                    DeviceSteps const& steps, StepLaunches const& launches) {
-  launches.parallel_reduce("survey", groups_of_survey(particles), survey_kernel(particles, rows, {}, faults, unit, steps.state),
-                           steps.surveyed());
+void enqueue_rebuild_inputs(ParticleSoA const& particles, ContactRows const& rows, Faults const& faults, SumUnits const& unit,
+                            DeviceSteps const& steps, StepLaunches const& launches) {
+  launches.parallel_reduce("rebuild_inputs", groups_of_rebuild_inputs(particles),
+                           rebuild_inputs_kernel(particles, rows, {}, faults, unit, steps.state), steps.rebuild_inputs());
 }
 
-Survey survey_of(StepState const& steps) { return survey_in(steps.surveyed); }
+RebuildInputs enqueued_rebuild_inputs(StepState const& steps) { return rebuild_inputs_in(steps.rebuild_inputs); }
 
 }  // namespace clathra

@@ -1,4 +1,4 @@
-#include "domain/measurement/setting_error.hpp"
+#include "setting_error.hpp"
 
 #include <algorithm>
 #include <cmath>

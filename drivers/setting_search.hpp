@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/measurement/setting_error.hpp"
+#include "setting_error.hpp"
 
 namespace clathra {
 
@@ -19,7 +19,7 @@ struct Trial {
 };
 
 /// Runs to be made: these trials with seeds 1 to `seeds`.
-struct Wish {
+struct RunRequest {
   std::vector<std::size_t> trials;
   int seeds = 0;
 };
@@ -30,7 +30,7 @@ struct Wish {
 class SettingSearch {
  public:
   static constexpr int first_seeds = 5, most_seeds = 60;
-  static constexpr std::size_t first_rungs = 3;  ///< of the ladder, from the fastest; slower ones only if these do not do
+  static constexpr std::size_t first_levels = 3;  ///< of the ladder, from the fastest; slower ones only if these do not do
 
   /// @param trials  two of the ladder at least
   SettingSearch(double tolerance, std::vector<Trial> trials);
@@ -38,7 +38,7 @@ class SettingSearch {
   std::vector<Trial>& trials() { return trials_; }
   std::vector<Trial> const& trials() const { return trials_; }
   /// What to run next; nothing where the search is over.
-  std::optional<Wish> next();
+  std::optional<RunRequest> next();
   /// From now on no more seeds and no slower rates: there is no time for them. A slower rate that was asked for and hardly run is
   /// left out again.
   void stop_growing();
@@ -58,12 +58,12 @@ class SettingSearch {
  private:
   RatePair pair() const { return {trials_[fast()].values, trials_[slow()].values, trials_[fast()].rate / trials_[slow()].rate}; }
   ErrorVerdict verdict(std::size_t trial) const;
-  std::optional<Wish> more_seeds(std::size_t trial) const;
-  std::optional<Wish> slower_rung();
+  std::optional<RunRequest> more_seeds(std::size_t trial) const;
+  std::optional<RunRequest> slower_level();
   void leave_out_slowest();
-  std::optional<Wish> numerics_at(double rate, std::vector<std::size_t>& candidates) const;
-  std::optional<Wish> choose(std::size_t rung);
-  std::optional<Wish> confirm(std::size_t trial);
+  std::optional<RunRequest> numerics_at(double rate, std::vector<std::size_t>& candidates) const;
+  std::optional<RunRequest> choose(std::size_t level);
+  std::optional<RunRequest> confirm(std::size_t trial);
   int seeds() const { return static_cast<int>(trials_[slow()].values.size()); }
 
   double tolerance_;
@@ -72,7 +72,7 @@ class SettingSearch {
   std::size_t slowest_ = 0;          // place in the ladder
   bool growing_ = true;
   std::optional<std::size_t> choice_;
-  std::optional<std::pair<std::size_t, int>> looked_at_;  // chosen at the last look, with so many seeds
+  std::optional<std::pair<std::size_t, int>> last_analysis_;  // chosen at the last look, with so many seeds
 };
 
 }  // namespace clathra
