@@ -90,7 +90,7 @@ TEST(GradingFile, FindsItsColumnsByTheirNames) {
   std::string const rows_um = "\n100,0\n240,100\n";
   for (char const* const names : {"d_um,finer", "size_um,finer", "d (\xc2\xb5m),finer", "d (\xce\xbcm),finer", "d (\xb5m),finer"})
     EXPECT_EQ(parse_grading(names + rows_um, names).largest(), 240 * 1e-6) << names;
-  EXPECT_EQ(parse_grading("d_m,finer\n0.1,0\n0.24,100\n", "m").largest(), 0.24);
+  EXPECT_EQ(parse_grading("d_m,finer\n0.01,0\n0.024,100\n", "m").largest(), 0.024);
 }
 
 TEST(GradingFile, IsRefusedWithTheNameThatIsNotUnderstood) {
@@ -159,6 +159,15 @@ TEST(GradingFile, IsRefusedWhereItsNumbersAreNoGrading) {
                 "what is retained may be mixed up"},
            Case{"size of 0", head + "0,0\n0.2,100\n", ":3: a size must be above 0, got '0'"},
            Case{"above 100", head + "0.1,0\n0.2,120\n", ":4: what is finer must be 0 to 100 %, got '120'"},
+           Case{"sizes in um", head + "100,0\n240,100\n",
+                ":1: half of its grains are finer than 154.919 mm, no soil is: its sizes are in another unit than the column "
+                "'d_mm' "
+                "says"},
+           Case{"sizes in m", head + "1e-5,0\n2.4e-5,100\n", ":1: half of its grains are finer than 1.54919e-05 mm"},
+           Case{"no sizes", head + "1e300,0\n1e301,100\n", ":1: half of its grains are finer than "},
+           Case{"one per cent", "d_mm,finer\n0.1,0 %\n0.15,0.3 %\n0.24,1 %\n", ":4: no more than 1 % in the whole column"},
+           Case{"per cent among fractions", "d_mm,fraction_finer\n0.1,0 %\n0.24,100 %\n",
+                ":2: '0 %' is in per cent, the column 'fraction_finer' in fractions: name it percent_finer, or write fractions"},
            Case{"below 0", head + "0.1,-1\n0.2,100\n", ":3: what is finer must be 0 to 100 %, got '-1'"},
        })
     expect_refused(given);

@@ -181,6 +181,44 @@ TEST_F(SpecimenCheck, LengthsMustBeMetres) {
   refuses("smaller than 1.69e-10 m: lengths must be in m", [](Specimen& s) { scale_lengths(s, 1e-6); });
 }
 
+TEST_F(SpecimenCheck, PlacesAndRadiiMustBeInTheSameUnit) {
+  write([](Specimen& s) {
+    for (double* const at : {&s.left, &s.right, &s.bottom, &s.top}) *at *= 1e3;
+    for (auto* const column : {&s.x, &s.y})
+      for (double& value : *column) value *= 1e3;
+  });
+  leave_out({"void_ratio"});
+  EXPECT_NE(complaint().find("places, walls and radii must all be in m"), std::string::npos) << complaint();
+  write([](Specimen& s) {
+    for (double& r : s.radius) r *= 0.5;
+    s.d50 *= 0.5;
+  });
+  leave_out({"void_ratio"});
+  EXPECT_NE(warnings().find("its void ratio is 4.066; sand at rest has 0.05 to 1"), std::string::npos) << warnings();
+}
+
+TEST_F(SpecimenCheck, NumbersThatCannotBeAreRefused) {
+  refuses("stress must not be below 0, got -50000", [](Specimen& s) { s.stress = -5e4; });
+  refuses("critical_thickness must not be below 0, got -1", [](Specimen& s) { s.critical_thickness = -1; });
+  write([](Specimen&) {});
+  leave_out({"particles/id"});
+  hid_t const opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  hsize_t const discs = 100;
+  hid_t const space = H5Screate_simple(1, &discs, nullptr);
+  hid_t const set = H5Dcreate2(opened, "particles/id", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  std::vector<double> halves;
+  for (std::size_t i = 0; i < discs; ++i) halves.push_back(static_cast<double>(i) + 0.5);
+  EXPECT_GE(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, halves.data()), 0);
+  H5Dclose(set), H5Sclose(space), H5Fclose(opened);
+  EXPECT_NE(complaint().find("particles/id must hold whole numbers, got 0.5"), std::string::npos) << complaint();
+}
+
+TEST_F(SpecimenCheck, ABoxSmallerThanItsSandIsWarnedOf) {
+  write([](Specimen& s) { s.right -= 0.03e-3; });
+  leave_out({"void_ratio"});
+  EXPECT_NE(warnings().find("d50 into the right wall: the box is smaller than its sand"), std::string::npos) << warnings();
+}
+
 TEST_F(SpecimenCheck, PlacesMustBeExactEnoughForOverlaps) {
   auto const move = [](double by) {
     return [by](Specimen& s) {

@@ -71,6 +71,10 @@ TEST(Units, SignsThatPeopleCopyAreRead) {
                            "C",
                            Dimension::temperature),
             5);
+  EXPECT_EQ(parse_quantity("\xe2\x88\x92"
+                           "5 degC",
+                           Dimension::temperature),
+            -5);
   EXPECT_EQ(parse_quantity("2 N/mm\xc2\xb2", Dimension::pressure), 2e6);
   EXPECT_EQ(parse_quantity("2.6 g/cm\xc2\xb3", Dimension::density), 2600);
 }
@@ -85,6 +89,8 @@ TEST(Units, AHintSaysHowToWriteWhatWasMeant) {
   };
   EXPECT_EQ(said("55,0 %", Dimension::ratio), "has a decimal comma; write a point: 55.0 %");
   EXPECT_EQ(said("0,1694mm", Dimension::length), "has a decimal comma; write a point: 0.1694mm");
+  EXPECT_EQ(said("1,000 kPa", Dimension::pressure),
+            "has a comma, which may be a decimal one or set apart thousands; write 1.000 kPa or 1000 kPa");
   EXPECT_EQ(said("1e6 N/m2", Dimension::pressure), "has an unknown unit 'm2' in '1e6 N/m2'; did you mean 'm^2'?");
   EXPECT_EQ(said("2 g/cm3", Dimension::density), "has an unknown unit 'cm3' in '2 g/cm3'; did you mean 'cm^3'?");
 }

@@ -14,6 +14,8 @@
 #include "domain/generation/generation.hpp"
 #include "domain/generation/loose_discs.hpp"
 #include "domain/generation/packing.hpp"
+#include "domain/measurement/disc_grading.hpp"
+#include "domain/parallel/near_pairs.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "scenes.hpp"
 
@@ -133,6 +135,24 @@ TEST(Sizes, OfAllLayersTogetherAreTheQuantilesOfTheCurve) {
   ASSERT_EQ(all.size(), wanted.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], 0.5 * wanted[i]);
   EXPECT_LT(most / least, 1.25);
+}
+
+TEST(Sizes, OfEqualDiscsAreOnTheirCurve) {
+  EXPECT_LT(grading_distance(Grading::uniform(2e-4), std::vector<double>(300, 1e-4), {}), 1e-12);
+  EXPECT_GT(grading_distance(Grading::uniform(2e-4), std::vector<double>(300, 0.9e-4), {}), 0.9);
+}
+
+/// Equal discs jam at a solid fraction of 0.547 if they are added at random: for some seeds 0.46 has no room for all.
+TEST(LoosePlaces, AreFoundForEqualDiscsToo) {
+  Grading const equal = Grading::uniform(2e-4);
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Specimen s;
+    s.right = 7 * 2e-4;
+    LooseDiscs(equal, 50, 1, seed).add_layer(s, 0, 0, {});
+    ASSERT_EQ(s.size(), 50u);
+    EXPECT_EQ(near_pairs(s, s.size(), 0).size(), 0u) << "seed " << seed;
+    for (std::size_t i = 0; i < s.size(); ++i) EXPECT_TRUE(s.y[i] >= 1e-4 && s.y[i] <= s.top - 1e-4);
+  }
 }
 
 /// Chance would leave one band of this tall box a hundredth denser than the next, which a large specimen keeps.

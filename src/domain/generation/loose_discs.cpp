@@ -1,6 +1,7 @@
 #include "domain/generation/loose_discs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "domain/generation/random.hpp"
 #include "kernels/real.hpp"
@@ -64,9 +65,10 @@ double LooseDiscs::solid_area(int layer) const {
   return sum;
 }
 
-/// Patches of even number in a layer may reach over their sides; the others make room for these.
-Placement LooseDiscs::placed(std::int64_t patch, std::vector<double> const& radii, Specimen const& specimen, double from,
-                             double height) const {
+/// Patches of even number in a layer may reach over their sides; the others make room for these. Nothing where a disc finds no
+/// place.
+std::optional<Placement> LooseDiscs::placed(std::int64_t patch, std::vector<double> const& radii, Specimen const& specimen,
+                                            double from, double height) const {
   std::int64_t const in_layer = patch % patches_in_layer_;
   double const width = specimen.width() / static_cast<double>(patches_in_layer_);
   Region region{specimen.left + static_cast<double>(in_layer) * width, from, width, height};
@@ -75,23 +77,33 @@ Placement LooseDiscs::placed(std::int64_t patch, std::vector<double> const& radi
   std::vector<PlacedDisc> around;
   auto const add_beside = [&](std::int64_t beside) {
     std::vector<double> const others = this->radii(beside);
-    Placement const there = placed(beside, others, specimen, from, height);
-    for (std::size_t i = 0; i < others.size(); ++i) around.push_back({there.x[i], there.y[i], others[i]});
+    std::optional<Placement> const there = placed(beside, others, specimen, from, height);
+    for (std::size_t i = 0; there && i < others.size(); ++i) around.push_back({there->x[i], there->y[i], others[i]});
+    return there.has_value();
   };
   if (in_layer % 2 == 1) {
-    add_beside(patch - 1);
-    if (region.open_right) add_beside(patch + 1);
+    if (!add_beside(patch - 1)) return {};
+    if (region.open_right && !add_beside(patch + 1)) return {};
   }
   return place_by_random_addition(radii, region, seed_, of_places + static_cast<std::uint64_t>(patch), around);
 }
 
 void LooseDiscs::add_layer(Specimen& specimen, int layer, double from, Ranks const& ranks) const {
-  double const height = solid_area(layer) / loose_solid_fraction / specimen.width();
   std::int64_t const first = layer * patches_in_layer_;
-  for (std::int64_t patch = first + ranks.rank(); patch < first + patches_in_layer_; patch += ranks.count()) {
-    std::vector<double> const radii = this->radii(patch);
-    add_discs(specimen, discs_before(patch), radii, placed(patch, radii, specimen, from, height));
+  double height = solid_area(layer) / loose_solid_fraction / specimen.width();
+  std::vector<std::pair<std::int64_t, Placement>> places;
+  for (bool found = false; !found;) {
+    places.clear();
+    found = true;
+    for (std::int64_t patch = first + ranks.rank(); found && patch < first + patches_in_layer_; patch += ranks.count()) {
+      std::optional<Placement> there = placed(patch, radii(patch), specimen, from, height);
+      found = there.has_value();
+      if (found) places.emplace_back(patch, std::move(*there));
+    }
+    found = !ranks.any(!found);
+    if (!found) height /= looser;
   }
+  for (auto const& [patch, there] : places) add_discs(specimen, discs_before(patch), radii(patch), there);
   specimen.top = from + height;
 }
 

@@ -111,11 +111,14 @@ PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design
   specimen.radius = LooseDiscs(design.grading, particles, 1, scene.run.seed).radii(0);
   double solid = 0;
   for (double r : specimen.radius) solid += pi * r * r;
-  double const side = std::sqrt(solid / loose_solid_fraction);
-  specimen.right = specimen.top = side;
-  Placement const placed = place_by_random_addition(specimen.radius, {0, 0, side, side, true}, scene.run.seed, 1);
-  specimen.x = placed.x;
-  specimen.y = placed.y;
+  std::optional<Placement> placed;
+  for (double fraction = loose_solid_fraction; !placed; fraction *= looser) {
+    double const side = std::sqrt(solid / fraction);
+    specimen.right = specimen.top = side;
+    placed = place_by_random_addition(specimen.radius, {0, 0, side, side, true}, scene.run.seed, 1);
+  }
+  specimen.x = placed->x;
+  specimen.y = placed->y;
   for (std::int64_t i = 0; i < particles; ++i) specimen.id.push_back(static_cast<int>(i));
   return compress(specimen, scene, design, progress);
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 
 #include "domain/generation/random.hpp"
 
@@ -104,8 +102,8 @@ Rectangle within(Region const& region, Rectangle part, double radius) {
 
 }  // namespace
 
-Placement place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
-                                   std::uint64_t stream, std::vector<PlacedDisc> const& around) {
+std::optional<Placement> place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
+                                                  std::uint64_t stream, std::vector<PlacedDisc> const& around) {
   constexpr int most_tries = 20000;
   std::vector<std::size_t> order(radii.size());
   std::iota(order.begin(), order.end(), 0);
@@ -127,9 +125,7 @@ Placement place_by_random_addition(std::vector<double> const& radii, Region cons
     int tries = 0;
     double x = 0, y = 0;
     do {
-      if (++tries > most_tries)
-        throw std::runtime_error("no room for disc " + std::to_string(i) + " of " + std::to_string(radii.size()) +
-                                 " in a loose placement");
+      if (++tries > most_tries) return {};
       x = part.left + uniform_random(seed, stream, counter++) * (part.right - part.left);
       y = part.bottom + uniform_random(seed, stream, counter++) * (part.top - part.bottom);
     } while (!occupancy.is_free(x, y, radii[i]));

@@ -1,6 +1,7 @@
 #pragma once
 /// Random placement of discs without overlap: the loose start of every generator.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace clathra {
@@ -20,11 +21,10 @@ struct Placement {
 };
 
 /// Places discs of the given radii [m] at random by sequential addition, largest first, keyed by (seed, stream). They are dealt
-/// out to parts of equal area, of about 50 discs each, so that the region is as dense in one half as in the other. A region that
-/// proves too small for random addition (more than about 55 % solid) is refused.
+/// out to parts of equal area, of about 50 discs each, so that the region is as dense in one half as in the other.
 /// @param around  discs that are there already and may reach into it
-/// @return centres in the order of `radii`;  @throws std::runtime_error where a disc finds no place
-Placement place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
-                                   std::uint64_t stream, std::vector<PlacedDisc> const& around = {});
+/// @return centres in the order of `radii`; nothing where a disc finds no place, in a region about half of which is solid
+std::optional<Placement> place_by_random_addition(std::vector<double> const& radii, Region const& region, std::uint64_t seed,
+                                                  std::uint64_t stream, std::vector<PlacedDisc> const& around = {});
 
 }  // namespace clathra

@@ -11,7 +11,7 @@ namespace {
 
 /// Sum of r^2 of all ranks, in the order of the sizes.
 double total_area(std::vector<double> const& sorted, Ranks const& ranks) {
-  return ranks.relay(0, [&](double total) {
+  return ranks.sequential_fold(0, [&](double total) {
     for (double r : sorted) total += r * r;
     return total;
   });
@@ -25,7 +25,7 @@ std::array<double, n> diameters_finer(std::vector<double> const& radii, std::arr
   double const total = total_area(sorted, ranks), largest = ranks.max(sorted.empty() ? 0 : sorted.back());
   std::array<double, n> found;
   found.fill(none);
-  ranks.relay(0, [&](double below) {
+  ranks.sequential_fold(0, [&](double below) {
     for (double r : sorted) {
       below += r * r;
       for (std::size_t k = 0; k < n; ++k)
@@ -43,10 +43,12 @@ double grading_distance(Grading const& grading, std::vector<double> const& radii
   std::vector<double> const sorted = ranks.sorted_part(radii);
   double const total = total_area(sorted, ranks);
   double farthest = 0;
-  ranks.relay(0, [&](double below) {
+  ranks.sequential_fold(0, [&](double below) {
     for (double r : sorted) {
-      double const curve = grading.finer_than(2 * r);
-      farthest = std::max(farthest, std::abs(curve - (below + 0.5 * r * r) / total));
+      // Where the curve is a step, as that of equal discs, anything from its foot to its head is on it.
+      double const foot = grading.finer_than(2 * r * (1 - 1e-9)), head = grading.finer_than(2 * r * (1 + 1e-9)),
+                   middle = (below + 0.5 * r * r) / total;
+      farthest = std::max({farthest, foot - middle, middle - head});
       below += r * r;
     }
     return below;
@@ -71,7 +73,7 @@ double radius_above(std::vector<double> const& radii, double share, Ranks const&
   std::vector<double> const sorted = ranks.sorted_part(radii);
   auto const below = static_cast<double>(ranks.sum(static_cast<std::int64_t>(radii.size()))) * share;
   double found = 1e300;
-  ranks.relay(0, [&](double count) {
+  ranks.sequential_fold(0, [&](double count) {
     for (double r : sorted) {
       if (count >= below) found = std::min(found, r);
       ++count;

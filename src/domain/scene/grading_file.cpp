@@ -12,7 +12,8 @@
 namespace clathra {
 namespace {
 
-constexpr std::size_t largest_file = 1 << 20;  // [bytes]; sieve analyses have a dozen lines
+constexpr double smallest_d50 = 1e-7, largest_d50 = 0.1;  // [m]: of grains that rest on one another
+constexpr std::size_t largest_file = 1 << 20;             // [bytes]; sieve analyses have a dozen lines
 
 /// A row of a file in the numbers that it holds.
 struct Sieve {
@@ -110,6 +111,18 @@ std::vector<Sieve> sieves_of(ForeignTable& table, GradingColumns const& columns)
   return sieves;
 }
 
+/// The unit of the shares, which percent signs in the cells may say.
+ShareUnit unit_of(ForeignTable const& table, GradingColumns const& columns) {
+  for (ForeignRow const& row : table.rows) {
+    std::string_view const cell = row.cells[columns.share];
+    if (!cell.ends_with('%')) continue;
+    if (columns.unit != ShareUnit::fraction) return ShareUnit::percent;
+    refuse_line(row.line, quoted(cell) + " is in per cent, the column " + quoted(table.header.cells[columns.share]) +
+                              " in fractions: name it percent_finer, or write fractions");
+  }
+  return columns.unit;
+}
+
 /// What stands for all grains in the file: 100 or 1.
 double whole_of(std::vector<Sieve> const& sieves, ShareUnit unit) {
   Sieve const& most =
@@ -170,7 +183,7 @@ Grading grading_of(ForeignTable table) {
                                       : ""));
   GradingColumns const columns = find_grading_columns(header);
   std::vector<Sieve> sieves = sieves_of(table, columns);
-  double const whole = whole_of(sieves, columns.unit), percent = 100 / whole;
+  double const whole = whole_of(sieves, unit_of(table, columns)), percent = 100 / whole;
   order(sieves, percent);
   if (columns.retained)
     for (Sieve& sieve : sieves) sieve.share = whole - sieve.share;
@@ -180,7 +193,12 @@ Grading grading_of(ForeignTable table) {
     diameters.push_back(sieve.diameter);
     finer.push_back(sieve.share / whole);
   }
-  return Grading(diameters, finer);
+  Grading grading(diameters, finer);
+  if (!(grading.d50() >= smallest_d50 && grading.d50() <= largest_d50))
+    refuse_line(header.line, "half of its grains are finer than " + number_text(grading.d50() * 1e3) +
+                                 " mm, no soil is: its sizes are in another unit than the column " +
+                                 quoted(header.cells[columns.diameter]) + " says");
+  return grading;
 }
 
 }  // namespace

@@ -196,9 +196,13 @@ bool fits(Powers powers, Dimension dimension) {
   return powers == entry(dimension).powers;
 }
 
-/// "write 55.0 %" for a number with a decimal comma; nothing for others.
+/// "write 55.0 %" for a number with a decimal comma, which may be one that sets apart thousands; nothing for others.
 std::string comma_hint(std::string_view number, std::string_view rest) {
   if (rest.size() < 2 || rest[0] != ',' || rest[1] < '0' || rest[1] > '9') return {};
+  auto const digits = std::min(rest.find_first_not_of("0123456789", 1), rest.size()) - 1;
+  if (digits == 3 && number != "0" && number != "-0")
+    return "has a comma, which may be a decimal one or set apart thousands; write " + std::string(number) + "." +
+           std::string(rest.substr(1)) + " or " + std::string(number) + std::string(rest.substr(1));
   return "has a decimal comma; write a point: " + std::string(number) + "." + std::string(rest.substr(1));
 }
 
@@ -213,8 +217,8 @@ std::string quoted(std::string_view text) {
 
 std::string in_ascii(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> signs[] = {
-      {"\xc2\xb5", "u"},  {"\xce\xbc", "u"}, {"\xc2\xb0", "deg"},  {"\xc2\xb2", "^2"},
-      {"\xc2\xb3", "^3"}, {"\xc2\xa0", " "}, {"\xe2\x80\xaf", " "}};
+      {"\xc2\xb5", "u"},  {"\xce\xbc", "u"}, {"\xc2\xb0", "deg"},   {"\xc2\xb2", "^2"},
+      {"\xc2\xb3", "^3"}, {"\xc2\xa0", " "}, {"\xe2\x80\xaf", " "}, {"\xe2\x88\x92", "-"}};
   std::string plain(text);
   for (auto const& [sign, letters] : signs)
     for (std::size_t at = 0; (at = plain.find(sign, at)) != std::string::npos; at += letters.size())

@@ -316,14 +316,23 @@ std::string Hdf5File::read_text(std::string const& name) const {
   return {text.begin(), text.end()};
 }
 
+void Hdf5File::require_number(std::string const& name) const {
+  Id const attribute(has_attribute(name) ? H5Aopen(file_, name.c_str(), H5P_DEFAULT) : -1, H5Aclose);
+  Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
+  if (type >= 0 && H5Tget_class(type) == H5T_STRING)
+    fail(ExitCode::bad_input, fmt::format("attribute {} is a text, it must be a number without a unit", name));
+}
+
 double Hdf5File::double_attribute(std::string const& name) const {
   double value = 0;
+  require_number(name);
   if (!read_attribute(file_, name.c_str(), H5T_NATIVE_DOUBLE, &value))
     fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
   return value;
 }
 std::int64_t Hdf5File::integer_attribute(std::string const& name) const {
   std::int64_t value = 0;
+  require_number(name);
   if (!read_attribute(file_, name.c_str(), H5T_NATIVE_INT64, &value))
     fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
   return value;

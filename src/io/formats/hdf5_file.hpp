@@ -66,6 +66,7 @@ class Hdf5File {
   [[noreturn]] void fail(ExitCode code, std::string const& what) const;
 
  private:
+  void require_number(std::string const& attribute) const;
   Hdf5File(std::filesystem::path path, hid_t file, bool writing, Ranks ranks = {})
       : path_(std::move(path)), file_(file), writing_(writing), ranks_(std::move(ranks)) {}
   void make_group(std::string const& name);

@@ -37,7 +37,7 @@ double power_of_two(double value) { return value > 0 ? std::exp2(std::floor(std:
 /// Mean of |value| over all ranks.
 template <class T>
 double mean_size(Ranks const& ranks, std::vector<T> const& values) {
-  double const sum = ranks.relay(0, [&](double total) {
+  double const sum = ranks.sequential_fold(0, [&](double total) {
     for (T const v : values) total += std::abs(static_cast<double>(v));
     return total;
   });

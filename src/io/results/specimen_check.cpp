@@ -28,9 +28,12 @@ constexpr double farthest_place = 1e7;
 constexpr double d50_tolerance = 0.05, d50_share = 0.05;
 /// 753 files of our own agree to 2e-14; one from single precision to 1e-6.
 constexpr double void_ratio_tolerance = 1e-3;
-constexpr double widest_space = 3;       // between a wall and the sand [d50]; our own touch it
-constexpr double most_deep_pairs = 0.1;  // of the pairs that touch; up to 0.04 in tests with grains as stiff as advised
-constexpr double stress_factor = 2;      // our own rest under 0.89 to 1 of what they say
+constexpr double loosest = 1, densest = 0.05;  // void ratios that can be asked for
+constexpr double no_sand = 1e3;                // void ratio of discs that hardly touch: places and radii are in different units
+constexpr double deepest_at_wall = 0.05;       // a disc into a wall [d50]: a tenth of a radius
+constexpr double widest_space = 3;             // between a wall and the sand [d50]; our own touch it
+constexpr double most_deep_pairs = 0.1;        // of the pairs that touch; up to 0.04 in tests with grains as stiff as advised
+constexpr double stress_factor = 2;            // our own rest under 0.89 to 1 of what they say
 
 [[noreturn]] void refuse(fs::path const& path, std::string const& what) { throw FileProblem(ExitCode::bad_input, path, what); }
 
@@ -90,6 +93,10 @@ void require_d50(fs::path const& path, Specimen& part, double found, Ranks const
 }
 
 void require_void_ratio(fs::path const& path, Specimen& part, SpecimenOutline const& outline) {
+  if (!(outline.void_ratio <= no_sand))
+    refuse(path, fmt::format("its discs (d50 {}) fill 1/{:.3g} of the box between its walls ({} x {}): places, walls and radii "
+                             "must all be in m",
+                             mm(outline.sizes.d50), 1 + outline.void_ratio, mm(part.width()), mm(part.height())));
   if (std::isnan(part.void_ratio)) part.void_ratio = outline.void_ratio;
   if (std::abs(part.void_ratio - outline.void_ratio) <= void_ratio_tolerance) return;
   std::string const why = spaces(outline);
@@ -129,6 +136,12 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
   auto const warn = [&](std::string const& text) { warnings.push_back(path.string() + ": " + text); };
   if (std::string const text = spaces(facts.outline); !part.periodic && !text.empty())
     warn(text + ": the box is larger than its sand");
+  for (std::size_t wall = 0; wall < facts.outline.at_wall.size(); ++wall)
+    if (double const into = -facts.outline.at_wall[wall].space / facts.outline.sizes.d50;
+        !part.periodic && into > deepest_at_wall)
+      warn(fmt::format("a disc reaches {:.3g} d50 into the {} wall: the box is smaller than its sand", into, wall_names[wall]));
+  if (double const e = facts.outline.void_ratio; e < densest || e > loosest)
+    warn(fmt::format("its void ratio is {:.4g}; sand at rest has {:g} to {:g}", e, densest, loosest));
   SpecimenOverlaps const& overlaps = facts.overlaps;
   double const share = static_cast<double>(overlaps.deep) / static_cast<double>(std::max<std::int64_t>(1, overlaps.touching));
   if (share > most_deep_pairs)

@@ -29,15 +29,16 @@ struct SpecimenNumber {
   double Specimen::*of;
   char const* unit;
   std::optional<double> left_out;  ///< nothing: a file must state it
+  bool may_be_negative = false;
 };
-constexpr SpecimenNumber specimen_numbers[] = {{"left", &Specimen::left, "m", {}},
-                                               {"right", &Specimen::right, "m", {}},
-                                               {"bottom", &Specimen::bottom, "m", {}},
-                                               {"top", &Specimen::top, "m", {}},
+constexpr SpecimenNumber specimen_numbers[] = {{"left", &Specimen::left, "m", {}, true},
+                                               {"right", &Specimen::right, "m", {}, true},
+                                               {"bottom", &Specimen::bottom, "m", {}, true},
+                                               {"top", &Specimen::top, "m", {}, true},
                                                {"density", &Specimen::density, "kg/m^3", {}},
                                                {"d50", &Specimen::d50, "m", of_the_discs},
                                                {"stress", &Specimen::stress, "Pa", 0},
-                                               {"void_ratio", &Specimen::void_ratio, "", of_the_discs},
+                                               {"void_ratio", &Specimen::void_ratio, "", of_the_discs, true},
                                                {"critical_thickness", &Specimen::critical_thickness, "m", 0}};
 
 /// Whether a file must hold a column of the discs; motion is 0 where it is left out.
@@ -121,9 +122,22 @@ void check_contacts(std::filesystem::path const& path, Specimen const& specimen,
   }
 }
 
+/// Whole numbers, which may be written as floats.
+std::vector<int> read_ids(Hdf5File const& file, std::string const& name, RowRange const& rows) {
+  std::vector<double> const numbers = file.read<double>(name, rows);
+  std::vector<int> ids;
+  ids.reserve(numbers.size());
+  for (double const number : numbers) {
+    if (!(std::abs(number) <= 2e9 && number == std::floor(number)))
+      file.fail(ExitCode::bad_input, fmt::format("{} must hold whole numbers, got {}", name, number));
+    ids.push_back(static_cast<int>(number));
+  }
+  return ids;
+}
+
 void read_discs(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   if (file.has("particles/id")) {
-    part.id = file.read<std::int32_t>("particles/id", rows);
+    part.id = read_ids(file, "particles/id", rows);
   } else {
     for (std::size_t i = rows.begin; i < rows.end; ++i) part.id.push_back(static_cast<int>(i));
   }
@@ -134,8 +148,7 @@ void read_discs(Hdf5File const& file, Specimen& part, RowRange const& rows) {
 
 void read_contacts(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   if (rows.size == 0) return;
-  std::vector<std::int32_t> const id_a = file.read<std::int32_t>("contacts/id_a", rows);
-  std::vector<std::int32_t> const id_b = file.read<std::int32_t>("contacts/id_b", rows);
+  std::vector<int> const id_a = read_ids(file, "contacts/id_a", rows), id_b = read_ids(file, "contacts/id_b", rows);
   part.contacts.resize(id_a.size());
   for (std::size_t i = 0; i < id_a.size(); ++i) part.contacts[i].id_a = id_a[i], part.contacts[i].id_b = id_b[i];
   for (ContactNumber const& number : contact_numbers) {
@@ -168,6 +181,8 @@ double read_number(Hdf5File const& file, SpecimenNumber const& number) {
   if (number.left_out && !file.has_attribute(number.name)) return *number.left_out;
   double const value = file.double_attribute(number.name);
   if (!std::isfinite(value)) file.fail(ExitCode::bad_input, fmt::format("{} is not a finite number", number.name));
+  if (value < 0 && !number.may_be_negative)
+    file.fail(ExitCode::bad_input, fmt::format("{} must not be below 0, got {}", number.name, value));
   return value;
 }
 

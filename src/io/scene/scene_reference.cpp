@@ -116,7 +116,8 @@ std::string allowed_values(Key const& key) {
   if (key.kind == Kind::boolean) return "true or false";
   if (key.kind == Kind::path) return "a path, relative to the folder of the scene";
   if (key.kind == Kind::text) return "text";
-  if (key.kind != Kind::choice) return fmt::format("{} to {}", limit_text(key, key.least), limit_text(key, key.most));
+  if (key.kind != Kind::choice)
+    return fmt::format("{}{} to {}", key.takes_zero ? "0, or " : "", limit_text(key, key.least), limit_text(key, key.most));
   std::string names;
   for (std::string_view const name : key.choices) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
   return names;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "domain/scene/short_number.hpp"
+
 namespace clathra {
 namespace {
 
@@ -34,7 +36,7 @@ void check_range(Key const& key, double value, bool bare) {
   if (key.takes_zero) text += fmt::format(" (0: {})", key.zero);
   if (is_quantity(key) && key.dimension == Dimension::ratio) {
     if (bare && key.most <= 1 && value > 1 && value <= 100)
-      text += fmt::format("; this looks like percent: write {} or \"{} %\"", format_number(value / 100), format_number(value));
+      text += fmt::format("; this looks like percent: write {} or \"{} %\"", short_number(value / 100), format_number(value));
   } else if (is_quantity(key) && bare) {
     text +=
         fmt::format("; a number without unit is in {}; example: {}", bare_unit(key.dimension), quantity_example(key.dimension));
