@@ -5,7 +5,7 @@ target_compile_features(clathra_flags INTERFACE cxx_std_20)
 # The determinism contract: the state after a run is equal to the bit for every number of threads, every order of the
 # input and every instruction set of one architecture. So: no contraction into fused multiply-adds (whether the compiler
 # finds one depends on the vector width and on inlining), and never -ffast-math, -Ofast or -fassociative-math (sums would
-# be taken in another order). Mixed precision asks by name for the fused operations that it has (times_plus() in
+# be taken in another order). Mixed precision asks by name for the fused operations that it has (multiply_add() in
 # src/kernels/lane.hpp), which are the same everywhere. The two flags below do not change any result: they only drop errno and the floating-point
 # exception flags, which we do not read and which keep loops with sqrt and with selects from being vectorised.
 target_compile_options(clathra_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)

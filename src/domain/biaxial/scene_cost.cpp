@@ -35,9 +35,8 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
 /// has to be closed is measured in d50, the steps that it takes in the discs that set the step.
 double generation_disc_steps(Scene const& scene, Grading const& grading, double discs) {
   if (scene.sample.generator == Generator::file) return 0;
-  double const coarse = grading.d50() / grading.diameter_finer(0.3), unlike = grading.largest() / grading.smallest();
-  double const closing = 8.25e3 * std::pow(coarse, 1.07),
-               layers = 4.85e3 * std::pow(coarse, 1.07) * std::pow(std::max(1.0, unlike / 3), 0.75),
+  double const coarse = grading.d50() / grading.diameter_finer(0.3);
+  double const closing = 8.25e3 * std::pow(coarse, 1.07), layers = 4.85e3 * std::pow(coarse, 1.07),
                specimens = scene.sample.void_ratio_at == VoidRatioAt::test ? 2.3 : 1;  // two as a rule, each consolidated
   return specimens * discs * (scene.sample.generator == Generator::compression ? closing : closing + layers);
 }

@@ -30,7 +30,8 @@ void add_discs(Scene const& scene, Precision precision, std::vector<NeededField>
     fields.push_back({"disc_rows", static_cast<int>(sizeof(DiscRow)), FieldOf::disc, "run.precision on a GPU"});
   for_each_field(particles, state);
   for_each_derived_field(particles, state);
-  for (char const* const name : {"x_at_update", "y_at_update"}) fields.push_back({name, sizeof(Coord), FieldOf::disc, every_scene});
+  for (char const* const name : {"x_at_update", "y_at_update"})
+    fields.push_back({name, sizeof(Coord), FieldOf::disc, every_scene});
   if (!scene.output.takes_snapshots()) return;
   for (char const* const name : {"start_x", "start_y"})
     fields.push_back({name, sizeof(Coord), FieldOf::disc, "output.snapshots, output.snapshots_at"});

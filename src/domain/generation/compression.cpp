@@ -1,6 +1,7 @@
 #include "domain/generation/compression.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "domain/scene/short_number.hpp"
 
@@ -52,7 +53,7 @@ class Compression {
     constexpr int most_attempts = 4;
     double goal = wanted_;
     for (int attempt = 1;; ++attempt) {
-      Assembly const closed = closed_to(goal, near);
+      Assembly closed = closed_to(goal, near);
       PackedSpecimen packed = at_rest(closed);
       double const error = packed.specimen.void_ratio - wanted_;
       if (std::abs(error) <= void_tolerance) return packed;
@@ -96,7 +97,7 @@ class Compression {
     auto const on_its_way = [&] { return above() > 1e-5 || (part.until_it_resists && stress < least_resistance * stress_); };
     while (on_its_way() && !a.blocked) {
       double const far = std::clamp(above() > 0 ? (above() - loose_margin) / 0.2 : (-above() - far_off) / 0.1, 0.0, 1.0),
-                   hurry = 1 + far * (slowness_ * loose_rate * gentleness(design_.grading) / part.inertial_number - 1);
+                   hurry = 1 + far * (slowness_ * loose_rate / part.inertial_number - 1);
       double const rate = full_rate * hurry * std::clamp(std::abs(above()) / slowing_range, 0.1, 1.0) *
                           std::clamp(2 * stress_ / std::max(stress, stress_), 0.05, 1.0) *
                           std::clamp(a.friction.share / scarce_friction, 0.1, 1.0);
@@ -142,7 +143,7 @@ class Compression {
     for (double& y : s.y) y = stretched(y, s.bottom);
     s.right = stretched(s.right, s.left);
     s.top = stretched(s.top, s.bottom);
-    s.contacts.clear();
+    s.contacts = {};
     return a;
   }
 
@@ -158,13 +159,17 @@ class Compression {
     return a;
   }
 
-  /// With the full friction back the assembly creeps no further. Most of the way to rest its small discs are heavier.
-  PackedSpecimen at_rest(Assembly const& closed) {
+  /// With the full friction back the assembly creeps no further. Most of the way to rest its small discs are heavier. One
+  /// simulation at a time is in memory. @param closed  loses its discs
+  PackedSpecimen at_rest(Assembly& closed) {
     GenerationFriction full = closed.friction;
     full.share = 1;
-    Simulation calming(closed.specimen, closing_laws(scene_, full, design_.grading), skin_, ranks_);
-    bring_to_rest(calming, full);
-    Simulation resting(calming.specimen(), generation_laws(scene_, full), skin_, ranks_);
+    auto const calm = [&] {
+      Simulation calming(std::exchange(closed.specimen, {}), closing_laws(scene_, full, design_.grading), skin_, ranks_);
+      bring_to_rest(calming, full);
+      return calming.specimen();
+    };
+    Simulation resting(calm(), generation_laws(scene_, full), skin_, ranks_);
     bring_to_rest(resting, full);
     PackedSpecimen packed = packed_at_rest(resting, stress_, closed.friction, closed.lowest_share);
     packed.disc_steps = disc_steps_;

@@ -151,8 +151,6 @@ SimulationLaws flowing_laws(SimulationLaws laws, double stress, Grading const& g
   return laws;
 }
 
-double gentleness(Grading const& grading) { return std::min(1.0, 3 * grading.smallest() / grading.largest()); }
-
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step) {
   simulation.choose_time_step(step);
   if (simulation.periodic()) return;

@@ -35,10 +35,6 @@ SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& fricti
 /// mixed precision.
 SimulationLaws flowing_laws(SimulationLaws laws, double stress, Grading const& grading);
 
-/// How much slower than those of a common sand, whose largest disc is three times its smallest one, the loose discs of a grading
-/// have to meet: a large disc would run over small ones. 1 or less.
-double gentleness(Grading const& grading);
-
 /// A packed specimen (this rank's share), resting under the stress of the design, with its generation friction.
 struct PackedSpecimen {
   Specimen specimen;

@@ -71,8 +71,8 @@ Specimen compacted_layers(Scene const& scene, SampleDesign const& design, Simula
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
     double const unit = strain_rate_of(1, scene.bond.stress, simulation.facts().moving_density(), specimen.d50) / slowness;
     compact(simulation,
-            {floor, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed,
-             unit * gentleness(design.grading) * loose_rate, unit * near_rate, 20 * scene.bond.stress},
+            {floor, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, unit * loose_rate, unit * near_rate,
+             20 * scene.bond.stress},
             stage, counted);
     disc_steps += simulation.steps() * simulation.discs();
     simulation.stop_discs();
