@@ -1,4 +1,6 @@
 /// Verlet skins of discs: how far they may move beside their box before neighbours are searched again.
+#include "domain/scene/sample_design.hpp"
+#include "domain/simulation/neighbour_list_upkeep.hpp"
 #include "kernels/rebuild_inputs.hpp"
 #include "on_host.hpp"
 #include "scenes.hpp"
@@ -198,6 +200,17 @@ TEST(VerletSkin, SearchesComeInTimeForDiscsThatAnArrivingWallLeavesBehind) {
   sim.time_step = 2e-7;
   sim.loading().y = AxisDrive::at_rate(0.05);
   expect_searches_in_time(sim, 8000);
+}
+
+/// A flying disc has a wider skin, but around a large one of a wide curve not so many small ones that its row overflows.
+TEST(VerletSkin, OfAWideCurveLeavesARowRoomForAllNeighbours) {
+  double const small = 0.05e-3, large = 21 * small;
+  NeighbourListUpkeep const upkeep(small);
+  SkinRange const wide = upkeep.skins({}, small, large, true), common = upkeep.skins({}, small, 2.4 * small, true);
+  EXPECT_EQ(common.most, 5 * common.least);
+  EXPECT_LT(wide.most, 5 * wide.least);
+  EXPECT_GE(wide.most, wide.least);
+  EXPECT_NEAR(most_neighbours(Grading({2 * small, 2 * large}, {0, 1}), 2 * wide.most), longest_row, 1e-6);
 }
 
 }  // namespace

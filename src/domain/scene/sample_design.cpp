@@ -58,18 +58,26 @@ int compaction_layers(Scene const& scene, SampleDesign const& design) {
 
 namespace {
 
+constexpr double second_ring = 1.46, solid = 0.84;  // where the second ring begins; share of it that discs can fill
+
+/// Discs of radius 1 that touch one of radius `ratio`.
+double in_touch(double ratio) { return std::numbers::pi / std::asin(1 / (ratio + 1)); }
+
 /// Discs of radius 1 around one of radius `ratio`.
 double most_neighbours(double ratio, double reach) {
-  constexpr double second_ring = 1.46, solid = 0.84;  // where it begins; share of it that discs can fill
-  double const touching = std::numbers::pi / std::asin(1 / (ratio + 1)), inner = ratio + 1 + second_ring,
-               outer = ratio + 1 + std::max(reach, second_ring);
-  return touching + solid * (outer * outer - inner * inner);
+  double const inner = ratio + 1 + second_ring, outer = ratio + 1 + std::max(reach, second_ring);
+  return in_touch(ratio) + solid * (outer * outer - inner * inner);
 }
 
 }  // namespace
 
 double most_neighbours(Grading const& grading, double reach) {
   return most_neighbours(grading.largest() / grading.smallest(), 2 * reach / grading.smallest());
+}
+
+double reach_of_a_full_row(double ratio) {
+  double const inner = ratio + 1 + second_ring, left = std::max(0.0, longest_row - in_touch(ratio));
+  return std::sqrt(inner * inner + left / solid) - ratio - 1;
 }
 
 std::string crowding(Grading const& grading, double reach) {

@@ -27,6 +27,9 @@ int compaction_layers(Scene const& scene, SampleDesign const& design);
 /// How many discs may lie around the largest of a grading, no farther than `reach` [m]: the smallest ones, side by side, and
 /// where they lie within reach those of a second ring.
 double most_neighbours(Grading const& grading, double reach);
+/// How far apart, surface to surface, a disc and its neighbours may be listed so that a row holds them all, in radii of the
+/// smallest disc. @param ratio  of the largest radius to the smallest
+double reach_of_a_full_row(double ratio);
 
 /// Why the sizes of a grading differ too much for the rows of neighbours, with the ratio that does not; empty where they fit.
 /// @param reach  beyond touching, of bonds [m]

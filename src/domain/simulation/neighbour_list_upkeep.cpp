@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "domain/scene/sample_design.hpp"
+
 namespace clathra {
 
 namespace {
@@ -10,11 +12,11 @@ constexpr int searches_a_sorting = 16;  // of discs that no rank sends or gets
 
 }  // namespace
 
-SkinRange NeighbourListUpkeep::skins(Box const& box, Real largest_radius, bool by_speed) const {
+SkinRange NeighbourListUpkeep::skins(Box const& box, Real smallest_radius, Real largest_radius, bool by_speed) const {
   constexpr Real times = 5;
   Real const least = skin_ / 2;
   if (!by_speed) return {least, least};
-  Real most = times * least;
+  Real most = std::min(times * least, 0.5 * smallest_radius * reach_of_a_full_row(largest_radius / smallest_radius));
   if (box.periodic()) most = std::min(most, 0.49 * (0.5 * std::min(box.cell.width, box.cell.height) - 2 * largest_radius));
   return {least, std::max(most, least)};
 }

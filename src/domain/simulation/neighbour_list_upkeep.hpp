@@ -19,8 +19,9 @@ class NeighbourListUpkeep {
   void ask() { asked_ = true; }
   bool is_asked() const { return asked_; }
 
-  /// A periodic cell stays twice as wide as neighbours reach. @param by_speed  whether flying discs get more than those at rest
-  SkinRange skins(Box const& box, Real largest_radius, bool by_speed) const;
+  /// A periodic cell stays twice as wide as neighbours reach; a row holds all small discs around a large one.
+  /// @param by_speed  whether flying discs get more than those at rest
+  SkinRange skins(Box const& box, Real smallest_radius, Real largest_radius, bool by_speed) const;
   /// How far the centres of a pair may be apart, in skins.
   Real reach_in_skins(Real largest_radius) const { return 2 * largest_radius / skin_ + 1; }
   /// The farthest neighbours that the last search listed, centre to centre [m].

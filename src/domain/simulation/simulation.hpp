@@ -30,11 +30,11 @@ inline double usual_skin(double d50, double smallest) { return std::min(chosen_s
 /// What stays as it is while an assembly moves.
 struct AssemblyFacts {
   int discs = 0;
-  Real d50 = 0, largest_radius = 0;  ///< [m]
-  Real density = 0;                  ///< of the grains [kg/m^3]
-  Real solid_area = 0;               ///< [m^2]
-  Real added_mass = 0;               ///< by MassScaling, over the mass of all discs
-  Real critical_thickness = 0;       ///< h_max of the bonds [m], 0 = none
+  Real d50 = 0, smallest_radius = 0, largest_radius = 0;  ///< [m]
+  Real density = 0;                                       ///< of the grains [kg/m^3]
+  Real solid_area = 0;                                    ///< [m^2]
+  Real added_mass = 0;                                    ///< by MassScaling, over the mass of all discs
+  Real critical_thickness = 0;                            ///< h_max of the bonds [m], 0 = none
 
   Real moving_density() const { return density * (1 + added_mass); }  ///< what inertia and wave number go by [kg/m^3]
 
@@ -43,6 +43,7 @@ struct AssemblyFacts {
   void for_each_number(Visit&& visit) {
     visit("discs", discs);
     visit("d50", d50);
+    visit("smallest_radius", smallest_radius);
     visit("largest_radius", largest_radius);
     visit("density", density);
     visit("solid_area", solid_area);
@@ -178,7 +179,9 @@ class Simulation {
   void upload_discs(Specimen const& specimen);
   void restore_history(Specimen const& specimen);
   AffineFrame frame() const { return frame_since(now_.box, now_.at_search.box); }
-  SkinRange skins(bool by_speed) const { return upkeep_.skins(now_.box, facts_.largest_radius, by_speed); }
+  SkinRange skins(bool by_speed) const {
+    return upkeep_.skins(now_.box, facts_.smallest_radius, facts_.largest_radius, by_speed);
+  }
   bool are_displaced(ReferenceState& reference, Field<Coord> const& x, Field<Coord> const& y, Real skin_fraction) const;
   bool host_synchronous() const { return !ranks().alone() || periodic() || upkeep_.is_asked(); }
   StepsAtOnce steps_at_once(std::int64_t most) const;

@@ -195,6 +195,7 @@ void Simulation::upload_discs(Specimen const& s) {
     facts_.largest_radius = std::max(facts_.largest_radius, s.radius[i]);
   }
   facts_.largest_radius = ranks().max(facts_.largest_radius);
+  facts_.smallest_radius = ranks().min(s.radius.empty() ? HUGE_VAL : *std::min_element(s.radius.begin(), s.radius.end()));
   particles_ = allocate_particles(static_cast<int>(n), laws_.precision, facts_.largest_radius);
   // Summed by id, so that the order of the input does not show.
   Directory const radii(ranks(), facts_.discs, s.id, {s.radius});
