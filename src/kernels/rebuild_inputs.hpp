@@ -39,7 +39,7 @@ struct RebuildInputs {
 RebuildInputs rebuild_inputs(ParticleSoA const& particles, ContactRows const& rows, AffineFrame const& frame,
                              Faults const& faults, SumUnits const& unit);
 
-/// Asks the device for the same, behind a move after which a search is due or the host goes along: it will be in the state of
+/// Enqueues the same behind a move after which a search is due or the host has a part: it will be in the state of
 /// the steps, in which enqueued_rebuild_inputs() finds it.
 void enqueue_rebuild_inputs(ParticleSoA const& particles, ContactRows const& rows, Faults const& faults, SumUnits const& unit,
                             DeviceSteps const& steps, StepLaunches const& launches);

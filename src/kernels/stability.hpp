@@ -19,8 +19,8 @@ Real local_time_step(SpringNetwork const& network, int least_contacts = 4);
 /// only above a friction of 2, where they may vibrate faster than sticking ones, and below 1000, where none slides. A function of
 /// the state alone, the same for any number of threads and ranks.
 /// @param alpha  of local damping, 0 = none
-/// @param leeway  gaps below this share of both discs' Verlet skins count as closed: the bound holds until a disc has strayed by
-/// that share of its own
+/// @param skin_fraction  gaps below this share of both discs' Verlet skins count as closed: the bound holds until a disc is
+/// displaced by that share of its own
 /// @return 1e300 where no disc has a spring
 Real stable_limit(SpringNetwork const& network, Real alpha, Real skin_fraction, AcrossRanks const& across);
 

@@ -173,7 +173,7 @@ struct DeviceSteps {
   /// StepState::rebuild_inputs on the device.
   using Numbers = Kokkos::View<std::int64_t*, MemorySpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   Numbers rebuild_inputs() const { return Numbers(state.data()->rebuild_inputs, numbers_of_rebuild_inputs); }
-  /// Waits for all that was asked for.
+  /// Waits for all that was enqueued.
   StepState const& get() const {
     Kokkos::deep_copy(on_host, state);
     return on_host(0);

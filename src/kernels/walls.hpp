@@ -59,8 +59,8 @@ Field<int> list_near_walls(ParticleSoA const& particles, Walls const& walls, Fie
 WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction, WallShear const& shear, Scratch& scratch);
 
 /// Adds the forces of the walls, where the state of the steps has them, to the discs near them, and ends the step there unless
-/// the host goes along (StepState). A wall is a disc of infinite radius without rolling. A disc whose centre lies behind a wall
-/// (overlap above its radius) is a fault, as between discs.
+/// the host has a part in it (StepState). A wall is a disc of infinite radius without rolling. A disc whose centre lies behind a
+/// wall (overlap above its radius) is a fault, as between discs.
 /// @param losses  sliding and dashpot are written when their fields exist;  @param steps  nothing happens while they are stopped
 /// @param launches  where the kernel goes
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,

@@ -31,12 +31,8 @@ void look_at_walls(Specimen const& part, std::array<DiscAtWall, 4>& at_wall) {
 /// The smallest of the ranks' ids that count.
 int smallest_id(Ranks const& ranks, bool counts, int id) { return static_cast<int>(ranks.min(counts ? id : none)); }
 
-/// This rank's discs by their places, and those of others that may touch them behind them.
-struct NearDiscs {
-  Specimen discs;
-  std::size_t own;
-};
-NearDiscs with_neighbours(Specimen const& part, Ranks const& ranks) {
+/// This rank's discs by their places, so many of them, and those of others that may touch them behind them.
+Specimen with_neighbours(Specimen const& part, Ranks const& ranks, std::size_t& own) {
   Specimen bare;
   bare.id = part.id;
   for (ParticleColumn const& column : particle_columns) (bare.*column.of).resize(part.size());
@@ -44,7 +40,8 @@ NearDiscs with_neighbours(Specimen const& part, Ranks const& ranks) {
   bare.y = part.y;
   bare.radius = part.radius;
   Specimen const here = by_place(ranks, std::move(bare));
-  return {with_halo(ranks, here, 0), here.size()};
+  own = here.size();
+  return with_halo(ranks, here, 0);
 }
 
 /// The deepest of all ranks' deepest pairs; of equal ones that with the smallest ids.
@@ -89,14 +86,16 @@ SpecimenOutline outline_of(Specimen const& part, Ranks const& ranks) {
 }
 
 SpecimenOverlaps overlaps_of(Specimen const& part, Ranks const& ranks) {
-  NearDiscs const near = with_neighbours(part, ranks);
-  Specimen const& s = near.discs;
+  Specimen by_rectangles;
+  std::size_t own = part.size();
+  if (!ranks.alone()) by_rectangles = with_neighbours(part, ranks, own);
+  Specimen const& s = ranks.alone() ? part : by_rectangles;
   double largest = 0;
   for (double const r : part.radius) largest = std::max(largest, r);
   largest = ranks.max(largest);
   SpecimenOverlaps found;
   ExactSum stress(SumUnits::near(largest * largest));
-  for_each_near_pair(s, near.own, 0, [&](NearPair const& p) {
+  for_each_near_pair(s, own, 0, [&](NearPair const& p) {
     double const sum = s.radius[p.a] + s.radius[p.b], share = -p.gap / std::min(s.radius[p.a], s.radius[p.b]);
     ++found.touching;
     found.deep += share > deep_pair;

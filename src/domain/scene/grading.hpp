@@ -7,6 +7,9 @@
 
 namespace clathra {
 
+/// The median diameters that grains which rest on one another may have [m].
+inline constexpr double smallest_d50 = 1e-7, largest_d50 = 0.1;
+
 /// Diameters of a grading at mass fractions that tell what tests of it are like [m].
 struct CurveSizes {
   double d10 = 0, d49 = 0, d50 = 0, d51 = 0, d90 = 0;

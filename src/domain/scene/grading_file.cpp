@@ -12,8 +12,7 @@
 namespace clathra {
 namespace {
 
-constexpr double smallest_d50 = 1e-7, largest_d50 = 0.1;  // [m]: of grains that rest on one another
-constexpr std::size_t largest_file = 1 << 20;             // [bytes]; sieve analyses have a dozen lines
+constexpr std::size_t largest_file = 1 << 20;  // [bytes]; sieve analyses have a dozen lines
 
 /// A row of a file in the numbers that it holds.
 struct Sieve {

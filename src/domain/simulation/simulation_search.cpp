@@ -10,7 +10,7 @@
 
 namespace clathra {
 
-/// @param all  of the present discs, by rebuild_inputs_of_all() or asked for before, which finds those that are nowhere and have
+/// @param all  of the present discs, by rebuild_inputs_of_all() or enqueued before, which finds those that are nowhere and have
 /// no cell
 /// @param also  what goes with the discs beside auxiliary_fields()
 void Simulation::rebuild(RebuildInputs const& all, bool skin_by_speed, AuxiliaryFields const& also) {

@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double largest_d50 = 0.1, smallest_d50 = 1e-7;  // [m]: of grains that rest on one another
 /// At this many d50 from the origin doubles are 2e-9 d50 apart: 1e-5 of the overlaps of grains at kn = 5000 stresses.
 constexpr double farthest_place = 1e7;
 /// The d50 of a file is that of its curve. Of 300 to 20,000 discs of our generators in up to 5 layers it differs by up to 0.7 %
@@ -28,12 +27,11 @@ constexpr double farthest_place = 1e7;
 constexpr double d50_tolerance = 0.05, d50_share = 0.05;
 /// 753 files of our own agree to 2e-14; one from single precision to 1e-6.
 constexpr double void_ratio_tolerance = 1e-3;
-constexpr double loosest = 1, densest = 0.05;  // void ratios that can be asked for
-constexpr double no_sand = 1e3;                // void ratio of discs that hardly touch: places and radii are in different units
-constexpr double deepest_at_wall = 0.05;       // a disc into a wall [d50]: a tenth of a radius
-constexpr double widest_space = 3;             // between a wall and the sand [d50]; our own touch it
-constexpr double most_deep_pairs = 0.1;        // of the pairs that touch; up to 0.04 in tests with grains as stiff as advised
-constexpr double stress_factor = 2;            // our own rest under 0.89 to 1 of what they say
+constexpr double no_sand = 1e3;           // void ratio of discs that hardly touch: places and radii are in different units
+constexpr double deepest_at_wall = 0.05;  // a disc into a wall [d50]: a tenth of a radius
+constexpr double widest_space = 3;        // between a wall and the sand [d50]; our own touch it
+constexpr double most_deep_pairs = 0.1;   // of the pairs that touch; up to 0.04 in tests with grains as stiff as advised
+constexpr double stress_factor = 2;       // our own rest under 0.89 to 1 of what they say
 
 [[noreturn]] void refuse(fs::path const& path, std::string const& what) { throw FileProblem(ExitCode::bad_input, path, what); }
 
@@ -140,8 +138,9 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
     if (double const into = -facts.outline.at_wall[wall].space / facts.outline.sizes.d50;
         !part.periodic && into > deepest_at_wall)
       warn(fmt::format("a disc reaches {:.3g} d50 into the {} wall: the box is smaller than its sand", into, wall_names[wall]));
-  if (double const e = facts.outline.void_ratio; e < densest || e > loosest)
-    warn(fmt::format("its void ratio is {:.4g}; sand at rest has {:g} to {:g}", e, densest, loosest));
+  Key const& asked = *find_key("sample.void_ratio");
+  if (double const e = facts.outline.void_ratio; e < asked.least || e > asked.most)
+    warn(fmt::format("its void ratio is {:.4g}; sand at rest has {:g} to {:g}", e, asked.least, asked.most));
   SpecimenOverlaps const& overlaps = facts.overlaps;
   double const share = static_cast<double>(overlaps.deep) / static_cast<double>(std::max<std::int64_t>(1, overlaps.touching));
   if (share > most_deep_pairs)

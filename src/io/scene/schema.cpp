@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "domain/scene/grading.hpp"
 #include "io/scene/presets.hpp"
 
 namespace clathra {
@@ -67,7 +68,7 @@ Key const table[] = {
 
   {"grading.table", choice, CLATHRA_FIELD(grading, table), "grain sizes: Toyoura sand, or all discs of size d50", ratio, 0, 0, {}, tables},
   {"grading.file", path, CLATHRA_FIELD(grading, file), "CSV file of grain sizes: diameter, percent finer by mass (docs/grading.md)"},
-  {"grading.d50", quantity, CLATHRA_FIELD(grading, d50), "median diameter to which the table is scaled", length, 1e-7, 0.1, "that of the table"},
+  {"grading.d50", quantity, CLATHRA_FIELD(grading, d50), "median diameter to which the table is scaled", length, smallest_d50, largest_d50, "that of the table"},
 
   {"hydrate.saturation", quantity, CLATHRA_FIELD(hydrate, saturation), "part of the pores that hydrate fills; 0 is clean sand", ratio, 0, 1},
   {"hydrate.temperature", quantity, CLATHRA_FIELD(hydrate, temperature), "temperature", temperature, -100, 100},
