@@ -5,7 +5,9 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/kill_session.sh"
 clathra=$1 scene=$2 seeds=$3 kills=$4
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+job=
+# A failure may leave a study at work, which goes on writing into the folder.
+trap '[ -z "$job" ] || kill_session "$job"; rm -rf "$folder"' EXIT
 cd "$folder"
 fail() { echo "study: $*"; tail -n 30 log || true; exit 1; }
 
@@ -40,7 +42,7 @@ for ((round = 1; round <= kills; ++round)); do
     0) kill_session "$job" ;;
     1) kill -KILL "$job" 2>/dev/null || true ;;
     2)
-      member=$(ps -o pid= --ppid "$job" | head -n 1)
+      member=$(ps -o pid= --ppid "$job" | head -n 1 || true) # none while the study waits for members of one that was killed
       [ -z "$member" ] || kill -KILL "$member" 2>/dev/null || true
       sleep 0.3
       kill_session "$job"
