@@ -105,6 +105,8 @@ TEST(GradingFile, IsRefusedWithTheNameThatIsNotUnderstood) {
                 ":1: no column says what is finer than each size: the header is 'd_mm,b'; understood"},
            Case{"no unit", "d,percent_finer\n" + rows, ":1: 'd' says no unit of the sizes: "},
            Case{"two sizes", "d_mm,size_um,finer\n1,2,3\n", ":1: both 'd_mm' and 'size_um' name the diameter"},
+           Case{"two units", "d_mm (um),finer\n1,2\n", ":1: 'd_mm (um)' states two units"},
+           Case{"per mille", "d_mm,\xe2\x80\xb0 finer\n1,2\n", ":1: '??? finer' is in per mille"},
            Case{"two shares", "d_mm,finer,passing\n1,2,3\n", ":1: both 'finer' and 'passing' name what is finer"},
            Case{"title", "Sand 12\n" + plain, ":1: no column says the sizes: the header is 'Sand 12'; "},
            Case{"no header", rows, ":1: there is no header above '0.1,0': put d_mm,percent_finer there"},

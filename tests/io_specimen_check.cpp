@@ -213,6 +213,47 @@ TEST_F(SpecimenCheck, NumbersThatCannotBeAreRefused) {
   EXPECT_NE(complaint().find("particles/id must hold whole numbers, got 0.5"), std::string::npos) << complaint();
 }
 
+/// Attributes of the file, as other programs may write them.
+TEST_F(SpecimenCheck, AttributesThatCannotBeAreRefused) {
+  struct Case {
+    char const *name, *wanted;
+    double value;
+  };
+  for (Case const& c : {Case{"version", "version must be a whole number, got 2.5", 2.5},
+                        {"separate_bonds", "separate_bonds must be 0 or 1, got 7", 7},
+                        {"periodic", "periodic must be 0 or 1, got -1", -1},
+                        {"axial_strain", "axial_strain must lie between -1 and 1, got -1", -1},
+                        {"axial_strain", "axial_strain must lie between -1 and 1, got 1e+09", 1e9}}) {
+    write([](Specimen&) {});
+    leave_out({c.name});
+    hid_t const opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), one = H5Screate(H5S_SCALAR);
+    hid_t const attribute = H5Acreate2(opened, c.name, H5T_NATIVE_DOUBLE, one, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &c.value), 0);
+    H5Aclose(attribute), H5Sclose(one), H5Fclose(opened);
+    EXPECT_NE(complaint().find(c.wanted), std::string::npos) << complaint();
+  }
+}
+
+TEST_F(SpecimenCheck, MotionAndForcesThatCannotBeAreRefused) {
+  refuses("disc 17 moves or spins at 1e+08 m/s", [](Specimen& s) { s.vx[place(s, 17)] = -1e8; });
+  refuses("disc 3 moves or spins at", [](Specimen& s) { s.omega[place(s, 3)] = 1e9; });
+  auto const contact = [](double SpecimenContact::*number, double value) {
+    return [=](Specimen& s) { s.contacts.push_back({}), s.contacts.back().id_b = 1, s.contacts.back().*number = value; };
+  };
+  refuses("shear of contact 0 - 1 is 1e+300; with a d50 of", contact(&SpecimenContact::shear, 1e300));
+  refuses("formation_overlap of contact 0 - 1 is -1", contact(&SpecimenContact::formation_overlap, -1));
+  takes(contact(&SpecimenContact::shear, 1e4));
+}
+
+TEST_F(SpecimenCheck, ASpecimenThatIsNotAtRestIsWarnedOf) {
+  write([](Specimen& s) { s.vx[place(s, 17)] = 30; });
+  EXPECT_NE(warnings().find("disc 17 moves or spins at 30 m/s, worth 2.3"), std::string::npos) << warnings();
+  write([](Specimen& s) { s.vx[place(s, 17)] = 3, s.stress = 0; });
+  EXPECT_NE(warnings().find("disc 17 moves or spins at 3 m/s"), std::string::npos) << warnings();
+  write([](Specimen& s) { s.vx[place(s, 17)] = 0.1; });
+  EXPECT_EQ(warnings(), "");
+}
+
 TEST_F(SpecimenCheck, ABoxSmallerThanItsSandIsWarnedOf) {
   write([](Specimen& s) { s.right -= 0.03e-3; });
   leave_out({"void_ratio"});
@@ -250,6 +291,8 @@ TEST_F(SpecimenCheck, DiscsTooLargeForTheirPlacesAreWarnedOf) {
 
 /// As of the grading of a specimen that is made.
 TEST_F(SpecimenCheck, SizesThatMakeOddTestsAreWarnedOf) {
+  write([](Specimen& s) { scale_lengths(s, 1e-3); });
+  EXPECT_NE(warnings().find("half of the grains are finer than 0.000169 mm, clay by size"), std::string::npos) << warnings();
   write(two_sizes(2e-4));
   EXPECT_NE(warnings().find("hardly any grains around 50 %: 49 % are finer than 0.2 mm, 51 % finer than 0.8 mm"),
             std::string::npos)

@@ -55,6 +55,15 @@ std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& m
   return {};
 }
 
+/// A void ratio that works, in the words of an error. A denser specimen is a smaller one, which may be too small for a test.
+std::string offer_of(Scene scene, double void_ratio) {
+  std::string const offer = "sample.void_ratio = " + short_number(void_ratio) + " was tried and works";
+  scene.sample.void_ratio = void_ratio;
+  SampleDesign const design = design_sample(scene);
+  std::string const problem = narrowness(design.width, design.height, design.grading.largest());
+  return problem.empty() ? offer : offer + ", with more sample.particles: " + problem;
+}
+
 /// What a user should know of a specimen that was made as it was asked for.
 std::vector<std::string> warnings_of(StageRecord const& made) {
   constexpr double most_deep = 0.001, farthest = 0.02;
@@ -109,9 +118,8 @@ GeneratedSpecimen made_or_advised(Scene const& scene, SpecimenMaker const& make)
     if (scene.sample.void_ratio == 0 && box)
       throw Refused(std::string(missed.what()) + "; it follows from sample.particles and the box: change one of these");
     std::optional<double> const instead = reachable_void_ratio(scene, missed, make);
-    throw Refused(std::string(missed.what()) + (instead
-                                                    ? "; sample.void_ratio = " + short_number(*instead) + " was tried and works"
-                                                    : "; none near it was found that works"));
+    throw Refused(std::string(missed.what()) +
+                  (instead ? "; " + offer_of(scene, *instead) : "; none near it was found that works"));
   }
 }
 

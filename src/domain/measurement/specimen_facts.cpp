@@ -31,6 +31,17 @@ void look_at_walls(Specimen const& part, std::array<DiscAtWall, 4>& at_wall) {
 /// The smallest of the ranks' ids that count.
 int smallest_id(Ranks const& ranks, bool counts, int id) { return static_cast<int>(ranks.min(counts ? id : none)); }
 
+FastestDisc fastest_of(Specimen const& part, Ranks const& ranks) {
+  FastestDisc fastest;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    double const speed = std::hypot(part.vx[i], part.vy[i]) + std::abs(part.omega[i]) * part.radius[i];
+    if (fastest.id < 0 || speed > fastest.speed || (speed == fastest.speed && part.id[i] < fastest.id))
+      fastest = {part.id[i], speed};
+  }
+  double const speed = ranks.max(fastest.speed);
+  return {smallest_id(ranks, fastest.id >= 0 && fastest.speed == speed, fastest.id), speed};
+}
+
 /// This rank's discs by their places, so many of them, and those of others that may touch them behind them.
 Specimen with_neighbours(Specimen const& part, Ranks const& ranks, std::size_t& own) {
   Specimen bare;
@@ -82,6 +93,7 @@ SpecimenOutline outline_of(Specimen const& part, Ranks const& ranks) {
     at.depth = depth;
     at.space = ranks.min(at.space);
   }
+  outline.fastest = fastest_of(part, ranks);
   return outline;
 }
 

@@ -17,6 +17,12 @@ struct DiscAtWall {
   double space = 0;  ///< free between the wall and the discs [m], negative where one touches it
 };
 
+/// The disc with the largest speed, of its centre or of its edge by its spin.
+struct FastestDisc {
+  int id = -1;
+  double speed = 0;  ///< [m/s]
+};
+
 struct SpecimenOutline {
   std::int64_t discs = 0;
   CurveSizes sizes;                   ///< by area [m]
@@ -24,6 +30,7 @@ struct SpecimenOutline {
   double farthest = 0;                ///< the largest coordinate of a centre or a wall, either sign [m]
   std::array<DiscAtWall, 4> at_wall;  ///< left, right, bottom, top
   std::int64_t outside = 0;           ///< discs with their centre beyond a wall
+  FastestDisc fastest;
 };
 inline constexpr char const* wall_names[] = {"left", "right", "bottom", "top"};
 

@@ -63,6 +63,19 @@ double length_unit(Words const& words) {
   return 0;
 }
 
+/// A name that states two units, or one that no column here may have.
+void require_one_unit(ForeignRow const& header, std::string const& name) {
+  if (name.find("\xe2\x80\xb0") != name.npos) refuse_line(header.line, quoted(name) + " is in per mille: write per cent");
+  Words const words = words_of(name);
+  double metre = 0;
+  for (std::string const& word : words) {
+    double const unit = length_unit({word});
+    if (unit == 0) continue;
+    if (metre > 0 && unit != metre) refuse_line(header.line, quoted(name) + " states two units: leave one of them");
+    metre = unit;
+  }
+}
+
 /// A column of sieve numbers beside it states no unit.
 bool is_diameter(Words const& words) {
   bool const known = std::all_of(words.begin(), words.end(), [](std::string const& word) {
@@ -120,6 +133,7 @@ std::string no_share(ForeignRow const& header) {
 }  // namespace
 
 GradingColumns find_grading_columns(ForeignRow const& header) {
+  for (std::string const& name : header.cells) require_one_unit(header, name);
   GradingColumns columns;
   std::size_t const none = header.cells.size();
   std::string const shown = ": the header is " + quoted(header.text);

@@ -335,6 +335,9 @@ std::int64_t Hdf5File::integer_attribute(std::string const& name) const {
   require_number(name);
   if (!read_attribute(file_, name.c_str(), H5T_NATIVE_INT64, &value))
     fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
+  // HDF5 cuts what stands behind the point.
+  if (double const exact = double_attribute(name); static_cast<double>(value) != exact)
+    fail(ExitCode::bad_input, fmt::format("attribute {} must be a whole number, got {}", name, exact));
   return value;
 }
 std::string Hdf5File::text_attribute(std::string const& name) const {

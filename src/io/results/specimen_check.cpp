@@ -9,6 +9,7 @@
 
 #include "domain/measurement/disc_grading.hpp"
 #include "io/errors/problems.hpp"
+#include "io/errors/rank_errors.hpp"
 #include "io/results/specimen_label.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -32,6 +33,11 @@ constexpr double deepest_at_wall = 0.05;  // a disc into a wall [d50]: a tenth o
 constexpr double widest_space = 3;        // between a wall and the sand [d50]; our own touch it
 constexpr double most_deep_pairs = 0.1;   // of the pairs that touch; up to 0.04 in tests with grains as stiff as advised
 constexpr double stress_factor = 2;       // our own rest under 0.89 to 1 of what they say
+
+constexpr double fastest_sound = 1e4;  // in any grain [m/s]
+constexpr double least_stress = 1e3;   // [Pa] of moving grains, density x speed^2: less is rest where no stress is stated
+// Stiffer than any contact [N/m per m], and farther than bonds reach [d50]: beyond them numbers of contacts are damage.
+constexpr double stiffest = 1e12, farthest_bond = 1e3;
 
 [[noreturn]] void refuse(fs::path const& path, std::string const& what) { throw FileProblem(ExitCode::bad_input, path, what); }
 
@@ -80,6 +86,36 @@ std::string spaces(SpecimenOutline const& outline) {
   return text;
 }
 
+void require_motion_that_can_be(fs::path const& path, SpecimenOutline const& outline) {
+  FastestDisc const& fastest = outline.fastest;
+  if (!(fastest.speed <= fastest_sound))
+    refuse(path, fmt::format("disc {} moves or spins at {:.3g} m/s, faster than sound in any grain: vx, vy are in m/s, omega in "
+                             "rad/s, and 0 where they are left out",
+                             fastest.id, fastest.speed));
+}
+
+/// Forces no contact can bear, bonds no hydrate can span.
+void require_contacts_that_can_be(fs::path const& path, Specimen const& part, double d50) {
+  struct Bound {
+    double SpecimenContact::*of;
+    double most;
+  };
+  Bound const bounds[] = {{&SpecimenContact::shear, stiffest * d50},
+                          {&SpecimenContact::moment, stiffest * d50 * d50},
+                          {&SpecimenContact::formation_overlap, farthest_bond * d50},
+                          {&SpecimenContact::bond_shear, stiffest * d50},
+                          {&SpecimenContact::bond_moment, stiffest * d50 * d50}};
+  static_assert(std::size(bounds) == std::size(contact_numbers));
+  for (SpecimenContact const& contact : part.contacts)
+    for (std::size_t k = 0; k < std::size(bounds); ++k) {
+      double const value = contact.*bounds[k].of;
+      if (std::abs(value) <= bounds[k].most) continue;
+      if (bounds[k].of == &SpecimenContact::formation_overlap && !contact.bonded()) continue;
+      refuse(path, fmt::format("{} of contact {} - {} is {:.3g}; with a d50 of {} it can be {:.3g} at most",
+                               contact_numbers[k].name, contact.id_a, contact.id_b, value, mm(d50), bounds[k].most));
+    }
+}
+
 void require_d50(fs::path const& path, Specimen& part, double found, Ranks const& ranks) {
   if (std::isnan(part.d50)) part.d50 = found;
   if (std::abs(part.d50 / found - 1) <= d50_tolerance) return;
@@ -122,6 +158,8 @@ SpecimenFacts require_sound(fs::path const& path, Specimen& part, Ranks const& r
   facts.outline = outline_of(part, ranks);
   require_metres(path, facts.outline);
   if (!part.periodic) require_discs_inside(path, facts.outline);
+  require_motion_that_can_be(path, facts.outline);
+  on_each(ranks, [&] { require_contacts_that_can_be(path, part, facts.outline.sizes.d50); });
   facts.overlaps = overlaps_of(part, ranks);
   require_discs_apart(path, facts.overlaps);
   require_d50(path, part, facts.outline.sizes.d50, ranks);
@@ -138,6 +176,10 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
     if (double const into = -facts.outline.at_wall[wall].space / facts.outline.sizes.d50;
         !part.periodic && into > deepest_at_wall)
       warn(fmt::format("a disc reaches {:.3g} d50 into the {} wall: the box is smaller than its sand", into, wall_names[wall]));
+  FastestDisc const& fastest = facts.outline.fastest;
+  if (double const stress = part.density * fastest.speed * fastest.speed; stress > std::max(part.stress, least_stress))
+    warn(fmt::format("disc {} moves or spins at {:.3g} m/s, worth {:.4g} kPa: it is not at rest", fastest.id, fastest.speed,
+                     stress * 1e-3));
   Key const& asked = *find_key("sample.void_ratio");
   if (double const e = facts.outline.void_ratio; e < asked.least || e > asked.most)
     warn(fmt::format("its void ratio is {:.4g}; sand at rest has {:g} to {:g}", e, asked.least, asked.most));

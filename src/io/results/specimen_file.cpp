@@ -186,7 +186,11 @@ double read_number(Hdf5File const& file, SpecimenNumber const& number) {
   return value;
 }
 
-bool read_switch(Hdf5File const& file, char const* name) { return file.has_attribute(name) && file.integer_attribute(name) != 0; }
+bool read_switch(Hdf5File const& file, char const* name) {
+  std::int64_t const value = file.has_attribute(name) ? file.integer_attribute(name) : 0;
+  if (value != 0 && value != 1) file.fail(ExitCode::bad_input, fmt::format("{} must be 0 or 1, got {}", name, value));
+  return value == 1;
+}
 
 /// A count that the file states, else the rows of a column.
 std::int64_t read_count(Hdf5File const& file, char const* attribute, std::string const& column) {
@@ -197,7 +201,8 @@ std::int64_t read_count(Hdf5File const& file, char const* attribute, std::string
 double axial_strain_of(Hdf5File const& file) {
   if (!file.has_attribute("axial_strain")) return 0;
   double const strain = file.double_attribute("axial_strain");
-  if (!std::isfinite(strain)) file.fail(ExitCode::bad_input, "axial_strain is not a finite number");
+  if (!(std::abs(strain) < 1))
+    file.fail(ExitCode::bad_input, fmt::format("axial_strain must lie between -1 and 1, got {} (0.1 is 10 %)", strain));
   return strain;
 }
 
