@@ -159,7 +159,7 @@ std::string check_collision() {
     Specimen const now = simulation.specimen();
     overlap = 2 * radius - (now.x[1] - now.x[0]);
     largest = std::max(largest, overlap);
-    if (overlap > 0) end = simulation.time();
+    if (overlap > 0) end = simulation.assembly().time();
   }
   Specimen const after = simulation.specimen();
   Comparison same{2e-3};
@@ -193,8 +193,8 @@ std::uint64_t bonded_state_hash() {
   simulation.loading().y = AxisDrive::at_rate(400);
   simulation.loading().x = AxisDrive::at_rate(-150);
   for (int step = 0; step < 1500; ++step) simulation.step();
-  if (simulation.broken_bonds() < 20) throw CheckFailed("no bonds broke");
-  return simulation.hash();
+  if (simulation.assembly().broken_bonds() < 20) throw CheckFailed("no bonds broke");
+  return simulation.assembly().hash();
 }
 
 }  // namespace clathra

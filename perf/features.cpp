@@ -40,7 +40,7 @@ Options read_options(int argc, char** argv) {
 }
 
 void with_laws(Simulation& s, std::function<void(SimulationLaws&)> const& change) {
-  SimulationLaws laws = s.laws();
+  SimulationLaws laws = s.assembly().laws;
   change(laws);
   s.set_laws(laws);
   s.request_search();

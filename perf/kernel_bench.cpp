@@ -39,7 +39,7 @@ template <class Call>
 void measure_call(benchmark::State& state, Call const& call) {
   Simulation& simulation = packing(state.range(0), state.range(1));
   for (auto _ : state) call(simulation);
-  state.SetItemsProcessed(state.iterations() * simulation.discs());
+  state.SetItemsProcessed(state.iterations() * simulation.assembly().discs());
   state.SetLabel(state.range(0) == bonded ? "bonded" : "rolling");
 }
 
@@ -47,7 +47,7 @@ void measure_call(benchmark::State& state, Call const& call) {
 void contact_forces(benchmark::State& state) {
   Faults const faults = make_faults();
   measure_call(state, [&](Simulation& s) {
-    compute_forces(s.particles(), s.rows(), s.laws().contact, 0, 0, BreakLog(), Dissipation(), faults);
+    compute_forces(s.assembly().particles, s.assembly().rows, s.assembly().laws.contact, 0, 0, BreakLog(), Dissipation(), faults);
     Kokkos::fence();
   });
 }
@@ -58,7 +58,7 @@ void kick_and_drift(benchmark::State& state) {
   StepState const start;
   measure_call(state, [&](Simulation& s) {
     steps.set(start);
-    integrate(s.particles(), s.laws().motion, {0, 0}, Dissipation(), faults, steps);
+    integrate(s.assembly().particles, s.assembly().laws.motion, {0, 0}, Dissipation(), faults, steps);
     benchmark::DoNotOptimize(steps.get().step_displacement);
   });
 }
@@ -73,11 +73,11 @@ void neighbour_search(benchmark::State& state) {
 }
 
 void measures(benchmark::State& state) {
-  measure_call(state, [](Simulation& s) { benchmark::DoNotOptimize(s.measures()); });
+  measure_call(state, [](Simulation& s) { benchmark::DoNotOptimize(s.assembly().measures()); });
 }
 
 void state_hash_of_all(benchmark::State& state) {
-  measure_call(state, [](Simulation& s) { benchmark::DoNotOptimize(s.hash()); });
+  measure_call(state, [](Simulation& s) { benchmark::DoNotOptimize(s.assembly().hash()); });
 }
 
 void sizes(benchmark::internal::Benchmark* b) { b->ArgsProduct({{rolling, bonded}, {2000, 20000, 200000}})->UseRealTime(); }

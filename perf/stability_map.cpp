@@ -127,7 +127,7 @@ struct Matrices {
   MatrixXd stiffness, viscosity;
 };
 Matrices matrices_of(Simulation const& sim, double dashpot_per_spring) {
-  SpringNetwork const net = sim.springs();
+  SpringNetwork const net = sim.assembly().springs();
   int const n = net.particles.owned;
   Matrices m{MatrixXd::Zero(3 * n, 3 * n), MatrixXd::Zero(3 * n, 3 * n)};
   for (int i = 0; i < n; ++i) {
@@ -183,7 +183,7 @@ Simulation at_rest(Case const& c, Specimen const& s) {
   laws.motion.damping = 0.7;
   laws.contact.grain.damping_ratio = 0;
   Simulation sim(s, laws, 0.05 * s.d50);
-  sim.time_step = 0.5 * sim.stable_limit();
+  sim.time_step = 0.5 * sim.assembly().stable_limit();
   for (int n = 0; n < 20000; ++n) sim.step();
   sim.stop_discs();
   laws.motion.damping = c.alpha;
@@ -202,8 +202,8 @@ struct Course {
 Course move(Simulation&& sim, double dt, int steps) {
   constexpr double trace = 1e-10;  // [m/s]
   sim.time_step = dt;
-  double const elastic = sim.measures().grain_energy + sim.measures().bond_energy;
-  ParticleSoA const& p = sim.particles();
+  double const elastic = sim.assembly().measures().grain_energy + sim.assembly().measures().bond_energy;
+  ParticleSoA const& p = sim.assembly().particles;
   auto const radius = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), p.radius);
   std::vector<double> vx, omega;
   for (int i = 0; i < p.owned; ++i) {
@@ -218,7 +218,7 @@ Course move(Simulation&& sim, double dt, int steps) {
   for (int n = 0; n < steps; ++n) {
     sim.step();
     if (n >= 2000 && n % 1000 != 0) continue;
-    double const kinetic = sim.measures().kinetic;
+    double const kinetic = sim.assembly().measures().kinetic;
     if (n == 20) first = kinetic;
     if (n > 20) m.largest = std::max(m.largest, kinetic / first);
     logs.push_back(0.5 * std::log(kinetic));
@@ -258,16 +258,17 @@ void run_case(Case const& c, std::string const& path, std::set<std::string> cons
   Simulation const sim = at_rest(c, specimen);
   bool const viscous = c.dashpot > 0;
   Matrices const m = matrices_of(sim, 1);
-  double const exact = exact_limit(m, c.alpha, viscous), bound = exact / stable_limit(sim.springs(), c.alpha, 0, sim.across()),
-               lanczos = viscous ? 0 : 2 / std::sqrt(1 + c.alpha) / sim.largest_frequency(40) / exact;
+  double const exact = exact_limit(m, c.alpha, viscous),
+               bound = exact / stable_limit(sim.assembly().springs(), c.alpha, 0, sim.assembly().across()),
+               lanczos = viscous ? 0 : 2 / std::sqrt(1 + c.alpha) / sim.assembly().largest_frequency(40) / exact;
   for (double const share : shares) {
     int const steps = share == 0.99 ? 1000000 : 10000;
     Course const motion = move(at_rest(c, specimen), share * exact, steps);
     double const predicted = predicted_growth(m, c.alpha, share * exact, viscous);
     char line[400];
     std::snprintf(line, sizeof line, "%s;%s;%g;%d;%.6g;%.4f;%.4f;%s;%.3g;%.4f;%.4f", c.factor.c_str(), c.level.c_str(), share,
-                  sim.discs(), exact, bound, lanczos, motion.bounded ? "bounded" : "diverges", motion.largest, motion.growth,
-                  predicted);
+                  sim.assembly().discs(), exact, bound, lanczos, motion.bounded ? "bounded" : "diverges", motion.largest,
+                  motion.growth, predicted);
     write_cell(path, line);
   }
 }

@@ -56,7 +56,7 @@ Options read_options(int argc, char** argv) {
 void print_phases(Simulation& simulation, double seconds) {
   Phases const listening;
   Throughput const t = measure_throughput(simulation, seconds);
-  double const disc_steps = static_cast<double>(t.steps) * simulation.particles().owned;  // of this rank
+  double const disc_steps = static_cast<double>(t.steps) * simulation.assembly().particles.owned;  // of this rank
   std::vector<std::pair<double, std::string>> phases;
   double in_kernels = 0;
   for (auto const& [label, time] : Phases::seconds()) {
@@ -92,10 +92,10 @@ int main(int argc, char** argv) {
     rates.push_back(t.disc_steps_per_second);
     int const ranks = session.ranks().count();
     std::printf("%s,%d,%d,%d,%d,%.4g,%.2f,%.4g,%lld,%lld,%.3f,%.0f,%.2f,%.3f,%.3f,%lld,%.0f\n",
-                throughput_case_names[static_cast<int>(options.setup.what)], simulation.discs(), ranks,
+                throughput_case_names[static_cast<int>(options.setup.what)], simulation.assembly().discs(), ranks,
                 ExecutionSpace().concurrency(), lane_count, rates.back(), 1e9 / rates.back(), t.contact_steps_per_s,
                 static_cast<long long>(t.steps), static_cast<long long>(t.rebuilds), t.rebuild_share, t.bytes_per_disc,
-                static_cast<double>(simulation.contact_entries()) / std::max(simulation.particles().owned, 1),
+                static_cast<double>(simulation.assembly().contact_entries()) / std::max(simulation.assembly().particles.owned, 1),
                 rates.back() * t.moved_per_step / (bandwidth * ranks), t.flops_per_s / (arithmetic * ranks),
                 static_cast<long long>(t.broken), t.search_bytes_per_disc);
   }

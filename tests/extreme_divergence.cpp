@@ -15,16 +15,16 @@ Simulation pressed_packing() {
   Specimen s = disordered_patch(10, 10, 0.02);
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
-  sim.time_step = 0.7 * sim.stable_time_step();
+  sim.time_step = 0.7 * sim.assembly().stable_time_step();
   sim.loading().x = sim.loading().y = AxisDrive::at_rate(100);
   return sim;
 }
 
 /// The text of the fault that stops a run within 200 steps.
 std::string fault_of(Simulation& sim) {
-  std::int64_t const first = sim.steps();
+  std::int64_t const first = sim.assembly().steps();
   try {
-    while (sim.steps() < first + 200) sim.step();
+    while (sim.assembly().steps() < first + 200) sim.step();
   } catch (Diverged const& fault) {
     return fault.what();
   }
@@ -38,7 +38,7 @@ TEST(Diverged, ByANumberThatIsNotFiniteInAnyFieldOfADisc) {
     for (int field = 0; field < 5; ++field) {
       Simulation sim = pressed_packing();
       sim.step(150);
-      ParticleSoA const& p = sim.particles();
+      ParticleSoA const& p = sim.assembly().particles;
       int const disc = index_of(sim, 42);
       if (field < 2)
         assign(field == 0 ? p.x : p.y, disc, bad);
@@ -58,7 +58,7 @@ TEST(Diverged, ByANumberThatIsNotFiniteInAnyFieldOfADisc) {
 TEST(Diverged, ByAPositionThatIsNotFiniteThoughNothingTouchesTheDisc) {
   Simulation sim(two_discs(-1e-5), sand_laws(), 1e-5);
   sim.time_step = 1e-7;
-  assign(sim.particles().x, index_of(sim, 1), nan);
+  assign(sim.assembly().particles.x, index_of(sim, 1), nan);
   EXPECT_TRUE(names(fault_of(sim), "disc 1 has a position or velocity that is not finite"));
 }
 
@@ -66,7 +66,7 @@ TEST(Diverged, ByAForceThatIsNotFiniteNamesTheDisc) {
   Specimen s = two_discs(-1e-5);
   Simulation sim(s, sand_laws(), 1e-5);
   sim.time_step = 1e-7;
-  assign(sim.particles().vx, index_of(sim, 1), nan);
+  assign(sim.assembly().particles.vx, index_of(sim, 1), nan);
   EXPECT_TRUE(names(fault_of(sim), "disc 1 has a position or velocity that is not finite"));
 }
 
@@ -85,7 +85,7 @@ TEST(Diverged, BeforeTheFirstStepWhereTheSpecimenIsNotFinite) {
 
 TEST(Diverged, ByATimeStepThreeTimesTooLong) {
   Simulation sim = pressed_packing();
-  sim.time_step = 3 * 2 / sim.largest_frequency();
+  sim.time_step = 3 * 2 / sim.assembly().largest_frequency();
   std::string const text = fault_of(sim);
   EXPECT_TRUE(names(text, "disc ")) << text;
   EXPECT_TRUE(names(text, "step ")) << text;
@@ -93,7 +93,7 @@ TEST(Diverged, ByATimeStepThreeTimesTooLong) {
 
 TEST(Diverged, SaysSinceWhenWhereAndWhatToChange) {
   Simulation sim = pressed_packing();
-  sim.time_step = 3 * 2 / sim.largest_frequency();
+  sim.time_step = 3 * 2 / sim.assembly().largest_frequency();
   std::string const text = fault_of(sim);
   for (char const* const part :
        {", since a step after ", "; it is at (", " mm", "; the time step is ", " of the stable limit of the present contacts: "})
@@ -126,8 +126,8 @@ TEST(Diverged, KnowsWhereADiscWasThatIsNowhere) {
   Simulation sim = pressed_packing();
   sim.step(150);
   int const disc = index_of(sim, 42);
-  double const x = value(sim.particles().x, disc);
-  assign(sim.particles().x, disc, nan);
+  double const x = value(sim.assembly().particles.x, disc);
+  assign(sim.assembly().particles.x, disc, nan);
   try {
     sim.step(200);
     ADD_FAILURE() << "went on";
@@ -168,9 +168,9 @@ TEST(Diverged, ByACentreBehindAWallButNotByLess) {
 TEST(Diverged, ByASumThatItsWordsCannotHold) {
   Simulation sim(two_discs(1e-8), sand_laws(), 1e-5);
   sim.time_step = 1e-7;
-  assign(sim.particles().vx, index_of(sim, 1), 1e9);  // a kinetic energy of 3e13 J/m
+  assign(sim.assembly().particles.vx, index_of(sim, 1), 1e9);  // a kinetic energy of 3e13 J/m
   try {
-    (void)sim.measures();
+    (void)sim.assembly().measures();
     ADD_FAILURE() << "was summed";
   } catch (Diverged const& fault) {
     EXPECT_TRUE(names(fault.what(), "step 0, time 0")) << fault.what();
@@ -240,14 +240,14 @@ TEST(ExtremeSizes, RestTogetherUnderStress) {
   SimulationLaws laws = sand_laws();
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 0.5 * grain_radius);
-  sim.time_step = 0.7 * sim.stable_time_step();
+  sim.time_step = 0.7 * sim.assembly().stable_time_step();
   sim.loading().x = sim.loading().y = AxisDrive::at_stress(1e5, 0.5);
   sim.step(40000);
   sim.loading().x = sim.loading().y = AxisDrive::held();
   sim.step(40000);
-  sim.throw_if_unstable();
-  Measures const m = sim.measures();
-  EXPECT_NEAR(m.stress_area_xx / sim.area() / sim.stress().x, 1, 1e-3);
+  sim.assembly().throw_if_unstable();
+  Measures const m = sim.assembly().measures();
+  EXPECT_NEAR(m.stress_area_xx / sim.assembly().area() / sim.assembly().stress().x, 1, 1e-3);
   EXPECT_GE(m.touching, 4);
   EXPECT_LT(m.kinetic, 1e-9 * (m.grain_energy + m.wall_energy));
 }
@@ -258,9 +258,9 @@ TEST(SmallestSpecimen, OfOneDiscFallsAndBounces) {
   laws.motion.gravity_y = -10;
   Simulation sim(s, laws, 1e-7);
   sim.time_step = 1e-7;
-  EXPECT_EQ(sim.measures().touching, 0);
-  EXPECT_GT(sim.stable_time_step(), 0);
-  EXPECT_EQ(sim.largest_frequency(), 0);
+  EXPECT_EQ(sim.assembly().measures().touching, 0);
+  EXPECT_GT(sim.assembly().stable_time_step(), 0);
+  EXPECT_EQ(sim.assembly().largest_frequency(), 0);
   double lowest = 1;
   for (int n = 0; n < 9000; ++n) {  // 2 sqrt(2 h / g) = 0.9 ms
     sim.step();
@@ -279,7 +279,7 @@ TEST(ScatteredDiscs, TakeNoMoreMemoryThanCloseOnes) {
   Simulation sim(s, sand_laws(), 1e-5);
   sim.time_step = 1e-8;
   sim.step(20);
-  EXPECT_EQ(sim.measures().touching, 1);
+  EXPECT_EQ(sim.assembly().measures().touching, 1);
   EXPECT_LT(sim.bytes(), 20000u);
 }
 

@@ -29,7 +29,7 @@ TEST(ExtremeStates, NoDiscOneDiscTwoDiscs) {
   one.choose_time_step({});
   one.step(1000);
   expect_row("1 disc on a floor", "kinetic + elastic energy over the first",
-             (one.measures().kinetic + one.measures().wall_energy) / (0.5 * sand_kn * 1e-12), 0.1,
+             (one.assembly().measures().kinetic + one.assembly().measures().wall_energy) / (0.5 * sand_kn * 1e-12), 0.1,
              2.5);  // leapfrog's own energy swings by so much at 0.95 of the limit, and stays
   Simulation two(two_discs(1e-6), sand_laws(), 1e-6);
   two.choose_time_step({});
@@ -58,18 +58,18 @@ TEST(ExtremeStates, BondsWithoutStrengthAndBondsThatNeverBreak) {
     weak.choose_time_step({});
     weak.step();
     std::string const name = composite == Composite::parallel ? " (parallel)" : " (replace)";
-    expect_row("bond strength 0" + name, "bonds broken in the first step", weak.broken_bonds(), 200, 1e99);
-    expect_row("bond strength 0" + name, "bonds left", weak.measures().bonded, 0, 0);
+    expect_row("bond strength 0" + name, "bonds broken in the first step", weak.assembly().broken_bonds(), 200, 1e99);
+    expect_row("bond strength 0" + name, "bonds left", weak.assembly().measures().bonded, 0, 0);
     weak.step(3000);
-    weak.throw_if_unstable();
+    weak.assembly().throw_if_unstable();
     expect_row("bond strength 0, after 3,000 steps" + name, "kinetic over elastic energy",
-               weak.measures().kinetic / weak.measures().grain_energy, 0, 1e-2);
+               weak.assembly().measures().kinetic / weak.assembly().measures().grain_energy, 0, 1e-2);
     Simulation strong = bonded(0.55, composite, [](SimulationLaws& laws) { laws = unbreakable(laws); });
     strong.choose_time_step({});
     strong.loading().y = AxisDrive::at_rate(50);
     strong.step(5000);
-    strong.throw_if_unstable();
-    expect_row("bond strength without end" + name, "bonds broken", strong.broken_bonds(), 0, 0);
+    strong.assembly().throw_if_unstable();
+    expect_row("bond strength without end" + name, "bonds broken", strong.assembly().broken_bonds(), 0, 0);
   }
 }
 
@@ -77,15 +77,15 @@ TEST(ExtremeStates, OverlapOfHalfARadiusAndCoincidentCentres) {
   Simulation deep(two_discs(0.5 * grain_radius), sand_laws(), 1e-6);
   deep.choose_time_step({});
   deep.step(2000);
-  deep.throw_if_unstable();
+  deep.assembly().throw_if_unstable();
   double const energy = 0.5 * sand_kn * 0.25 * grain_radius * grain_radius;
   expect_row("overlap of half a radius", "kinetic energy afterwards over the elastic one before",
-             deep.measures().kinetic / energy, 0.3, 3);
+             deep.assembly().measures().kinetic / energy, 0.3, 3);
   expect_refusal<Diverged>("coincident centres", "overlaps", [] {
     Simulation sim(two_discs(2 * grain_radius), sand_laws(), 1e-6);
     sim.time_step = 1e-8;
     sim.step(100);
-    sim.throw_if_unstable();
+    sim.assembly().throw_if_unstable();
   });
 }
 
@@ -98,9 +98,9 @@ TEST(ExtremeStates, OneDiscWideAndAThousandTall) {
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.choose_time_step({});
   sim.step(60000);
-  sim.throw_if_unstable();
+  sim.assembly().throw_if_unstable();
   expect_row("a column of 1,000 discs", "force at its top over that at its foot",
-             sim.reactions().normal[top] / sim.reactions().normal[bottom], 0.99, 1.01);
+             sim.assembly().reactions().normal[top] / sim.assembly().reactions().normal[bottom], 0.99, 1.01);
 }
 
 TEST(ExtremeStates, TheStepCounterPassesFourBillion) {
@@ -110,23 +110,23 @@ TEST(ExtremeStates, TheStepCounterPassesFourBillion) {
   SimulationState late = sim.state(), early = late;
   late.numbers["step"] = 4294967286.0;
   early.numbers["step"] = -10;  // what mixed precision rounds by repeats itself after 2^32 steps
-  Simulation other(late, sim.laws(), {}), same(early, sim.laws(), {});
+  Simulation other(late, sim.assembly().laws, {}), same(early, sim.assembly().laws, {});
   for (int n = 0; n < 4000; ++n) {
     same.step();
     other.step();
   }
-  expect_row("step counter at 2^32 - 10", "steps after 4,000 more", static_cast<double>(other.steps()) - 4294967286.0, 4000,
-             4000);
-  EXPECT_EQ(other.hash(), same.hash());
-  ASSERT_GT(other.broken_bonds(), 0);
-  EXPECT_GT(other.break_events(0).back().step, 4294967296);
+  expect_row("step counter at 2^32 - 10", "steps after 4,000 more", static_cast<double>(other.assembly().steps()) - 4294967286.0,
+             4000, 4000);
+  EXPECT_EQ(other.assembly().hash(), same.assembly().hash());
+  ASSERT_GT(other.assembly().broken_bonds(), 0);
+  EXPECT_GT(other.assembly().break_events(0).back().step, 4294967296);
 }
 
 // Nothing but round-off of the positions may show: overlaps of 1e-6 m beside coordinates of 200 m. In mixed precision the ticks
 // fall elsewhere: 0.9 pm at either end of each of some six contacts, beside overlaps of 0.5 um.
 TEST(ExtremeStates, ABoxMovedByAMillionDiameters) {
   Simulation loaded(packing(), sand_laws(), 0.1 * packing().d50);
-  SimulationLaws laws = loaded.laws();
+  SimulationLaws laws = loaded.assembly().laws;
   laws.motion.damping = 0.7;
   loaded.set_laws(laws);
   prepare_servo(loaded, 1e6, 1e-3, packing().d50, {});
@@ -139,11 +139,11 @@ TEST(ExtremeStates, ABoxMovedByAMillionDiameters) {
   for (double* edge : {&moved.left, &moved.right, &moved.bottom, &moved.top}) *edge += way;
   Simulation const here(original, sand_laws(), 0.1 * moved.d50), there(moved, sand_laws(), 0.1 * moved.d50);
   double worst = 0, mean = 0;
-  for (int id = 0; id < here.discs(); ++id) {
+  for (int id = 0; id < here.assembly().discs(); ++id) {
     int const i = index_of(here, id), j = index_of(there, id);
-    worst = std::max(worst, std::abs(value(here.particles().force_x, i) - value(there.particles().force_x, j)));
+    worst = std::max(worst, std::abs(value(here.assembly().particles.force_x, i) - value(there.assembly().particles.force_x, j)));
   }
-  Measures const m = here.measures();
+  Measures const m = here.assembly().measures();
   mean = m.stress_area_yy / m.touching / (2 * grain_radius);
   expect_row("a box moved by 1e6 diameters at 1 MPa", "largest change of a net force over the mean contact force", worst / mean,
              0, within(1e-6, 2e-5));
@@ -161,8 +161,8 @@ TEST(ExtremeStates, DenormalsInTheVelocities) {
     one->choose_time_step({});
     for (int n = 0; n < 100; ++n) one->step();
   }
-  expect_row("denormal velocities", "kinetic energy over that without", sim.measures().kinetic / still.measures().kinetic, 0.999,
-             1.001);
+  expect_row("denormal velocities", "kinetic energy over that without",
+             sim.assembly().measures().kinetic / still.assembly().measures().kinetic, 0.999, 1.001);
 }
 
 TEST(ExtremeStates, ADiscFastEnoughToCrossAnotherInOneStep) {
@@ -170,12 +170,12 @@ TEST(ExtremeStates, ADiscFastEnoughToCrossAnotherInOneStep) {
     Specimen s = two_discs(-1.0 * grain_radius);
     SimulationLaws const laws = sand_laws();
     Simulation slow(s, laws, 1e-6);
-    double const dt = 0.5 * slow.stable_time_step();
+    double const dt = 0.5 * slow.assembly().stable_time_step();
     s.vx[0] = 1.4 * 2 * grain_radius / dt;
     Simulation sim(s, laws, 1e-6);
     sim.time_step = dt;
     sim.step(64);
-    sim.throw_if_unstable();
+    sim.assembly().throw_if_unstable();
   });
 }
 
@@ -199,9 +199,9 @@ TEST(ExtremeStates, AServoWithoutDiscsAtItsWalls) {
   double fastest = 0;
   for (int n = 0; n < 2000; ++n) {
     sim.step();
-    fastest = std::max(fastest, sim.walls().largest_speed(left, right));
+    fastest = std::max(fastest, sim.assembly().walls().largest_speed(left, right));
   }
-  sim.throw_if_unstable();
+  sim.assembly().throw_if_unstable();
   expect_row("a servo without discs at its walls", "wall speed over its cap", fastest / cap, 0, 1);
 }
 
@@ -224,15 +224,15 @@ void expect_rest(std::string const& when, bool loaded, int steps, double most_ch
   sim.choose_time_step({});
   constexpr int until_rest = 50000;  // in ticks it trembles ever after
   for (int round = 0; round < 2; ++round) {
-    for (int n = 0; n < until_rest && sim.measures().unbalanced_ratio(sim.discs()) > 1e-10; n += 1000)
+    for (int n = 0; n < until_rest && sim.assembly().measures().unbalanced_ratio(sim.assembly().discs()) > 1e-10; n += 1000)
       for (int k = 0; k < 1000; ++k) sim.step();
     sim.stop_discs();  // a disc that flies between others without a force would hit them later
   }
   std::string const what = loaded ? "a bonded specimen at rest at 1 MPa" : "a bonded specimen at rest at 50 kPa";
-  expect_row(what, "unbalanced ratio before", sim.measures().unbalanced_ratio(sim.discs()), 0,
+  expect_row(what, "unbalanced ratio before", sim.assembly().measures().unbalanced_ratio(sim.assembly().discs()), 0,
              within(1e-9, loaded ? 1e-5 : 1e-4));  // at 50 kPa 0.9 pm are 3e-5 of the mean overlap
   std::vector<double> const before = shear_forces(sim);
-  double const stress = sim.stress().y;
+  double const stress = sim.assembly().stress().y;
   sim.step(steps);
   std::vector<double> const after = shear_forces(sim);
   ASSERT_EQ(after.size(), before.size());
@@ -244,7 +244,7 @@ void expect_rest(std::string const& when, bool loaded, int steps, double most_ch
   }
   expect_row(what + when, "mean change of a shear force over their mean", change / mean, 0, within(1e-6, 1e-4));
   expect_row(what + when, "largest change of a shear force over their mean", worst / mean, 0, most_change);
-  expect_row(what + when, "stress over that before, less 1", std::abs(sim.stress().y / stress - 1), 0, most_of_stress);
+  expect_row(what + when, "stress over that before, less 1", std::abs(sim.assembly().stress().y / stress - 1), 0, most_of_stress);
 }
 
 // In mixed precision forces follow from where discs are, which tremble by the 0.9 pm that places are rounded to.

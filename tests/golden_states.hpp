@@ -46,7 +46,7 @@ inline Simulation sheared(Specimen const& s, Composite composite, Precision prec
 
 /// Every sum over discs, contacts and walls, to the bit.
 inline void expect_equal_measures(Simulation const& one, Simulation const& many) {
-  Measures const a = one.measures(), b = many.measures();
+  Measures const a = one.assembly().measures(), b = many.assembly().measures();
   EXPECT_EQ(a.kinetic, b.kinetic);
   EXPECT_EQ(a.grain_energy, b.grain_energy);
   EXPECT_EQ(a.bond_energy, b.bond_energy);
@@ -54,17 +54,17 @@ inline void expect_equal_measures(Simulation const& one, Simulation const& many)
   EXPECT_EQ(a.stress_area_xy, b.stress_area_xy);
   EXPECT_EQ(a.stress_area_yy, b.stress_area_yy);
   EXPECT_EQ(a.interacting, b.interacting);
-  EXPECT_EQ(one.stress().x, many.stress().x);
-  EXPECT_EQ(one.stress().y, many.stress().y);
-  EXPECT_EQ(one.boundary_work(), many.boundary_work());
-  EXPECT_EQ(one.void_ratio(), many.void_ratio());
-  EXPECT_EQ(one.losses().sliding, many.losses().sliding);
-  EXPECT_EQ(one.losses().breakage, many.losses().breakage);
-  EXPECT_EQ(one.losses().damping, many.losses().damping);
-  EXPECT_EQ(one.stable_time_step(), many.stable_time_step());
-  EXPECT_EQ(one.largest_frequency(), many.largest_frequency());
-  EXPECT_EQ(one.upkeep().searches(), many.upkeep().searches());
-  BreakCounts const p = one.break_counts(), q = many.break_counts();
+  EXPECT_EQ(one.assembly().stress().x, many.assembly().stress().x);
+  EXPECT_EQ(one.assembly().stress().y, many.assembly().stress().y);
+  EXPECT_EQ(one.assembly().boundary_work(), many.assembly().boundary_work());
+  EXPECT_EQ(one.assembly().void_ratio(), many.assembly().void_ratio());
+  EXPECT_EQ(one.assembly().losses().sliding, many.assembly().losses().sliding);
+  EXPECT_EQ(one.assembly().losses().breakage, many.assembly().losses().breakage);
+  EXPECT_EQ(one.assembly().losses().damping, many.assembly().losses().damping);
+  EXPECT_EQ(one.assembly().stable_time_step(), many.assembly().stable_time_step());
+  EXPECT_EQ(one.assembly().largest_frequency(), many.assembly().largest_frequency());
+  EXPECT_EQ(one.assembly().upkeep.searches(), many.assembly().upkeep.searches());
+  BreakCounts const p = one.assembly().break_counts(), q = many.assembly().break_counts();
   EXPECT_EQ(p, q);
 }
 

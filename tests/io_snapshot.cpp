@@ -43,9 +43,9 @@ class SnapshotFile : public testing::Test {
     Simulation sim = squeezed_patch();
     sim.mark_start();
     sim.step(4000);
-    broken = sim.break_events(0);
-    measures = sim.measures();
-    area = sim.area();
+    broken = sim.assembly().break_events(0);
+    measures = sim.assembly().measures();
+    area = sim.assembly().area();
     snapshot = take_snapshot(sim);
     snapshot.d50 = grain_d50;
     snapshot.events.rows = broken;
@@ -261,16 +261,16 @@ void strain(Field<Coord> const& places, double stretch, std::uint64_t stream) {
 TEST_F(SnapshotFile, LongAMillionDiscsAreWrittenInTenSecondsAndThirtyMegabytes) {
   Simulation sim = million_discs();
   sim.mark_start();
-  strain(sim.start_x(), 1.002, 1);
-  strain(sim.start_y(), 0.995, 2);
-  ASSERT_NEAR(sim.discs(), 1e6, 2e4);
+  strain(sim.assembly().start_x, 1.002, 1);
+  strain(sim.assembly().start_y, 0.995, 2);
+  ASSERT_NEAR(sim.assembly().discs(), 1e6, 2e4);
   auto const start = std::chrono::steady_clock::now();
   Snapshot big = take_snapshot(sim);
   big.d50 = grain_d50;
   write_snapshot(folder / "big.h5", big);
   double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   auto const bytes = static_cast<double>(fs::file_size(folder / "big.h5"));
-  std::printf("%d discs, %zu pairs: %.1f s, %.1f MB\n", sim.discs(), big.a.size(), seconds, bytes * 1e-6);
+  std::printf("%d discs, %zu pairs: %.1f s, %.1f MB\n", sim.assembly().discs(), big.a.size(), seconds, bytes * 1e-6);
   if (char const* const keep = std::getenv("CLATHRA_KEEP"))
     fs::copy_file(folder / "big.h5", keep, fs::copy_options::overwrite_existing);
   EXPECT_LT(seconds, 10);

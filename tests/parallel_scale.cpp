@@ -31,16 +31,17 @@ std::vector<double> numbers_of(double scale) {
   sim.loading().x = AxisDrive::at_stress(1e6, 1);
   sim.loading().y = AxisDrive::at_rate(300 / scale);
   sim.set_ledger(true);
-  std::vector<double> numbers{sim.stable_time_step() / scale, sim.largest_frequency() * scale};
+  std::vector<double> numbers{sim.assembly().stable_time_step() / scale, sim.assembly().largest_frequency() * scale};
   sim.step(4000);
-  Measures const m = sim.measures();
-  DissipationTotals const lost = sim.losses();
+  Measures const m = sim.assembly().measures();
+  DissipationTotals const lost = sim.assembly().losses();
   double const area = scale * scale;
-  numbers.insert(numbers.end(),
-                 {sim.stress().x, sim.stress().y, m.stress_area_xx / area, m.touching, m.kinetic / area, m.grain_energy / area,
-                  lost.sliding / area, lost.rolling / area, lost.dashpot / area, lost.damping / area, sim.boundary_work() / area,
-                  sim.void_ratio(), static_cast<double>(sim.upkeep().searches()), static_cast<double>(sim.time_steps().updates()),
-                  sim.time() / scale, sim.time_step / scale});
+  numbers.insert(
+      numbers.end(),
+      {sim.assembly().stress().x, sim.assembly().stress().y, m.stress_area_xx / area, m.touching, m.kinetic / area,
+       m.grain_energy / area, lost.sliding / area, lost.rolling / area, lost.dashpot / area, lost.damping / area,
+       sim.assembly().boundary_work() / area, sim.assembly().void_ratio(), static_cast<double>(sim.assembly().upkeep.searches()),
+       static_cast<double>(sim.time_steps().updates()), sim.assembly().time() / scale, sim.time_step / scale});
   Specimen const end = sim.specimen();
   for (std::size_t i = 0; i < end.size(); ++i)
     numbers.insert(numbers.end(), {end.x[i] / scale, end.y[i] / scale, end.vx[i], end.omega[i] * scale});

@@ -8,11 +8,12 @@ namespace {
 TEST(State, AfterThousandsOfStepsThroughBreakageIsTheGoldenOne) {
   for (Golden const& g : golden) {
     Simulation const sim = sheared(bonded_patch(g.composite), g.composite, g.precision);
-    EXPECT_GT(sim.upkeep().searches(), 5);
-    EXPECT_GT(sim.broken_bonds(), 20);
-    EXPECT_EQ(sim.broken_bonds(), g.broken);
-    EXPECT_EQ(sim.hash(), g.hash) << "composite " << static_cast<int>(g.composite) << ", "
-                                  << precision_names[static_cast<int>(g.precision)] << ": 0x" << std::hex << sim.hash();
+    EXPECT_GT(sim.assembly().upkeep.searches(), 5);
+    EXPECT_GT(sim.assembly().broken_bonds(), 20);
+    EXPECT_EQ(sim.assembly().broken_bonds(), g.broken);
+    EXPECT_EQ(sim.assembly().hash(), g.hash)
+        << "composite " << static_cast<int>(g.composite) << ", " << precision_names[static_cast<int>(g.precision)] << ": 0x"
+        << std::hex << sim.assembly().hash();
   }
 }
 
@@ -25,9 +26,9 @@ TEST_P(StateIn, DoesNotKnowTheOrderOfTheInput) {
   Simulation const one = sheared(s, Composite::parallel, GetParam());
   for (std::uint64_t seed : {1, 2}) {
     Simulation const other = sheared(shuffled(s, seed), Composite::parallel, GetParam());
-    EXPECT_EQ(other.hash(), one.hash());
+    EXPECT_EQ(other.assembly().hash(), one.assembly().hash());
     expect_equal_measures(one, other);
-    auto const first = one.break_events(0), second = other.break_events(0);
+    auto const first = one.assembly().break_events(0), second = other.assembly().break_events(0);
     ASSERT_EQ(first.size(), second.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
       EXPECT_EQ(first[k].step, second[k].step);
@@ -44,23 +45,23 @@ Simulation between_servo_walls(Precision precision) {
   Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
   sim.loading().x = AxisDrive::at_stress(2e6, 20);
   sim.set_ledger(true);
-  sim.keep_break_details();
+  sim.keep_breaks(BreakRecord::details);
   sim.choose_time_step({});
   return sim;
 }
 
 /// All that the device keeps of steps beside the discs.
 void expect_equal_steps(Simulation const& one, Simulation const& many) {
-  EXPECT_EQ(one.steps(), many.steps());
-  EXPECT_EQ(one.time(), many.time());
+  EXPECT_EQ(one.assembly().steps(), many.assembly().steps());
+  EXPECT_EQ(one.assembly().time(), many.assembly().time());
   EXPECT_EQ(one.time_step, many.time_step);
-  EXPECT_EQ(one.upkeep().searches(), many.upkeep().searches());
+  EXPECT_EQ(one.assembly().upkeep.searches(), many.assembly().upkeep.searches());
   EXPECT_EQ(one.time_steps().updates(), many.time_steps().updates());
-  EXPECT_EQ(one.loading().x.integral, many.loading().x.integral);
-  EXPECT_EQ(one.losses().breakage, many.losses().breakage);
+  EXPECT_EQ(one.assembly().now.walls.loading.x.integral, many.assembly().now.walls.loading.x.integral);
+  EXPECT_EQ(one.assembly().losses().breakage, many.assembly().losses().breakage);
   for (int wall = 0; wall < wall_count; ++wall) {
-    EXPECT_EQ(one.walls().position[wall], many.walls().position[wall]) << wall;
-    EXPECT_EQ(one.walls().velocity[wall], many.walls().velocity[wall]) << wall;
+    EXPECT_EQ(one.assembly().walls().position[wall], many.assembly().walls().position[wall]) << wall;
+    EXPECT_EQ(one.assembly().walls().velocity[wall], many.assembly().walls().velocity[wall]) << wall;
   }
 }
 
@@ -69,13 +70,13 @@ TEST_P(StateIn, IsThatOfStepsOneByOneAfterManyAtOnce) {
   for (int const steps : {1, 7, 64, 200, 1500}) {
     one.step(steps);
     many.step(steps);
-    EXPECT_EQ(one.hash(), many.hash()) << steps;
+    EXPECT_EQ(one.assembly().hash(), many.assembly().hash()) << steps;
     expect_equal_steps(one, many);
     expect_equal_measures(one, many);
   }
-  EXPECT_GT(many.upkeep().searches(), 5);
+  EXPECT_GT(many.assembly().upkeep.searches(), 5);
   EXPECT_GT(many.time_steps().updates(), 3);
-  BreakEvents const first = one.detailed_break_events(0), second = many.detailed_break_events(0);
+  BreakEvents const first = one.assembly().detailed_break_events(0), second = many.assembly().detailed_break_events(0);
   ASSERT_GT(first.rows.size(), 10U);
   ASSERT_EQ(first.rows.size(), second.rows.size());
   for (std::size_t k = 0; k < first.rows.size(); ++k) {
@@ -86,14 +87,14 @@ TEST_P(StateIn, IsThatOfStepsOneByOneAfterManyAtOnce) {
 
 TEST(State, ComesToAHeightOfTheBoxInAsManyStepsAtOnceAsOneByOne) {
   Simulation one = between_servo_walls(Precision::full), many = between_servo_walls(Precision::full);
-  double const height = one.walls().height() * (1 - 0.0113);
-  while (one.walls().height() > height) one.step();
+  double const height = one.assembly().walls().height() * (1 - 0.0113);
+  while (one.assembly().walls().height() > height) one.step();
   many.step(1000000, height);
-  EXPECT_GT(many.steps(), 100);
-  EXPECT_EQ(many.steps(), one.steps());
-  EXPECT_EQ(many.hash(), one.hash());
+  EXPECT_GT(many.assembly().steps(), 100);
+  EXPECT_EQ(many.assembly().steps(), one.assembly().steps());
+  EXPECT_EQ(many.assembly().hash(), one.assembly().hash());
   many.step(10, height);
-  EXPECT_EQ(many.steps(), one.steps() + 1) << "below it one step at a time";
+  EXPECT_EQ(many.assembly().steps(), one.assembly().steps() + 1) << "below it one step at a time";
 }
 
 TEST(State, OfUnboundSandDoesNotKnowTheOrderOfTheInput) {
@@ -104,8 +105,8 @@ TEST(State, OfUnboundSandDoesNotKnowTheOrderOfTheInput) {
     sim.time_step = 1e-7;
     sim.loading().x = sim.loading().y = AxisDrive::at_rate(300);
     sim.step(3000);
-    EXPECT_GT(sim.measures().touching, 200);
-    return sim.hash();
+    EXPECT_GT(sim.assembly().measures().touching, 200);
+    return sim.assembly().hash();
   };
   Specimen const s = disordered_patch(14, 14);
   EXPECT_EQ(run(s), run(shuffled(s, 5)));
@@ -115,7 +116,7 @@ TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
   for (Composite composite : {Composite::replace, Composite::parallel}) {
     Specimen const s = bonded_patch(composite);
     Simulation original = ready(s, composite);
-    SimulationLaws laws = original.laws();
+    SimulationLaws laws = original.assembly().laws;
     laws.wall.friction = 0;  // a specimen does not hold the shear of rough walls
     original.set_laws(laws);
     for (int n = 0; n < 1500; ++n) original.step();
@@ -123,7 +124,7 @@ TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
     original.loading().x = original.loading().y = AxisDrive::held();
     original.step();  // the walls stand: a specimen holds no wall velocities
     Simulation copy(shuffled(original.specimen(), 3), laws, 0.05 * grain_d50);
-    EXPECT_EQ(copy.hash(), original.hash());
+    EXPECT_EQ(copy.assembly().hash(), original.assembly().hash());
     // Rows are ordered by touch at the last search: both search at the same state.
     original.request_search();
     original.evaluate_forces();
@@ -136,15 +137,15 @@ TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
       original.step();
       copy.step();
     }
-    EXPECT_GT(copy.broken_bonds(), 0);
-    EXPECT_EQ(copy.hash(), original.hash());
+    EXPECT_GT(copy.assembly().broken_bonds(), 0);
+    EXPECT_EQ(copy.assembly().hash(), original.assembly().hash());
   }
 }
 
 /// What acts on each disc, by id.
 std::vector<double> forces_of(Simulation const& sim) {
   std::vector<double> forces;
-  for (int id = 0; id < sim.discs(); ++id) {
+  for (int id = 0; id < sim.assembly().discs(); ++id) {
     Disc const d = disc(sim, id);
     forces.insert(forces.end(), {d.fx, d.fy, d.torque});
   }
@@ -157,7 +158,7 @@ TEST(State, TakenWhileASearchIsDueKeepsTheForcesOfEachDisc) {
   std::vector<double> const before = forces_of(sim);
   auto const order = [&] {
     std::vector<int> places;
-    for (int id = 0; id < sim.discs(); ++id) places.push_back(index_of(sim, id));
+    for (int id = 0; id < sim.assembly().discs(); ++id) places.push_back(index_of(sim, id));
     return places;
   };
   std::vector<int> const places = order();
@@ -183,12 +184,12 @@ TEST(State, OfABondAcrossAPeriodicEdgeIsKeptByASearchInAnyStep) {
   s.separate_bonds = true;
   SimulationLaws const laws = unbreakable(bonded_laws(scene, s.critical_thickness));
   Simulation sim(s, laws, 1e-9);
-  ASSERT_EQ(sim.measures().bonded, 1);
+  ASSERT_EQ(sim.assembly().measures().bonded, 1);
   sim.time_step = 1e-7;
   for (int n = 0; n < 20; ++n) {
     sim.request_search();
     sim.step();
-    ASSERT_EQ(sim.measures().bonded, 1) << "step " << n;
+    ASSERT_EQ(sim.assembly().measures().bonded, 1) << "step " << n;
   }
 }
 
@@ -196,25 +197,25 @@ TEST(State, EveryBitOfAFieldChangesItsHash) {
   Specimen const s = bonded_patch(Composite::parallel);
   SimulationLaws const laws = bonded_laws(hydrate_scene(0.41, Composite::parallel), s.critical_thickness);
   Simulation sim(s, laws, 1e-5);
-  std::uint64_t const hash = sim.hash();
-  for_each_field(sim.particles(), [&](DiscField const& about, auto const& field) {
+  std::uint64_t const hash = sim.assembly().hash();
+  for_each_field(sim.assembly().particles, [&](DiscField const& about, auto const& field) {
     bool const whole = std::is_same_v<std::decay_t<decltype(field)>, Field<int>>;
     double const before = value(field, 17);
     assign(field, 17, whole ? before + 1 : std::nextafter(before, 1e6));
-    EXPECT_NE(sim.hash(), hash) << about.name;
+    EXPECT_NE(sim.assembly().hash(), hash) << about.name;
     assign(field, 17, before);
-    EXPECT_EQ(sim.hash(), hash) << about.name;
+    EXPECT_EQ(sim.assembly().hash(), hash) << about.name;
   });
   for (ContactNumber const& number : contact_numbers) {
     Specimen other = s;
     other.contacts[5].*number.of = std::nextafter(s.contacts[5].*number.of, 1.0);
-    EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash) << number.name;
+    EXPECT_NE(Simulation(other, laws, 1e-5).assembly().hash(), hash) << number.name;
   }
   Specimen other = s;
   other.contacts[5].bond_shear = 1e-12;
-  EXPECT_NE(Simulation(other, laws, 1e-5).hash(), hash);
+  EXPECT_NE(Simulation(other, laws, 1e-5).assembly().hash(), hash);
   other.contacts[5].bond_shear = -0.0;
-  EXPECT_EQ(Simulation(other, laws, 1e-5).hash(), hash);
+  EXPECT_EQ(Simulation(other, laws, 1e-5).assembly().hash(), hash);
 }
 
 }  // namespace

@@ -24,13 +24,13 @@ double stiffness_of_chain(int bonds) {
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 1e-5);
   sim.time_step = 1e-7;
-  double const width = sim.walls().width();
+  double const width = sim.assembly().walls().width();
   sim.loading().x = AxisDrive::at_rate(1.0, true);
-  while (width - sim.walls().width() < 0.3e-6 * bonds) sim.step();
+  while (width - sim.assembly().walls().width() < 0.3e-6 * bonds) sim.step();
   sim.loading().x = AxisDrive::held();
   sim.step(6000);
-  EXPECT_NEAR(sim.reactions().normal[left] / sim.reactions().normal[right], 1, within(1e-7, 3e-5));
-  return sim.reactions().normal[left] / (width - sim.walls().width());
+  EXPECT_NEAR(sim.assembly().reactions().normal[left] / sim.assembly().reactions().normal[right], 1, within(1e-7, 3e-5));
+  return sim.assembly().reactions().normal[left] / (width - sim.assembly().walls().width());
 }
 
 TEST(ChainOfBonds, HasTheStiffnessOfOneBondDividedByTheirNumber) {
@@ -174,7 +174,7 @@ TEST(RigidTurn, LeavesTheForcesOfAFreePairUnchanged) {
     EXPECT_NEAR(c.moment / (pull * grain_radius), 0, 1e-8);
   }
   EXPECT_NEAR(disc(sim, 1).x / radius, 1, 1e-3);
-  EXPECT_GT(sim.upkeep().searches(), 1000);
+  EXPECT_GT(sim.assembly().upkeep.searches(), 1000);
 }
 
 /// Carries disc 1 about disc 0 by `angle` in one step, both discs turning along at `spin`.

@@ -43,11 +43,11 @@ BreakEvents broken(Composite composite, double angle, Motion const& motion, int 
   hold_all(sim);
   sim.loading().y = AxisDrive::at_rate(wall_rate);
   sim.step(earlier);
-  sim.keep_break_details();
+  sim.keep_breaks(BreakRecord::details);
   drive(sim, 0, 0, 0, motion.spin_a);
   drive(sim, 1, motion.apart * nx, motion.apart * ny, motion.spin_b);
-  for (later = 0; sim.broken_bonds() == 0 && later < 3000; ++later) sim.step();
-  return sim.detailed_break_events(0);
+  for (later = 0; sim.assembly().broken_bonds() == 0 && later < 3000; ++later) sim.step();
+  return sim.assembly().detailed_break_events(0);
 }
 
 struct Expected {

@@ -47,12 +47,12 @@ struct Break {
 };
 Break move_until_broken(Simulation& sim, double closing, double spin_a, double spin_b) {
   Break result{force(sim), 0};
-  while (sim.broken_bonds() == 0 && result.steps < 3000) {
+  while (sim.assembly().broken_bonds() == 0 && result.steps < 3000) {
     result.last = force(sim);
     move(sim, closing, spin_a, spin_b, 1);
     ++result.steps;
   }
-  EXPECT_EQ(sim.broken_bonds(), 1);
+  EXPECT_EQ(sim.assembly().broken_bonds(), 1);
   return result;
 }
 
@@ -71,7 +71,7 @@ TEST(BrokenBond, FailsInTensionAtTheTensileStrength) {
     double const step = R_t / k_bn / 1000;
     Break const b = move_until_broken(sim, -step / dt, 0, 0);
     expect_break_between(-b.last.normal, k_bn * step, R_t);
-    EXPECT_EQ(sim.break_counts()[BreakMode::tension], 1);
+    EXPECT_EQ(sim.assembly().break_counts()[BreakMode::tension], 1);
     PairForce const after = force(sim);  // u_n <= 0: nothing is left
     EXPECT_EQ(after.normal, 0);
     EXPECT_EQ(after.shear, 0);
@@ -86,7 +86,7 @@ TEST(BrokenBond, FailsInCompressionAtTheCompressiveStrength) {
     Break const b = move_until_broken(sim, step / dt, 0, 0);
     double const grain = composite == Composite::parallel ? sand_kn * step * (b.steps - 1) : 0;
     expect_break_between(b.last.normal - grain, k_bn * step, R_c);
-    EXPECT_EQ(sim.break_counts()[BreakMode::compression], 1);
+    EXPECT_EQ(sim.assembly().break_counts()[BreakMode::compression], 1);
     EXPECT_NEAR(force(sim).normal / (sand_kn * step * b.steps), 1, within(1e-9, 1e-5));
   }
 }
@@ -103,7 +103,7 @@ TEST(BrokenBond, FailsInShearAtTheShearStrengthOfItsNormalForce) {
     EXPECT_NEAR(b.last.normal, row.normal, 0.01);
     expect_break_between(std::abs(b.last.shear), k_bs * 2 * spin * arm * dt, row.strength);
     EXPECT_NEAR(b.last.moment, 0, within(1e-9, 1e-7));
-    EXPECT_EQ(sim.break_counts()[BreakMode::shear], 1);
+    EXPECT_EQ(sim.assembly().break_counts()[BreakMode::shear], 1);
   }
 }
 
@@ -118,7 +118,7 @@ TEST(BrokenBond, FailsInRollingAtTheRollingStrengthOfItsNormalForce) {
     Break const b = move_until_broken(sim, 0, spin, -spin);
     expect_break_between(std::abs(b.last.moment), k_bm * 2 * spin * dt, row.strength * L_r);
     EXPECT_NEAR(b.last.shear, 0, 1e-6);
-    EXPECT_EQ(sim.break_counts()[BreakMode::rolling], 1);
+    EXPECT_EQ(sim.assembly().break_counts()[BreakMode::rolling], 1);
   }
 }
 
@@ -221,7 +221,7 @@ TEST(BrokenBond, ConservesLinearAndAngularMomentum) {
       int broke_at = 0;
       for (int n = 1; n <= 400; ++n) {
         sim.step();
-        if (broke_at == 0 && sim.broken_bonds() == 1) broke_at = n;
+        if (broke_at == 0 && sim.assembly().broken_bonds() == 1) broke_at = n;
         Disc const a = disc(sim, 0), b = disc(sim, 1);
         ASSERT_EQ(a.fx, -b.fx);  // to the bit
         ASSERT_EQ(a.fy, -b.fy);

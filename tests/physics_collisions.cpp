@@ -47,13 +47,13 @@ Simulation of_two_discs(Collision const& c) {
 /// Velocity of the rim along the contact.
 double rim_velocity(Simulation const& sim) {
   Disc const a = disc(sim, 0);
-  if (sim.discs() == 1) return a.vx + a.omega * grain_radius;
+  if (sim.assembly().discs() == 1) return a.vx + a.omega * grain_radius;
   Disc const b = disc(sim, 1);
   return (b.vy - a.vy) - (a.omega + b.omega) * grain_radius;
 }
 double overlap(Simulation const& sim) {
   Disc const a = disc(sim, 0);
-  if (sim.discs() == 1) return grain_radius - a.y;
+  if (sim.assembly().discs() == 1) return grain_radius - a.y;
   Disc const b = disc(sim, 1);
   return 2 * grain_radius - std::hypot(b.x - a.x, b.y - a.y);
 }
@@ -91,7 +91,7 @@ TEST(HeadOnCollision, LastsPiTimesRootOfMassOverStiffnessAndGivesTheSpeedBack) {
         sim.step();
       } while (overlap(sim) > 0);
       double const after = overlap(sim);
-      error[level] = sim.time() - sim.time_step * after / (after - before) - exact;
+      error[level] = sim.assembly().time() - sim.time_step * after / (after - before) - exact;
       double const parting = partner == Partner::wall ? disc(sim, 0).vy : disc(sim, 1).vx - disc(sim, 0).vx;
       EXPECT_NEAR(parting / v, 1, 2.0 / ((64 << level) * (64 << level)));
     }

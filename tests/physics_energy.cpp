@@ -21,12 +21,12 @@ BrokenPair break_pair(Composite composite, int refinement) {
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 1e-5);
   sim.time_step = 0.2e-7 / refinement;
   sim.set_ledger(true);
-  double const start = stored(sim.measures());
+  double const start = stored(sim.assembly().measures());
   sim.step(400 * refinement);
-  EXPECT_EQ(sim.broken_bonds(), 1);
-  Measures const m = sim.measures();
+  EXPECT_EQ(sim.assembly().broken_bonds(), 1);
+  Measures const m = sim.assembly().measures();
   EXPECT_EQ(m.grain_energy + m.bond_energy, 0);
-  return {start - m.kinetic - lost(sim.losses()), sim.losses().breakage};
+  return {start - m.kinetic - lost(sim.assembly().losses()), sim.assembly().losses().breakage};
 }
 
 TEST(EnergyLedger, OfABrokenPairClosesToFirstOrder) {
@@ -50,14 +50,14 @@ TEST(EnergyLedger, CountsWhatBreakingStiffens) {
   drive(sim, 1, -2e-6 / 100 / 1e-7, 0, 0);
   sim.step(100);
   sim.set_ledger(true);
-  EXPECT_NEAR(sim.measures().bond_energy, 0.5 * 1.4209e8 * 4e-12, 1e-7);
+  EXPECT_NEAR(sim.assembly().measures().bond_energy, 0.5 * 1.4209e8 * 4e-12, 1e-7);
   drive(sim, 0, 0, 0, 100);
   drive(sim, 1, 0, 0, 100);
-  while (sim.broken_bonds() == 0) sim.step();
+  while (sim.assembly().broken_bonds() == 0) sim.step();
   double const shear = 1060.9, free_energy = 0.5 * (3e8 - 1.4209e8) * 4e-12;  // R_s at 284.18 N/m
   double const of_shear = 0.5 * shear * shear / 9.4726e7 - 0.5 * 300 * 300 / 2e8;
   EXPECT_NEAR(free_energy, 3.16e-4, 1e-6);
-  EXPECT_NEAR(sim.losses().breakage, of_shear - free_energy, 0.01 * of_shear);
+  EXPECT_NEAR(sim.assembly().losses().breakage, of_shear - free_energy, 0.01 * of_shear);
 }
 
 /// What goes in through the walls of a bonded packing that is sheared until many bonds broke, and where it went.
@@ -74,14 +74,14 @@ Balance shear_packing(Composite composite, double dt_share, double dashpot) {
   laws.wall.friction = 0.2;
   laws.contact.grain.damping_ratio = dashpot;
   Simulation sim(s, laws, 0.05 * grain_d50);
-  sim.time_step = dt_share * sim.stable_time_step();
+  sim.time_step = dt_share * sim.assembly().stable_time_step();
   sim.set_ledger(true);
   sim.loading().y = AxisDrive::at_rate(300);
-  double const start = stored(sim.measures());
-  while (std::log(s.height() / sim.walls().height()) < 0.06) sim.step();
-  DissipationTotals const l = sim.losses();
-  Balance b{sim.boundary_work(), 0, 0, sim.broken_bonds()};
-  b.residual = b.work - (stored(sim.measures()) - start) - lost(l);
+  double const start = stored(sim.assembly().measures());
+  while (std::log(s.height() / sim.assembly().walls().height()) < 0.06) sim.step();
+  DissipationTotals const l = sim.assembly().losses();
+  Balance b{sim.assembly().boundary_work(), 0, 0, sim.assembly().broken_bonds()};
+  b.residual = b.work - (stored(sim.assembly().measures()) - start) - lost(l);
   b.flow = std::abs(b.work) + std::abs(l.breakage);
   EXPECT_GT(l.sliding, 0);
   EXPECT_GT(l.rolling, 0);
@@ -108,7 +108,7 @@ TEST(EnergyLedger, StandsStillWithoutIt) {
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
   sim.time_step = 1e-8;
   sim.step();
-  DissipationTotals const l = sim.losses();
+  DissipationTotals const l = sim.assembly().losses();
   EXPECT_EQ(l.sliding + l.rolling + l.dashpot + l.breakage + l.damping, 0);
 }
 

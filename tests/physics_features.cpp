@@ -61,8 +61,8 @@ SimulationLaws hydrate_laws(Composite composite) {
 }
 
 std::size_t bytes_per_entry(Simulation const& sim) {
-  std::size_t const n = sim.contact_entries();
-  ContactRows const& r = sim.rows();
+  std::size_t const n = sim.assembly().contact_entries();
+  ContactRows const& r = sim.assembly().rows;
   for (auto const* field : {&r.shear, &r.moment, &r.formation_overlap, &r.width, &r.bond_shear, &r.bond_moment})
     EXPECT_TRUE(field->extent(0) == 0 || field->extent(0) == n);
   return (bytes(r) - r.slice_start.span() * sizeof(int) - r.length.span() * sizeof(RowLength) -
@@ -73,11 +73,11 @@ std::size_t bytes_per_entry(Simulation const& sim) {
 TEST(Features, ASceneWithoutHydrateHasNoBondField) {
   Simulation sim = packing(sand_laws(), false);
   sim.step(100);
-  ContactRows const& rows = sim.rows();
+  ContactRows const& rows = sim.assembly().rows;
   EXPECT_EQ(rows.formation_overlap.extent(0) + rows.width.extent(0) + rows.bond_shear.extent(0) + rows.bond_moment.extent(0), 0u);
-  EXPECT_EQ(sim.wall_contacts().shear.extent(0), 0u);  // smooth walls
-  EXPECT_EQ(sim.broken_bonds(), 0);
-  DissipationTotals const none = sim.losses();
+  EXPECT_EQ(sim.assembly().wall_contacts().shear.extent(0), 0u);  // smooth walls
+  EXPECT_EQ(sim.assembly().broken_bonds(), 0);
+  DissipationTotals const none = sim.assembly().losses();
   EXPECT_EQ(none.sliding + none.rolling + none.damping, 0);
 }
 
@@ -132,8 +132,9 @@ void expect_needs(std::string const& what, Scene const& scene) {
   for (NeededField const& field : needs.fields)
     if (field.of == FieldOf::disc) named.insert(field.name);
   EXPECT_EQ(kept, named) << what;
-  std::size_t const places = sim.particles().x.extent(0), marks = (scene.output.takes_snapshots() ? 4 : 2) * sizeof(Coord);
-  EXPECT_EQ(bytes(sim.particles()) + bytes(sim.energy_losses()) + marks * places,
+  std::size_t const places = sim.assembly().particles.x.extent(0),
+                    marks = (scene.output.takes_snapshots() ? 4 : 2) * sizeof(Coord);
+  EXPECT_EQ(bytes(sim.assembly().particles) + bytes(sim.assembly().dissipation) + marks * places,
             static_cast<std::size_t>(needs.bytes(FieldOf::disc) - of_walls) * places)
       << what;
   Launches const launches;
@@ -171,15 +172,15 @@ std::string accounts_of(SimulationLaws const& laws, bool hydrate) {
   sim.set_ledger(true);
   std::string names;
   int accounts = 0;
-  Dissipation losses = sim.energy_losses();
+  Dissipation losses = sim.assembly().dissipation;
   for_each_dissipation(losses, {}, [&](std::string const& name, Field<Accum> const& account, bool) {
     if (account.extent(0) == 0) return;
     names += name.substr(5) + " ";
     ++accounts;
   });
-  EXPECT_EQ(sim.bytes() - before, accounts * sizeof(Accum) * sim.particles().x.extent(0)) << names;
+  EXPECT_EQ(sim.bytes() - before, accounts * sizeof(Accum) * sim.assembly().particles.x.extent(0)) << names;
   sim.step(50);
-  EXPECT_GT(sim.losses().sliding + sim.losses().damping + 1, 0);
+  EXPECT_GT(sim.assembly().losses().sliding + sim.assembly().losses().damping + 1, 0);
   return names;
 }
 
@@ -214,7 +215,7 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
     sim.time_step = 1e-7;
     sim.loading().y = AxisDrive::at_rate(1000);
     sim.step(steps);
-    EXPECT_GT(sim.measures().touching, 20);
+    EXPECT_GT(sim.assembly().measures().touching, 20);
     return sim.specimen();
   };
   for (bool const hydrate : {false, true}) {
@@ -236,28 +237,27 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
 }
 
 TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
-  auto const sheared = [](bool events, bool details = false) {
+  auto const sheared = [](BreakRecord record) {
     Simulation sim = packing(hydrate_laws(Composite::parallel), true);
-    sim.keep_break_events(events);
-    if (details) sim.keep_break_details();
+    sim.keep_breaks(record);
     sim.loading().y = AxisDrive::at_rate(2000);
     sim.loading().x = AxisDrive::at_rate(-1500);
     sim.step(4000);
     return sim;
   };
-  Simulation const logged = sheared(true), counted = sheared(false);
-  EXPECT_GT(logged.broken_bonds(), 10);
-  EXPECT_EQ(static_cast<int>(logged.break_events(0).size()), logged.broken_bonds());
-  EXPECT_EQ(counted.broken_bonds(), logged.broken_bonds());
-  EXPECT_EQ(counted.break_counts()[BreakMode::shear], logged.break_counts()[BreakMode::shear]);
-  EXPECT_EQ(counted.break_counts()[BreakMode::rolling], logged.break_counts()[BreakMode::rolling]);
-  EXPECT_TRUE(counted.break_events(0).empty());
-  EXPECT_EQ(counted.hash(), logged.hash());
+  Simulation const logged = sheared(BreakRecord::events), counted = sheared(BreakRecord::counts);
+  EXPECT_GT(logged.assembly().broken_bonds(), 10);
+  EXPECT_EQ(static_cast<int>(logged.assembly().break_events(0).size()), logged.assembly().broken_bonds());
+  EXPECT_EQ(counted.assembly().broken_bonds(), logged.assembly().broken_bonds());
+  EXPECT_EQ(counted.assembly().break_counts()[BreakMode::shear], logged.assembly().break_counts()[BreakMode::shear]);
+  EXPECT_EQ(counted.assembly().break_counts()[BreakMode::rolling], logged.assembly().break_counts()[BreakMode::rolling]);
+  EXPECT_TRUE(counted.assembly().break_events(0).empty());
+  EXPECT_EQ(counted.assembly().hash(), logged.assembly().hash());
   EXPECT_GE(logged.bytes(), counted.bytes() + 41 * 100);  // of a bond
-  EXPECT_TRUE(logged.detailed_break_events(0).details.empty());
-  Simulation const detailed = sheared(true, true);
-  EXPECT_EQ(detailed.hash(), logged.hash());
-  EXPECT_EQ(static_cast<int>(detailed.detailed_break_events(0).details.size()), logged.broken_bonds());
+  EXPECT_TRUE(logged.assembly().detailed_break_events(0).details.empty());
+  Simulation const detailed = sheared(BreakRecord::details);
+  EXPECT_EQ(detailed.assembly().hash(), logged.assembly().hash());
+  EXPECT_EQ(static_cast<int>(detailed.assembly().detailed_break_events(0).details.size()), logged.assembly().broken_bonds());
   Scene scene;
   scene.hydrate.saturation = 0.55;
   EXPECT_EQ(needs_of(scene).bytes(FieldOf::bond), 0);
@@ -272,7 +272,7 @@ TEST(Features, WallsKeepShearOnlyWhereTheyAreRough) {
   SimulationLaws laws = sand_laws();
   laws.wall.friction = 0.5;
   Simulation const sim = packing(laws, false);
-  EXPECT_GT(sim.wall_contacts().shear.extent(0), 0u);
+  EXPECT_GT(sim.assembly().wall_contacts().shear.extent(0), 0u);
 }
 
 }  // namespace

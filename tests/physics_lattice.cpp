@@ -112,17 +112,17 @@ TEST(HexagonalLattice, ResistsCompressionWithRootThreeHalvesOfTheStiffness) {
   for (int level = 0; level < 2; ++level) {
     Simulation sim(periodic_lattice(8, 8), laws, 0.05 * d);
     sim.time_step = dt;
-    double const area = sim.area();
+    double const area = sim.assembly().area();
     double const strain = (level == 0 ? 2e-4 : 1e-4) / 100;
     for (int n = 0; n < 100; ++n) {
       sim.strain(strain, strain);
       sim.step();
     }
-    Measures const m = sim.measures();
-    double const pressure = 0.5 * (m.stress_area_xx + m.stress_area_yy) / sim.area();
+    Measures const m = sim.assembly().measures();
+    double const pressure = 0.5 * (m.stress_area_xx + m.stress_area_yy) / sim.assembly().area();
     EXPECT_NEAR(m.stress_area_xx / m.stress_area_yy, 1, within(1e-9, 3e-5));
     EXPECT_NEAR(m.stress_area_xy / m.stress_area_xx, 0, within(1e-9, 1e-5));
-    error[level] = pressure / (1 - sim.area() / area) / bulk - 1;
+    error[level] = pressure / (1 - sim.assembly().area() / area) / bulk - 1;
     EXPECT_NEAR(m.bonded, 3 * 64, 0);
   }
   EXPECT_LT(std::abs(error[1]), 2e-4);
@@ -135,17 +135,17 @@ TEST(HexagonalLattice, FailsInIsotropicTensionWhereEveryBondDoes) {
   double const R_t = 827.13;  // golden: S = 55 %, gap 0
   double const strain = R_t / 1.4209e8 / d;
   double last = 0;
-  while (sim.broken_bonds() == 0 && sim.steps() < 1200) {
-    Measures const m = sim.measures();
-    last = -0.5 * (m.stress_area_xx + m.stress_area_yy) / sim.area();
+  while (sim.assembly().broken_bonds() == 0 && sim.assembly().steps() < 1200) {
+    Measures const m = sim.assembly().measures();
+    last = -0.5 * (m.stress_area_xx + m.stress_area_yy) / sim.assembly().area();
     sim.strain(-strain / 1000, -strain / 1000);
     sim.step();
   }
   double const distance = d * (1 + strain);
   EXPECT_NEAR(last / (std::sqrt(3.0) * R_t / distance), 1, 2e-3);
   sim.step();
-  EXPECT_EQ(sim.break_counts()[BreakMode::tension], 3 * 64);
-  EXPECT_EQ(sim.measures().interacting, 0);
+  EXPECT_EQ(sim.assembly().break_counts()[BreakMode::tension], 3 * 64);
+  EXPECT_EQ(sim.assembly().measures().interacting, 0);
 }
 
 /// Thornton (2000): Z_m = (2 C - N_1) / (N - N_0 - N_1).
@@ -156,7 +156,7 @@ TEST(MechanicalCoordination, LeavesRattlersOut) {
   add_disc(s, half, high + touch);                                    // hangs on one of them
   add_disc(s, 10 * touch, 0);                                         // alone
   Simulation sim(s, sand_laws(), 0.1 * grain_d50);
-  Measures const m = sim.measures();
+  Measures const m = sim.assembly().measures();
   EXPECT_EQ(m.interacting, 4);
   EXPECT_EQ(m.non_rattlers, 3);
   EXPECT_DOUBLE_EQ(m.mechanical_coordination(), (2 * 4 - 1) / (5.0 - 1 - 1));

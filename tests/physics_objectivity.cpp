@@ -31,16 +31,16 @@ Simulation run_cluster(double vx, double vy, double dt, int steps) {
 TEST(ConstantVelocity, OfTheWholeDoesNotShowInTheRelativeMotion) {
   double const vx = 3, vy = -2, dt = 2e-8;
   Simulation const still = run_cluster(0, 0, dt, 1000), moving = run_cluster(vx, vy, dt, 1000);
-  EXPECT_GT(still.broken_bonds(), 5);
-  EXPECT_EQ(still.broken_bonds(), moving.broken_bonds());
+  EXPECT_GT(still.assembly().broken_bonds(), 5);
+  EXPECT_EQ(still.assembly().broken_bonds(), moving.assembly().broken_bonds());
   Specimen const a = still.specimen(), b = moving.specimen();
   for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_NEAR(b.x[i] - vx * moving.time(), a.x[i], within(1e-9, 1e-4) * grain_radius) << i;
-    ASSERT_NEAR(b.y[i] - vy * moving.time(), a.y[i], within(1e-9, 1e-4) * grain_radius) << i;
+    ASSERT_NEAR(b.x[i] - vx * moving.assembly().time(), a.x[i], within(1e-9, 1e-4) * grain_radius) << i;
+    ASSERT_NEAR(b.y[i] - vy * moving.assembly().time(), a.y[i], within(1e-9, 1e-4) * grain_radius) << i;
     ASSERT_NEAR(b.vx[i] - vx, a.vx[i], within(1e-8, 1e-3)) << i;
     ASSERT_NEAR(b.omega[i], a.omega[i], within(1e-3, 30)) << i;
   }
-  Measures const m = still.measures(), n = moving.measures();
+  Measures const m = still.assembly().measures(), n = moving.assembly().measures();
   EXPECT_GT(m.bonded, 20);
   EXPECT_NEAR(m.bond_energy / n.bond_energy, 1, within(1e-7, 1e-4));
 }
@@ -56,7 +56,7 @@ double force_after_turns(int steps_a_turn, int turns, Composite composite) {
   sim.time_step = 1e-7;
   hold_all(sim);
   double const turn = 2 * pi / steps_a_turn, x0 = 5 * grain_radius, y0 = 4 * grain_radius;
-  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sim.particles().x);
+  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sim.assembly().particles.x);
   for (int n = 0; n < steps_a_turn * turns; ++n) {
     if (n % 50 == 0) sim.request_search();  // discs without inertia do not ask for one
     Specimen const now = sim.specimen();
@@ -72,8 +72,8 @@ double force_after_turns(int steps_a_turn, int turns, Composite composite) {
     EXPECT_EQ(c.moment, 0);
     EXPECT_EQ(c.bond_moment, 0);
   }
-  EXPECT_EQ(sim.broken_bonds(), 0);
-  EXPECT_NEAR(sim.measures().bonded, static_cast<double>(s.contacts.size()), 0);
+  EXPECT_EQ(sim.assembly().broken_bonds(), 0);
+  EXPECT_NEAR(sim.assembly().measures().bonded, static_cast<double>(s.contacts.size()), 0);
   return largest / 876.0;
 }
 
@@ -93,11 +93,11 @@ TEST(StressAtRest, IsTheSameInTheContactsAndAtTheWalls) {
   EXPECT_TRUE(hold_stress(sim, 1e6, within(1e-5, 1e-4), 60000, {}, "test"));
   sim.loading().x = sim.loading().y = AxisDrive::held();
   sim.step(3000);
-  Measures const m = sim.measures();
-  EXPECT_NEAR(m.stress_area_xx / sim.area() / sim.stress().x, 1, 2e-5);
-  EXPECT_NEAR(m.stress_area_yy / sim.area() / sim.stress().y, 1, 2e-5);
+  Measures const m = sim.assembly().measures();
+  EXPECT_NEAR(m.stress_area_xx / sim.assembly().area() / sim.assembly().stress().x, 1, 2e-5);
+  EXPECT_NEAR(m.stress_area_yy / sim.assembly().area() / sim.assembly().stress().y, 1, 2e-5);
   EXPECT_NEAR(m.stress_area_xy, m.stress_area_yx, 2e-5 * m.stress_area_xx);  // no moment stress at rest
-  EXPECT_NEAR(sim.stress().x / 1e6, 1, 0.01);
+  EXPECT_NEAR(sim.assembly().stress().x / 1e6, 1, 0.01);
 }
 
 }  // namespace

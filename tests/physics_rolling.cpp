@@ -34,7 +34,7 @@ TEST(SlidingDisc, BeginsToRollAtTwoThirdsOfItsSpeed) {
     }
     // The rim velocity falls in a straight line. Velocities stand half a step behind the time and friction acts from the first
     // step on, so that the line begins one half step late: an error of first order, known exactly.
-    double const instant = sim.time() - dt / 2 - dt * now / (now - before);
+    double const instant = sim.assembly().time() - dt / 2 - dt * now / (now - before);
     EXPECT_NEAR((instant - dt / 2) / (u0 / (3 * friction * g)), 1, within(1e-6, 3e-5)) << dt;
     double mean = 0;
     constexpr int steps = 4000;  // over many swings of the shear spring
@@ -50,7 +50,7 @@ double acceleration(double angle) {
   constexpr int steps = 20000;
   Simulation sim = resting_disc(angle, 0, 1e-7);
   sim.step(steps);
-  return disc(sim, 0).vx / sim.time();
+  return disc(sim, 0).vx / sim.assembly().time();
 }
 
 TEST(DiscOnAnIncline, RollsWithTwoThirdsOfGravityUpToThreeTimesTheFriction) {

@@ -24,25 +24,25 @@ TEST(ServoWall, ThatMustMoveAtAConstantRateKeepsTheStress) {
   double const stress = 1e6;
   Simulation sim = elastic_block(stress, 0.3);
   // Compressed along y, the block spreads along x at a constant rate.
-  double const rate = strain_rate_of(1e-4, stress, sand_density, grain_d50), width = sim.walls().width();
+  double const rate = strain_rate_of(1e-4, stress, sand_density, grain_d50), width = sim.assembly().walls().width();
   sim.loading().y = AxisDrive::at_rate(rate);
   sim.loading().x.largest_speed = rate * width;
   sim.step(2000);  // the servo finds the rate
-  double const from = sim.walls().width();
+  double const from = sim.assembly().walls().width();
   double mean = 0, worst = 0, speed_early = 0, speed_late = 0;
   constexpr int steps = 6000;
   for (int n = 0; n < steps; ++n) {
     sim.step();
-    mean += sim.stress().x / stress / steps;
-    worst = std::max(worst, std::abs(sim.stress().x / stress - 1));
-    (n < steps / 2 ? speed_early : speed_late) += sim.walls().velocity[right] / (steps / 2);
+    mean += sim.assembly().stress().x / stress / steps;
+    worst = std::max(worst, std::abs(sim.assembly().stress().x / stress - 1));
+    (n < steps / 2 ? speed_early : speed_late) += sim.assembly().walls().velocity[right] / (steps / 2);
   }
-  EXPECT_GT(sim.walls().width(), from);
+  EXPECT_GT(sim.assembly().walls().width(), from);
   EXPECT_NEAR(speed_late / speed_early, 1, 0.15);  // it does move at a constant rate
   EXPECT_GT(speed_late, 0.02 * rate * width);
   EXPECT_NEAR(mean, 1, 1e-3);
   EXPECT_LT(worst, 0.01);
-  EXPECT_EQ(sim.broken_bonds(), 0);
+  EXPECT_EQ(sim.assembly().broken_bonds(), 0);
 }
 
 /// Largest error of both stresses over so many steps, relatively.
@@ -50,7 +50,7 @@ double worst_error(Simulation& sim, double stress, int steps) {
   double worst = 0;
   for (int n = 0; n < steps; ++n) {
     sim.step();
-    worst = std::max({worst, std::abs(sim.stress().x / stress - 1), std::abs(sim.stress().y / stress - 1)});
+    worst = std::max({worst, std::abs(sim.assembly().stress().x / stress - 1), std::abs(sim.assembly().stress().y / stress - 1)});
   }
   return worst;
 }
@@ -68,7 +68,7 @@ TEST(ServoWall, ThatIsToldAnotherStressReachesItWithoutRinging) {
 TEST(ServoWall, IsStableWithoutAnyDamping) {
   double const stress = 1e6;
   Simulation sim = elastic_block(stress, 0.3);
-  SimulationLaws laws = sim.laws();
+  SimulationLaws laws = sim.assembly().laws;
   laws.motion.damping = 0;
   sim.set_laws(laws);
   sim.loading().x.target_stress = sim.loading().y.target_stress = 1.001 * stress;
@@ -103,8 +103,8 @@ TEST(ServoWall, NeverMovesFasterThanItsCap) {
   sim.loading().x = sim.loading().y = AxisDrive::at_stress(1e6, 0.1);
   for (int n = 0; n < 200; ++n) {
     sim.step();
-    EXPECT_EQ(sim.walls().velocity[left], 0.1);
-    EXPECT_EQ(sim.walls().velocity[top], -0.1);
+    EXPECT_EQ(sim.assembly().walls().velocity[left], 0.1);
+    EXPECT_EQ(sim.assembly().walls().velocity[top], -0.1);
   }
 }
 

@@ -10,9 +10,10 @@ SimulationLaws equal_springs() {
   return laws;
 }
 
-double exact_limit(Simulation const& sim, int iterations) { return 2 / sim.largest_frequency(iterations); }
+double exact_limit(Simulation const& sim, int iterations) { return 2 / sim.assembly().largest_frequency(iterations); }
 double estimate(Simulation const& sim) {
-  return local_time_step({sim.particles(), sim.rows(), sim.laws().contact, sim.walls(), sim.laws().wall});
+  return local_time_step({sim.assembly().particles, sim.assembly().rows, sim.assembly().laws.contact, sim.assembly().walls(),
+                          sim.assembly().laws.wall});
 }
 
 /// In units of sqrt(m / k_n).
@@ -50,8 +51,8 @@ TEST(StabilityLimit, OfADiscOnARoughFloorIsThatOfItsShearSpring) {
     double const stiffness = friction > 0 ? 3 * sand_ks : sand_kn;  // F_s turns the disc as well: k_s (1/m + r^2/I)
     EXPECT_NEAR(exact_limit(sim, 200), 2 * std::sqrt(grain_mass() / stiffness), 1e-4 * unit_time());
     double const frame = std::sqrt(2.0);  // x and the rotation pull on each other, in |K| as in K
-    EXPECT_LE(sim.stable_limit(), exact_limit(sim, 200) * (1 + 1e-6));
-    EXPECT_GE(sim.stable_limit(), exact_limit(sim, 200) / frame);
+    EXPECT_LE(sim.assembly().stable_limit(), exact_limit(sim, 200) * (1 + 1e-6));
+    EXPECT_GE(sim.assembly().stable_limit(), exact_limit(sim, 200) / frame);
   }
 }
 
@@ -71,13 +72,13 @@ Simulation trembling_packing(Composite composite, double alpha = 0, double dashp
 /// @param sim  made for this alone: a copy would share its discs
 double growth_of(Simulation&& sim, double time_step, int steps) {
   sim.time_step = time_step;
-  double const before = sim.measures().kinetic;
+  double const before = sim.assembly().measures().kinetic;
   try {
     sim.step(steps);
   } catch (Diverged const&) {
     return HUGE_VAL;
   }
-  return sim.measures().kinetic / before;
+  return sim.assembly().measures().kinetic / before;
 }
 
 double growth(Composite composite, double share, int steps) {
@@ -109,7 +110,7 @@ Simulation trembling_sand(double alpha, double dashpot) {
   laws.contact.grain.damping_ratio = dashpot;
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 0.1 * grain_d50);
-  sim.time_step = 0.2 * sim.stable_time_step();
+  sim.time_step = 0.2 * sim.assembly().stable_time_step();
   sim.step(20000);  // it comes to rest
   laws.motion.damping = alpha;
   sim.set_laws(laws);
@@ -120,15 +121,15 @@ Simulation trembling_sand(double alpha, double dashpot) {
 TEST(StableLimit, IsNeverAboveTheExactOneAndNearIt) {
   for (Composite composite : {Composite::replace, Composite::parallel}) {
     Simulation const sim = trembling_packing(composite);
-    EXPECT_LT(sim.stable_limit(), exact_limit(sim, 2000));
-    EXPECT_GT(sim.stable_limit(), 0.5 * exact_limit(sim, 2000));  // its gaps are small: most may close
+    EXPECT_LT(sim.assembly().stable_limit(), exact_limit(sim, 2000));
+    EXPECT_GT(sim.assembly().stable_limit(), 0.5 * exact_limit(sim, 2000));  // its gaps are small: most may close
   }
   Simulation const sand = trembling_sand(0, 0);
-  EXPECT_LT(sand.stable_limit(), exact_limit(sand, 2000));
-  EXPECT_GT(sand.stable_limit(), 0.9 * exact_limit(sand, 2000));
+  EXPECT_LT(sand.assembly().stable_limit(), exact_limit(sand, 2000));
+  EXPECT_GT(sand.assembly().stable_limit(), 0.9 * exact_limit(sand, 2000));
   Simulation const lattice(hexagonal_patch(20, 20, closer), equal_springs(), 1e-6);
-  EXPECT_LT(lattice.stable_limit(), exact_limit(lattice, 400) * (1 + 1e-9));
-  EXPECT_GT(lattice.stable_limit(), 0.86 * exact_limit(lattice, 400));
+  EXPECT_LT(lattice.assembly().stable_limit(), exact_limit(lattice, 400) * (1 + 1e-9));
+  EXPECT_GT(lattice.assembly().stable_limit(), 0.86 * exact_limit(lattice, 400));
 }
 
 // At the limit the force of local damping always opposes the velocity: the kick is that of (1 + alpha) times the force.
@@ -136,9 +137,9 @@ TEST(StableLimit, FallsWithLocalDampingByTheRootOfOnePlusAlpha) {
   if (tested_precision() == Precision::mixed) GTEST_SKIP() << "grows from motions far below a tick";
   for (double const alpha : {0.3, 0.7}) {
     Simulation const sim = trembling_sand(alpha, 0), undamped = trembling_sand(0, 0);
-    EXPECT_NEAR(sim.stable_limit() / undamped.stable_limit(), 1 / std::sqrt(1 + alpha), 0.01);
+    EXPECT_NEAR(sim.assembly().stable_limit() / undamped.assembly().stable_limit(), 1 / std::sqrt(1 + alpha), 0.01);
     double const exact = exact_limit(sim, 2000) / std::sqrt(1 + alpha);
-    EXPECT_LT(growth_of(trembling_sand(alpha, 0), sim.stable_limit(), 4000), 1);
+    EXPECT_LT(growth_of(trembling_sand(alpha, 0), sim.assembly().stable_limit(), 4000), 1);
     EXPECT_GT(growth_of(trembling_sand(alpha, 0), 1.06 * exact, 4000), 1e3);
   }
 }
@@ -147,18 +148,18 @@ TEST(StableLimit, KnowsDashpots) {
   if (tested_precision() == Precision::mixed) GTEST_SKIP() << "grows from motions far below a tick";
   Simulation const undamped = trembling_sand(0, 0);
   for (double const dashpot : {0.2, 1.0}) {
-    double const limit = trembling_sand(0, dashpot).stable_limit();
+    double const limit = trembling_sand(0, dashpot).assembly().stable_limit();
     EXPECT_LT(growth_of(trembling_sand(0, dashpot), limit, 4000), 1) << dashpot;
     EXPECT_GT(growth_of(trembling_sand(0, dashpot), 1.4 * limit, 4000), 1e3) << dashpot;
-    EXPECT_LT(limit, undamped.stable_limit());
+    EXPECT_LT(limit, undamped.assembly().stable_limit());
   }
 }
 
 TEST(StableTimeStep, IsCappedAtTheLimitOfDampingAndDashpots) {
   Simulation const viscous = trembling_sand(0, 1), plain = trembling_sand(0.3, 0);
-  EXPECT_LT(viscous.stable_limit(), estimate(viscous));
-  EXPECT_EQ(viscous.stable_time_step(), 0.95 * viscous.stable_limit());
-  EXPECT_EQ(plain.stable_time_step(0.7), 0.7 * estimate(plain));
+  EXPECT_LT(viscous.assembly().stable_limit(), estimate(viscous));
+  EXPECT_EQ(viscous.assembly().stable_time_step(), 0.95 * viscous.assembly().stable_limit());
+  EXPECT_EQ(plain.assembly().stable_time_step(0.7), 0.7 * estimate(plain));
 }
 
 // A bond in place of the contact is softer than that: when it breaks the grains' own stiffness is back.
@@ -168,11 +169,11 @@ TEST(StableTimeStep, KnowsTheStiffnessBehindBondsThatMayBreak) {
     Specimen s = two_discs(1e-6);
     bond_all(s, scene);
     Simulation const bonded(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
-    ASSERT_EQ(bonded.measures().bonded, 1);
+    ASSERT_EQ(bonded.assembly().measures().bonded, 1);
     s.contacts[0].formation_overlap = no_bond;
     Simulation const broken(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);
     EXPECT_GT(exact_limit(bonded, 200), 1.2 * exact_limit(broken, 200));
-    EXPECT_LE(bonded.stable_limit(), broken.stable_limit() * (1 + 1e-6));
+    EXPECT_LE(bonded.assembly().stable_limit(), broken.assembly().stable_limit() * (1 + 1e-6));
     EXPECT_LE(estimate(bonded), estimate(broken) * (1 + 1e-12));
   }
 }

@@ -11,11 +11,13 @@ namespace clathra {
 namespace {
 
 /// The bound for the springs that carry a force now.
-double present_limit(Simulation const& sim) { return stable_limit(sim.springs(), sim.laws().motion.damping, 0, sim.across()); }
+double present_limit(Simulation const& sim) {
+  return stable_limit(sim.assembly().springs(), sim.assembly().laws.motion.damping, 0, sim.assembly().across());
+}
 
 /// Over that of the springs to come: behind a bond in place of its contact the stiffer of the two counts.
 double bound_over_exact(Simulation const& sim) {
-  return 2 / present_limit(sim) / clathra::largest_frequency(sim.springs(), sim.across(), 400, {true, 0});
+  return 2 / present_limit(sim) / clathra::largest_frequency(sim.assembly().springs(), sim.assembly().across(), 400, {true, 0});
 }
 
 Simulation loaded_sand(double friction = 0.5) { return {packing(), sand_laws(friction, 2), 0.1 * packing().d50}; }
@@ -63,9 +65,9 @@ TEST(LimitOfStability, IsBoundedWithinFifteenPercentOnLatticesAndWithScaledInert
 TEST(TimeStep, IsAShareOfTheLimitAndOfTheEstimate) {
   Simulation sim = loaded_sand();
   sim.choose_time_step({TimeStepRule::spectrum, 0.9});
-  EXPECT_EQ(sim.time_step, 0.9 * sim.stable_limit());
+  EXPECT_EQ(sim.time_step, 0.9 * sim.assembly().stable_limit());
   sim.choose_time_step({TimeStepRule::bound, 0.5});
-  EXPECT_EQ(sim.time_step, 0.5 * local_time_step(sim.springs()));
+  EXPECT_EQ(sim.time_step, 0.5 * local_time_step(sim.assembly().springs()));
 }
 
 /// Steps and sees that none was longer than the springs allow that were there when it began.
@@ -92,7 +94,7 @@ TEST(TimeStep, IsNeverAboveTheLimitWhileACloudCollapses) {
   sim.choose_time_step({});
   sim.loading().x = sim.loading().y = AxisDrive::at_rate(400);
   expect_stable_steps(sim, 5000, 0.96);
-  EXPECT_GT(sim.measures().touching, 100);
+  EXPECT_GT(sim.assembly().measures().touching, 100);
   EXPECT_GT(sim.time_steps().updates(), 10);
 }
 
@@ -103,14 +105,14 @@ TEST(TimeStep, IsNeverAboveTheLimitWhileBondsBreak) {
     sim.loading().y = AxisDrive::at_rate(100);
     sim.loading().x = AxisDrive::at_rate(-60);
     expect_stable_steps(sim, 3000, 0.96);
-    EXPECT_GT(sim.broken_bonds(), 100);
+    EXPECT_GT(sim.assembly().broken_bonds(), 100);
   }
 }
 
 // As while an assembly is closed, whose friction and rolling width are turned up and down every ten steps.
 TEST(TimeStep, FollowsTheLaws) {
   Simulation sim = loaded_sand();
-  SimulationLaws laws = sim.laws();
+  SimulationLaws laws = sim.assembly().laws;
   laws.contact.grain.shape_factor = 0.5;
   sim.set_laws(laws);
   sim.choose_time_step({});
@@ -153,7 +155,7 @@ TEST(TimeStep, MayChangeWithoutAnErrorInTheMotion) {
     time += sim.time_step;
     sim.step();
   }
-  EXPECT_NEAR(sim.time(), time, 1e-15);
+  EXPECT_NEAR(sim.assembly().time(), time, 1e-15);
   double const height = sim.specimen().y[0];
   EXPECT_NEAR(height, -0.5 * 9.81 * time * (time + first), within(1e-13, 2e-9));  // at rest half a step before the start
 }
@@ -163,7 +165,7 @@ TEST(TimeStep, MayChangeWithoutAnErrorInTheMotion) {
 TEST(TimeStep, AboveTheLimitGrowsAtThePredictedRate) {
   if (tested_precision() == Precision::mixed) GTEST_SKIP() << "grows from motions far below a tick";
   Simulation rest = loaded_sand(1e6);
-  SimulationLaws laws = rest.laws();
+  SimulationLaws laws = rest.assembly().laws;
   laws.motion.damping = 0.7;
   rest.set_laws(laws);
   rest.time_step = 0.7 * present_limit(rest);
@@ -172,12 +174,12 @@ TEST(TimeStep, AboveTheLimitGrowsAtThePredictedRate) {
   laws.motion.damping = 0;
   for (double const share : {1.002, 1.01}) {
     Simulation copy(rest.specimen(), laws, 0.1 * packing().d50);
-    copy.time_step = share * 2 / copy.largest_frequency(400);
+    copy.time_step = share * 2 / copy.assembly().largest_frequency(400);
     double const rate = 2 * std::acosh(share);
     std::vector<double> logs;
     while (logs.size() < 400 && (logs.empty() || logs.back() < std::log(1e-5))) {
       copy.step();
-      logs.push_back(0.5 * std::log(copy.measures().kinetic / copy.measures().grain_energy));
+      logs.push_back(0.5 * std::log(copy.assembly().measures().kinetic / copy.assembly().measures().grain_energy));
     }
     ASSERT_GT(logs.size(), 12u);
     double const measured = (logs.back() - logs[logs.size() - 4]) / 3;
@@ -195,11 +197,12 @@ TEST(MassScaling, RaisesTheSmallestMassesAndAllMomentsOfInertia) {
   Simulation const sim(s, laws, 0.1 * a);
   for (int id : {0, 1}) {
     double const moving = id == 0 ? 1.5 * a : 2 * a, mass = pi * moving * moving * sand_density, r = id == 0 ? a : 2 * a;
-    EXPECT_NEAR(value(sim.particles().inverse_mass, index_of(sim, id)) * mass, 1, within(1e-14, 1e-7));
-    EXPECT_NEAR(value(sim.particles().inverse_inertia, index_of(sim, id)) * 3 * 0.5 * mass * r * r, 1, within(1e-14, 1e-7));
+    EXPECT_NEAR(value(sim.assembly().particles.inverse_mass, index_of(sim, id)) * mass, 1, within(1e-14, 1e-7));
+    EXPECT_NEAR(value(sim.assembly().particles.inverse_inertia, index_of(sim, id)) * 3 * 0.5 * mass * r * r, 1,
+                within(1e-14, 1e-7));
   }
-  EXPECT_NEAR(sim.facts().added_mass, 1.25 / 5, 1e-14);
-  EXPECT_NEAR(sim.facts().moving_density(), 1.25 * sand_density, 1e-9);
+  EXPECT_NEAR(sim.assembly().facts.added_mass, 1.25 / 5, 1e-14);
+  EXPECT_NEAR(sim.assembly().facts.moving_density(), 1.25 * sand_density, 1e-9);
 }
 
 TEST(MassScaling, FindsTheRadiusThatAShareOfTheDiscsLiesBelow) {

@@ -10,12 +10,12 @@ TEST(Checkpoint, TakesNothingFromTheGoldenState) {
     Specimen const whole = bonded_patch(g.composite), empty = without_discs(whole);
     auto sim = std::make_unique<Simulation>(ready(whole, g.composite, world(), world().root() ? &whole : &empty, g.precision));
     for (int n = 0; n < 3000; ++n) {
-      if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->laws(), world());
+      if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->assembly().laws, world());
       sim->step();
     }
-    EXPECT_EQ(sim->hash(), g.hash);
-    EXPECT_EQ(sim->broken_bonds(), g.broken);
-    EXPECT_GT(sim->upkeep().searches(), 5);
+    EXPECT_EQ(sim->assembly().hash(), g.hash);
+    EXPECT_EQ(sim->assembly().broken_bonds(), g.broken);
+    EXPECT_GT(sim->assembly().upkeep.searches(), 5);
   }
 }
 
@@ -23,15 +23,16 @@ TEST(Checkpoint, KeepsTheDetailsOfBrokenBonds) {
   Specimen const whole = bonded_patch(Composite::parallel), empty = without_discs(whole);
   Simulation alone = ready(whole, Composite::parallel);
   auto sim = std::make_unique<Simulation>(ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty));
-  alone.keep_break_details();
-  sim->keep_break_details();
+  alone.keep_breaks(BreakRecord::details);
+  sim->keep_breaks(BreakRecord::details);
   for (int n = 0; n < 3000; ++n) {
-    if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->laws(), world());
+    if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->assembly().laws, world());
     sim->step();
     alone.step();
   }
-  EXPECT_EQ(sim->hash(), alone.hash());
-  BreakEvents const all = gathered(world(), sim->detailed_break_events(0)), one = alone.detailed_break_events(0);
+  EXPECT_EQ(sim->assembly().hash(), alone.assembly().hash());
+  BreakEvents const all = gathered(world(), sim->assembly().detailed_break_events(0)),
+                    one = alone.assembly().detailed_break_events(0);
   EXPECT_TRUE(all.detailed);
   if (!world().root()) return;
   EXPECT_GT(one.rows.size(), 20u);
@@ -48,29 +49,29 @@ TEST(Checkpoint, KeepsAccountsAndDisplacements) {
   sim.mark_start();
   sim.choose_time_step({});
   sim.step(777);
-  Simulation again(sim.state(), sim.laws(), world());
-  EXPECT_EQ(again.hash(), sim.hash());
+  Simulation again(sim.state(), sim.assembly().laws, world());
+  EXPECT_EQ(again.assembly().hash(), sim.assembly().hash());
   for (int n = 0; n < 1000; ++n) {
     sim.step();
     again.step();
     ASSERT_EQ(again.time_step, sim.time_step) << n;  // chosen anew at the same steps
   }
   EXPECT_EQ(again.time_steps().updates(), sim.time_steps().updates());
-  EXPECT_EQ(again.hash(), sim.hash());
-  EXPECT_EQ(again.losses().sliding, sim.losses().sliding);
-  EXPECT_EQ(again.losses().damping, sim.losses().damping);
-  EXPECT_EQ(again.boundary_work(), sim.boundary_work());
-  EXPECT_EQ(again.time(), sim.time());
+  EXPECT_EQ(again.assembly().hash(), sim.assembly().hash());
+  EXPECT_EQ(again.assembly().losses().sliding, sim.assembly().losses().sliding);
+  EXPECT_EQ(again.assembly().losses().damping, sim.assembly().losses().damping);
+  EXPECT_EQ(again.assembly().boundary_work(), sim.assembly().boundary_work());
+  EXPECT_EQ(again.assembly().time(), sim.assembly().time());
   auto const total_way = [](Simulation const& s) {
     double way = 0;
-    auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.particles().x);
-    auto const from = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.start_x());
-    for (int i = 0; i < s.particles().owned; ++i) way = std::max(way, std::abs(x(i) - from(i)));
-    return s.ranks().max(way);
+    auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.assembly().particles.x);
+    auto const from = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.assembly().start_x);
+    for (int i = 0; i < s.assembly().particles.owned; ++i) way = std::max(way, std::abs(x(i) - from(i)));
+    return s.assembly().ranks().max(way);
   };
   EXPECT_GT(total_way(sim), 0);
   EXPECT_EQ(total_way(again), total_way(sim));
-  EXPECT_EQ(again.break_counts()[BreakMode::shear], sim.break_counts()[BreakMode::shear]);
+  EXPECT_EQ(again.assembly().break_counts()[BreakMode::shear], sim.assembly().break_counts()[BreakMode::shear]);
 }
 
 }  // namespace

@@ -44,9 +44,9 @@ TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
     Specimen const whole = bonded_patch(g.composite), part = dealt(whole);
     Simulation sim = ready(whole, g.composite, world(), &part, g.precision);
     sim.step(3000);
-    EXPECT_EQ(sim.hash(), g.hash);
-    EXPECT_EQ(sim.broken_bonds(), g.broken);
-    EXPECT_EQ(sim.discs(), static_cast<int>(whole.size()));
+    EXPECT_EQ(sim.assembly().hash(), g.hash);
+    EXPECT_EQ(sim.assembly().broken_bonds(), g.broken);
+    EXPECT_EQ(sim.assembly().discs(), static_cast<int>(whole.size()));
   }
 }
 
@@ -59,17 +59,17 @@ TEST(Ranks, FollowTheLimitOfStabilityAlike) {
     many.step();
     ASSERT_EQ(one.time_step, many.time_step) << n;
   }
-  EXPECT_EQ(one.hash(), many.hash());
-  EXPECT_EQ(one.time(), many.time());
+  EXPECT_EQ(one.assembly().hash(), many.assembly().hash());
+  EXPECT_EQ(one.assembly().time(), many.assembly().time());
   EXPECT_EQ(one.time_steps().updates(), many.time_steps().updates());
   EXPECT_GT(many.time_steps().updates(), 3);
 }
 
 std::int64_t neighbours_listed(Simulation const& sim) {
-  HostRows const rows(sim.rows());
+  HostRows const rows(sim.assembly().rows);
   std::int64_t listed = 0;
-  for (int i = 0; i < sim.particles().owned; ++i) listed += rows.length(i);
-  return sim.ranks().sum(listed);
+  for (int i = 0; i < sim.assembly().particles.owned; ++i) listed += rows.length(i);
+  return sim.assembly().ranks().sum(listed);
 }
 
 TEST(Ranks, ListNeighboursAsFarAsFlyingDiscsHaveLeeway) {
@@ -87,13 +87,13 @@ TEST(Ranks, MissNoContactOfFlyingDiscs) {
   constexpr double skin = 0.1 * grain_d50;
   Simulation one(whole, {}, skin), many(part, {}, skin, world());
   for (Simulation* sim : {&one, &many}) {
-    sim->time_step = 0.3 * one.stable_time_step();
+    sim->time_step = 0.3 * one.assembly().stable_time_step();
     sim->loading().x = AxisDrive::at_rate(500);
     sim->loading().y = AxisDrive::at_rate(-300);
     for (int n = 0; n < 4000; ++n) sim->step();
   }
-  EXPECT_EQ(one.hash(), many.hash());
-  EXPECT_EQ(one.upkeep().searches(), many.upkeep().searches());
+  EXPECT_EQ(one.assembly().hash(), many.assembly().hash());
+  EXPECT_EQ(one.assembly().upkeep.searches(), many.assembly().upkeep.searches());
 }
 
 TEST(Ranks, MeasureWhatOneRankMeasures) {
@@ -105,20 +105,20 @@ TEST(Ranks, MeasureWhatOneRankMeasures) {
     one.step();
     many.step();
   }
-  EXPECT_EQ(one.hash(), many.hash());
+  EXPECT_EQ(one.assembly().hash(), many.assembly().hash());
   expect_equal_measures(one, many);
 }
 
 TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
   Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
   Simulation sim = ready(whole, Composite::parallel, world(), &part);
-  int fewest = sim.discs();
+  int fewest = sim.assembly().discs();
   for (int n = 0; n < 3000; ++n) {
     if (n == 400 || n == 2000) sim.set_decomposition(lopsided(whole));
     // The first rank claims to be slower than the others: it gets fewer discs.
-    if (n == 1200) sim.set_decomposition(Decomposition::bisect(world(), sim.particles(), world().root() ? 5 : 1));
+    if (n == 1200) sim.set_decomposition(Decomposition::bisect(world(), sim.assembly().particles, world().root() ? 5 : 1));
     sim.step();
-    fewest = std::min(fewest, sim.particles().owned);
+    fewest = std::min(fewest, sim.assembly().particles.owned);
   }
   if (world().count() > 2) {
     EXPECT_EQ(world().min(fewest), 0);
@@ -131,7 +131,7 @@ TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
     if (n == 400 || n == 1200 || n == 2000) one.request_search();
     one.step();
   }
-  EXPECT_EQ(sim.hash(), one.hash());
+  EXPECT_EQ(sim.assembly().hash(), one.assembly().hash());
   expect_equal_measures(one, sim);
 }
 
@@ -184,19 +184,19 @@ TEST(Ranks, OwnEqualPartsOfTheWork) {
   Specimen const whole = bonded_patch(Composite::replace), part = dealt(whole);
   Simulation sim = ready(whole, Composite::replace, world(), &part);
   int const ranks = world().count();
-  double const fair = static_cast<double>(sim.discs()) / ranks;
-  EXPECT_NEAR(sim.particles().owned, fair, 2 + 0.1 * fair);
+  double const fair = static_cast<double>(sim.assembly().discs()) / ranks;
+  EXPECT_NEAR(sim.assembly().particles.owned, fair, 2 + 0.1 * fair);
   if (ranks == 1) return;
   // Discs of the first rank take three times as long: the parts that they lie in become smaller.
-  int const before = sim.particles().owned;
-  sim.set_decomposition(Decomposition::bisect(world(), sim.particles(), world().root() ? 3 : 1));
+  int const before = sim.assembly().particles.owned;
+  sim.set_decomposition(Decomposition::bisect(world(), sim.assembly().particles, world().root() ? 3 : 1));
   sim.step();
   if (world().root()) {
-    EXPECT_LT(sim.particles().owned, before);
+    EXPECT_LT(sim.assembly().particles.owned, before);
   }
-  double const most = world().max(sim.particles().owned);
+  double const most = world().max(sim.assembly().particles.owned);
   EXPECT_GT(most, fair);
-  EXPECT_EQ(world().sum(std::int64_t{sim.particles().owned}), sim.discs());
+  EXPECT_EQ(world().sum(std::int64_t{sim.assembly().particles.owned}), sim.assembly().discs());
 }
 
 TEST(Ranks, HandOutASpecimenWhosePartsAreTheWhole) {
@@ -213,8 +213,8 @@ TEST(Ranks, HandOutASpecimenWhosePartsAreTheWhole) {
     EXPECT_EQ(mine.x[i], all.x[at]);
     EXPECT_EQ(mine.omega[i], all.omega[at]);
   }
-  Simulation const again(mine, sim.laws(), 0.05 * grain_d50, world());
-  EXPECT_EQ(again.hash(), alone.hash());
+  Simulation const again(mine, sim.assembly().laws, 0.05 * grain_d50, world());
+  EXPECT_EQ(again.assembly().hash(), alone.assembly().hash());
 }
 
 }  // namespace

@@ -170,8 +170,8 @@ inline void bond_all(Specimen& s, Scene const& scene) { install_bonds(scene, s);
 // --- Discs of a running simulation, by id.
 
 inline int index_of(Simulation const& sim, int id) {
-  auto const ids = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sim.particles().id);
-  for (int i = 0; i < sim.discs(); ++i) {
+  auto const ids = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sim.assembly().particles.id);
+  for (int i = 0; i < sim.assembly().discs(); ++i) {
     if (ids(i) == id) return i;
   }
   return -1;
@@ -198,15 +198,15 @@ struct Disc {
 };
 inline Disc disc(Simulation const& sim, int id) {
   int const i = index_of(sim, id);
-  ParticleSoA const& p = sim.particles();
+  ParticleSoA const& p = sim.assembly().particles;
   return {value(p.x, i),     value(p.y, i),       value(p.vx, i),      value(p.vy, i),
           value(p.omega, i), value(p.force_x, i), value(p.force_y, i), value(p.torque, i)};
 }
 
 /// Takes all inertia away: the discs then move as drive() tells them, whatever pushes them.
 inline void hold_all(Simulation& sim) {
-  fill(sim.particles().inverse_mass, 0);
-  fill(sim.particles().inverse_inertia, 0);
+  fill(sim.assembly().particles.inverse_mass, 0);
+  fill(sim.assembly().particles.inverse_inertia, 0);
 }
 /// Sets the motion of one disc, without a word of the host to a GPU's memory: tests drive discs for thousands of steps.
 struct SetMotion {
@@ -223,8 +223,8 @@ struct SetMotion {
   }
 };
 inline void drive(Simulation& sim, int id, double vx, double vy, double omega) {
-  ParticleSoA const& p = sim.particles();
-  Kokkos::parallel_for("test_drive", Kokkos::RangePolicy<ExecutionSpace>(0, sim.discs()),
+  ParticleSoA const& p = sim.assembly().particles;
+  Kokkos::parallel_for("test_drive", Kokkos::RangePolicy<ExecutionSpace>(0, sim.assembly().discs()),
                        SetMotion{p.id, p.vx, p.vy, p.omega, id, vx, vy, omega});
 }
 

@@ -187,16 +187,17 @@ TEST(HistoryAtTheAnchor, IsTheSameToTheBitHoweverOftenDiscsTremble) {
     }
   }
   SpecimenContact const after = pair_history(sim);
-  EXPECT_NEAR(after.shear, before.shear, sand_ks * 2 * sim.particles().mirror.tick);  // places are sums in double precision
+  EXPECT_NEAR(after.shear, before.shear,
+              sand_ks * 2 * sim.assembly().particles.mirror.tick);  // places are sums in double precision
   EXPECT_NEAR(after.moment, before.moment, 1e-6 * std::abs(before.moment));
 }
 
 /// The distance of discs in single precision would be rounded to some sixteen ticks.
 TEST(HistoryAtTheAnchor, ForcesTellSingleTicksApart) {
   Simulation sim = driven_discs();
-  double const tick = sim.particles().mirror.tick;
+  double const tick = sim.assembly().particles.mirror.tick;
   sim.step();
-  auto const force = [&] { return value(sim.particles().force_x, index_of(sim, 0)); };
+  auto const force = [&] { return value(sim.assembly().particles.force_x, index_of(sim, 0)); };
   drive(sim, 1, 3 * tick / sim.time_step, 0, 0);
   double before = force();
   for (int n = 0; n < 50; ++n) {
@@ -210,7 +211,7 @@ TEST(HistoryAtTheAnchor, ForcesTellSingleTicksApart) {
 /// A sum in single precision stands still at a thousandth of its ulp a step.
 TEST(HistoryAtTheAnchor, FollowsHoweverSlowlyDiscsMove) {
   Simulation sim = driven_discs();
-  double const tick = sim.particles().mirror.tick;
+  double const tick = sim.assembly().particles.mirror.tick;
   drive(sim, 1, 0, 0.1 / sim.time_step * 1e-6, 0);
   sim.step();
   drive(sim, 1, 0, 0, 0);
@@ -245,7 +246,7 @@ TEST(HistoryAtTheAnchor, ForcesStayWhereTheRollingStiffnessChanges) {
   SpecimenContact const first = pair_history(sim);
   sim.step(10);
   SpecimenContact const before = pair_history(sim);
-  SimulationLaws laws = sim.laws();
+  SimulationLaws laws = sim.assembly().laws;
   laws.contact.grain.shape_factor *= 0.5;
   sim.set_laws(laws);
   SpecimenContact const kept = pair_history(sim);
@@ -265,7 +266,8 @@ TEST(HistoryAtTheAnchor, ADiscThatTurnsForLongKeepsItsRotation) {
   std::size_t const one = s.id[0] == 1 ? 0 : 1;
   EXPECT_NEAR(s.angle[one], 5, 1e-6);
   EXPECT_EQ(s.angle[1 - one], 0);
-  EXPECT_LE(std::abs(on_host(sim.particles().turn, 2)[0]) + std::abs(on_host(sim.particles().turn, 2)[1]), 1.2 / 64);
+  EXPECT_LE(std::abs(on_host(sim.assembly().particles.turn, 2)[0]) + std::abs(on_host(sim.assembly().particles.turn, 2)[1]),
+            1.2 / 64);
   EXPECT_NEAR(std::abs(pair_history(sim).shear) / (0.5 * sand_kn * 2e-6), 1, 1e-4);  // it slides
 }
 

@@ -12,7 +12,7 @@ Simulation crushed_packing(Composite composite) {
   Specimen s = disordered_patch(10, 10, 0.03);
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
-  sim.time_step = 0.5 * sim.stable_time_step();
+  sim.time_step = 0.5 * sim.assembly().stable_time_step();
   sim.loading().x = AxisDrive::at_rate(-200);
   sim.loading().y = AxisDrive::at_rate(500);
   return sim;
@@ -23,12 +23,12 @@ TEST(ContactRows, EntriesKnownToCarryNothingMayBeLeftOut) {
     Simulation quick = crushed_packing(composite), thorough = crushed_packing(composite);
     for (int n = 0; n < 4000; ++n) {
       quick.step();
-      thorough.set_laws(thorough.laws());  // forgets what the last step found: every entry is evaluated
+      thorough.set_laws(thorough.assembly().laws);  // forgets what the last step found: every entry is evaluated
       thorough.step();
     }
-    EXPECT_EQ(quick.hash(), thorough.hash());
-    EXPECT_GT(quick.broken_bonds(), 10);
-    EXPECT_GT(quick.upkeep().searches(), 3);
+    EXPECT_EQ(quick.assembly().hash(), thorough.assembly().hash());
+    EXPECT_GT(quick.assembly().broken_bonds(), 10);
+    EXPECT_GT(quick.assembly().upkeep.searches(), 3);
   }
 }
 
@@ -40,7 +40,7 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
   sim.request_search();
   (void)sim.state();  // searches, and evaluates nothing behind that
-  HostRows const rows(sim.rows());
+  HostRows const rows(sim.assembly().rows);
   auto const carrying = [&](int i) {
     int count = 0;
     for (int k = 0; k < rows.length(i); ++k)
@@ -48,7 +48,7 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
     return count;
   };
   int falls = 0;
-  for (int i = 1; i < sim.particles().owned; ++i) {
+  for (int i = 1; i < sim.assembly().particles.owned; ++i) {
     if (i % (slices_a_window * slice_width_of<Real>) == 0) continue;
     EXPECT_LE(carrying(i), carrying(i - 1)) << i;
     falls += carrying(i) < carrying(i - 1) ? 1 : 0;
@@ -58,7 +58,7 @@ TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
 
 /// The mean distance of two discs that are stored side by side [m].
 double mean_distance_in_storage(Simulation const& sim) {
-  HostDiscs const p(sim.particles());
+  HostDiscs const p(sim.assembly().particles);
   double sum = 0;
   for (int i = 1; i < p.owned; ++i) sum += std::hypot(p.x(i) - p.x(i - 1), p.y(i) - p.y(i - 1));
   return sum / (p.owned - 1);
@@ -68,17 +68,17 @@ double mean_distance_in_storage(Simulation const& sim) {
 TEST(ContactRows, AreSortedInSpaceAgainWithinSixteenSearches) {
   Simulation sim(hexagonal_patch(30, 30, 3 * grain_radius), sand_laws(), 0.1 * grain_d50);
   sim.time_step = 1e-9;
-  ParticleSoA const& p = sim.particles();
+  ParticleSoA const& p = sim.assembly().particles;
   double const sorted = mean_distance_in_storage(sim);
   std::vector<int> place;
-  for (int i = 0; i < sim.discs(); ++i) place.push_back(i);
+  for (int i = 0; i < sim.assembly().discs(); ++i) place.push_back(i);
   shuffle(place, 1, 1);
   std::vector<double> xs, ys;
-  for (int i = 0; i < sim.discs(); ++i) {
+  for (int i = 0; i < sim.assembly().discs(); ++i) {
     xs.push_back(value(p.x, place[static_cast<std::size_t>(i)]));
     ys.push_back(value(p.y, place[static_cast<std::size_t>(i)]));
   }
-  for (int i = 0; i < sim.discs(); ++i) {
+  for (int i = 0; i < sim.assembly().discs(); ++i) {
     assign(p.x, i, xs[static_cast<std::size_t>(i)]);
     assign(p.y, i, ys[static_cast<std::size_t>(i)]);
   }
@@ -110,12 +110,12 @@ Specimen large_disc_among_small_ones() {
 // Rows of any length, in order of ids: first those in touch.
 TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
   Simulation const sim(large_disc_among_small_ones(), sand_laws(), 0.1 * grain_d50);
-  HostDiscs const p(sim.particles());
-  HostRows const rows(sim.rows());
+  HostDiscs const p(sim.assembly().particles);
+  HostRows const rows(sim.assembly().rows);
   int longest = 0;
-  for (int i = 0; i < sim.discs(); ++i) {
+  for (int i = 0; i < sim.assembly().discs(); ++i) {
     std::vector<std::pair<bool, int>> expected, listed;
-    for (int j = 0; j < sim.discs(); ++j) {
+    for (int j = 0; j < sim.assembly().discs(); ++j) {
       double const gap = std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j);
       if (j != i && gap < p.verlet_skin(i) + p.verlet_skin(j)) expected.push_back({gap >= 0, p.id(j)});
     }
@@ -133,16 +133,16 @@ TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
 TEST(ContactRows, KeepTheWidthThatTheLawGivesABond) {
   Simulation sim = crushed_packing(Composite::parallel);
   sim.step(200);
-  HostDiscs const p(sim.particles());
-  HostRows const rows(sim.rows());
+  HostDiscs const p(sim.assembly().particles);
+  HostRows const rows(sim.assembly().rows);
   int bonds = 0;
-  for (int i = 0; i < sim.discs(); ++i) {
+  for (int i = 0; i < sim.assembly().discs(); ++i) {
     for (int k = 0; k < rows.length(i); ++k) {
       std::size_t const e = rows.entry(i, k);
       if (!is_bonded(rows.formation_overlap(e))) continue;
       ++bonds;
       Real const common = common_radius(p.radius(i), p.radius(rows.neighbour(e)));
-      EXPECT_EQ(rows.width(e), sim.laws().contact.bond.width_formed_at(common, Real(rows.formation_overlap(e))));
+      EXPECT_EQ(rows.width(e), sim.assembly().laws.contact.bond.width_formed_at(common, Real(rows.formation_overlap(e))));
       EXPECT_GT(rows.width(e), 0);
     }
   }

@@ -88,7 +88,7 @@ TEST(MixedPrecision, FindsADiscWhosePlaceIsNoNumber) {
   for (double const nowhere : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     Simulation sim = pair_at(two_discs(-1e-5), 1e-5);
     sim.time_step = 1e-7;
-    assign(sim.particles().x, index_of(sim, 1), nowhere);
+    assign(sim.assembly().particles.x, index_of(sim, 1), nowhere);
     std::string text = "none";
     try {
       sim.step(100);
@@ -112,7 +112,7 @@ TEST(RoundingSlack, ListsEveryPairThatTheKernelTakesForTouching) {
         add_disc(s, origin + distance * std::cos(angle), origin + distance * std::sin(angle), radius);
         Disc const pushed = disc(pair_at(s, 1e-5), 0);  // listed in any case
         if (pushed.fx == 0 && pushed.fy == 0) continue;
-        EXPECT_EQ(value(pair_at(s, 1e-15).rows().length, 0), 1) << angle << ", " << origin << ", " << k;
+        EXPECT_EQ(value(pair_at(s, 1e-15).assembly().rows.length, 0), 1) << angle << ", " << origin << ", " << k;
         apart_but_touching += std::hypot(s.x[1] - s.x[0], s.y[1] - s.y[0]) > 2 * radius + 1e-14 ? 1 : 0;
       }
     }
@@ -130,7 +130,7 @@ TEST(MixedPrecision, SurvivesTheWayThroughASpecimen) {
   sim.time_step = 1e-7;
   sim.loading().x = sim.loading().y = AxisDrive::at_rate(300);
   sim.step(1500);
-  ASSERT_GT(sim.measures().touching, 50);
+  ASSERT_GT(sim.assembly().measures().touching, 50);
   Specimen const before = sim.specimen(), after = Simulation(before, laws, 0.05 * grain_d50).specimen();
   EXPECT_EQ(after.x, before.x);
   EXPECT_EQ(after.vx, before.vx);

@@ -6,7 +6,7 @@ namespace clathra {
 namespace {
 
 RebuildInputs enqueued_rebuild_inputs(Simulation const& sim, Faults const& faults = make_faults()) {
-  return rebuild_inputs(sim.particles(), sim.rows(), {}, faults, {});
+  return rebuild_inputs(sim.assembly().particles, sim.assembly().rows, {}, faults, {});
 }
 
 TEST(RebuildInputs, FindsBoundsAndSpeeds) {

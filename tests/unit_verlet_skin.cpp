@@ -19,12 +19,12 @@ Specimen two_of_a_hundred_fly(double slow, double fast) {
   return s;
 }
 
-double skin_of(Simulation const& sim, int id) { return value(sim.particles().verlet_skin, index_of(sim, id)); }
+double skin_of(Simulation const& sim, int id) { return value(sim.assembly().particles.verlet_skin, index_of(sim, id)); }
 
 /// Gives discs their skins as a search does. @return the largest
 double give_skins(Simulation const& sim, AffineFrame const& frame, SkinRange const& range) {
-  RebuildInputs const all = rebuild_inputs(sim.particles(), sim.rows(), frame, make_faults(), {});
-  assign_verlet_skins(sim.particles(), frame, range, all.mean_of_speeds({}));
+  RebuildInputs const all = rebuild_inputs(sim.assembly().particles, sim.assembly().rows, frame, make_faults(), {});
+  assign_verlet_skins(sim.assembly().particles, frame, range, all.mean_of_speeds({}));
   return range.skin(all.largest[RebuildInputs::speed], all.mean_of_speeds({}));
 }
 
@@ -41,13 +41,12 @@ TEST(VerletSkin, IsThatOfTheMotionBesideTheBox) {
   AffineFrame frame;
   frame.centre_x = 0.3;
   frame.centre_y = -0.2;
-  frame.gradient_x = 0.5;
-  frame.gradient_y = -0.75;
+  frame.gradient = {0.5, 0.9, -0.75};
   frame.drift_x = 2;
   frame.drift_y = -1;
   Specimen s = two_of_a_hundred_fly(0.02, 1);
   for (std::size_t i = 0; i < s.size(); ++i) {
-    s.vx[i] += frame.velocity_x(s.x[i]);
+    s.vx[i] += frame.velocity_x(s.x[i], s.y[i]);
     s.vy[i] += frame.velocity_y(s.y[i]);
   }
   Simulation const moved(s, {}, 2 * h), still(two_of_a_hundred_fly(0.02, 1), {}, 2 * h);
@@ -70,12 +69,12 @@ TEST(VerletSkin, OneDiscThatFliesSeldomCallsForASearch) {
   s.top = 1;
   Simulation sim(s, {}, 2 * h);
   sim.time_step = 1e-6;
-  std::int64_t const before = sim.upkeep().searches();
+  std::int64_t const before = sim.assembly().upkeep.searches();
   auto const steps = static_cast<int>(way / sim.time_step);
   sim.step(steps);
   // Without a skin of its own it would be one for each h of the way.
-  EXPECT_LE(sim.upkeep().searches() - before, way / (4.5 * h) + 3);
-  EXPECT_GE(sim.upkeep().searches() - before, way / (5.5 * h) - 3);
+  EXPECT_LE(sim.assembly().upkeep.searches() - before, way / (4.5 * h) + 3);
+  EXPECT_GE(sim.assembly().upkeep.searches() - before, way / (5.5 * h) - 3);
 }
 
 bool in_row(HostRows const& rows, int i, int j) {
@@ -96,8 +95,8 @@ void for_each_pair(HostDiscs const& p, Visit const& visit) {
 
 TEST(VerletSkin, RowsReachAsFarAsBothSkinsTogether) {
   Simulation const sim(gas(), {}, 2 * h);
-  HostDiscs const discs(sim.particles());
-  HostRows const rows(sim.rows());
+  HostDiscs const discs(sim.assembly().particles);
+  HostRows const rows(sim.assembly().rows);
   int listed = 0;
   for_each_pair(discs, [&](int i, int j, double gap) {
     bool const near = gap < discs.verlet_skin(i) + discs.verlet_skin(j);
@@ -109,14 +108,14 @@ TEST(VerletSkin, RowsReachAsFarAsBothSkinsTogether) {
 
 TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   Simulation sim(gas(), {}, 2 * h);
-  sim.time_step = 0.3 * sim.stable_time_step();
+  sim.time_step = 0.3 * sim.assembly().stable_time_step();
   sim.loading().x = AxisDrive::at_rate(500);
   sim.loading().y = AxisDrive::at_rate(-300);
   int touching = 0, missing = 0;
   for (int n = 0; n < 4000; ++n) {
     sim.step();
-    HostRows const rows(sim.rows());
-    for_each_pair(HostDiscs(sim.particles()), [&](int i, int j, double gap) {
+    HostRows const rows(sim.assembly().rows);
+    for_each_pair(HostDiscs(sim.assembly().particles), [&](int i, int j, double gap) {
       if (gap >= 0) return;
       ++touching;
       if (!in_row(rows, i, j)) ++missing;
@@ -124,7 +123,7 @@ TEST(VerletSkin, RowsHoldEveryPairInTouchHoweverDiscsFly) {
   }
   EXPECT_EQ(missing, 0);
   EXPECT_GT(touching, 3000);
-  EXPECT_GT(sim.upkeep().searches(), 20);
+  EXPECT_GT(sim.assembly().upkeep.searches(), 20);
 }
 
 // The first checkpoints have no column of skins.
@@ -133,7 +132,7 @@ TEST(VerletSkin, LeavesASmallPeriodicCellWideEnough) {
   s.periodic = true;
   s.vx[5] = 3;  // all others are at rest
   Simulation sim(s, {}, 0.4 * grain_d50);
-  double const side = std::min(sim.cell().width, sim.cell().height), largest = 1.1 * grain_radius;
+  double const side = std::min(sim.assembly().now.cell.width(), sim.assembly().now.cell.height()), largest = 1.1 * grain_radius;
   EXPECT_LT(skin_of(sim, 5), 5 * 0.2 * grain_d50);
   EXPECT_GT(skin_of(sim, 5), 0.2 * grain_d50);
   EXPECT_LE(2 * (2 * largest + 2 * skin_of(sim, 5)), side);
@@ -146,8 +145,7 @@ AffineFrame motion_since(Walls const& before, Walls const& now) {
   frame.reference_centre_y = 0.5 * (before.position[bottom] + before.position[top]);
   frame.centre_x = 0.5 * (now.position[left] + now.position[right]);
   frame.centre_y = 0.5 * (now.position[bottom] + now.position[top]);
-  frame.stretch_x = now.width() / before.width();
-  frame.stretch_y = now.height() / before.height();
+  frame.stretch = {now.width() / before.width(), 0, now.height() / before.height()};
   return frame;
 }
 
@@ -155,8 +153,8 @@ AffineFrame motion_since(Walls const& before, Walls const& now) {
 double greatest_displacement(HostDiscs const& p, AffineFrame const& f) {
   double greatest = 0;
   for (int i = 0; i < p.owned; ++i) {
-    double const x = f.centre_x + f.stretch_x * (p.reference_x(i) - f.reference_centre_x);
-    double const y = f.centre_y + f.stretch_y * (p.reference_y(i) - f.reference_centre_y);
+    double const x = f.centre_x + f.stretch.xx * (p.reference_x(i) - f.reference_centre_x);
+    double const y = f.centre_y + f.stretch.yy * (p.reference_y(i) - f.reference_centre_y);
     greatest = std::max(greatest, std::hypot(p.x(i) - x, p.y(i) - y) / p.verlet_skin(i));
   }
   return greatest;
@@ -164,23 +162,23 @@ double greatest_displacement(HostDiscs const& p, AffineFrame const& f) {
 
 /// Steps, and expects that no non-affine displacement ever exceeds its skin, and that some disc comes near it.
 void expect_searches_in_time(Simulation& sim, int steps) {
-  Walls at_search = sim.walls();
-  std::int64_t const before = sim.upkeep().searches();
+  Walls at_search = sim.assembly().walls();
+  std::int64_t const before = sim.assembly().upkeep.searches();
   double largest = 0;
   for (int n = 0; n < steps; ++n) {
-    std::int64_t const searches = sim.upkeep().searches();
+    std::int64_t const searches = sim.assembly().upkeep.searches();
     sim.step();
-    if (sim.upkeep().searches() > searches) at_search = sim.walls();
-    AffineFrame const motion = motion_since(at_search, sim.walls());
-    double const displacement = greatest_displacement(HostDiscs(sim.particles()), motion);
-    EXPECT_NEAR(std::sqrt(largest_nonaffine_displacement2(sim.particles(), sim.particles().reference_x,
-                                                          sim.particles().reference_y, motion)),
+    if (sim.assembly().upkeep.searches() > searches) at_search = sim.assembly().walls();
+    AffineFrame const motion = motion_since(at_search, sim.assembly().walls());
+    double const displacement = greatest_displacement(HostDiscs(sim.assembly().particles), motion);
+    EXPECT_NEAR(std::sqrt(largest_nonaffine_displacement2(sim.assembly().particles, sim.assembly().particles.reference_x,
+                                                          sim.assembly().particles.reference_y, motion)),
                 displacement, 1e-9);
     EXPECT_LT(displacement, 1) << n;
     largest = std::max(largest, displacement);
   }
   EXPECT_GT(largest, 0.8);
-  EXPECT_GE(sim.upkeep().searches() - before, 3);
+  EXPECT_GE(sim.assembly().upkeep.searches() - before, 3);
 }
 
 TEST(VerletSkin, SearchesComeInTimeForDiscsThatFly) {

@@ -67,7 +67,7 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
   return simulation;
 }
 
-double stable_step(Simulation const& simulation) { return simulation.stable_time_step(usual_share_of_estimate); }
+double stable_step(Simulation const& simulation) { return simulation.assembly().stable_time_step(usual_share_of_estimate); }
 
 template <class T>
 auto on_host(Field<T> const& field) {
@@ -82,7 +82,7 @@ void write_discs(Simulation const& simulation, std::string const& folder) {
   if (!discs || !forces) throw std::runtime_error("cannot write into " + folder);
   for (std::size_t i = 0; i < specimen.size(); ++i)
     std::fprintf(discs, "%d %.17g %.17g %.17g\n", specimen.id[i], specimen.x[i], specimen.y[i], specimen.radius[i]);
-  ParticleSoA const& p = simulation.particles();
+  ParticleSoA const& p = simulation.assembly().particles;
   auto const id = on_host(p.id);
   std::vector<double> const fx = on_host(p.force_x, specimen.size()), fy = on_host(p.force_y, specimen.size());
   for (std::size_t i = 0; i < specimen.size(); ++i) std::fprintf(forces, "%d %.17g %.17g\n", id(i), fx[i], fy[i]);
@@ -93,7 +93,7 @@ void write_discs(Simulation const& simulation, std::string const& folder) {
 /// to 21), R_t, and R_s and R_r of a bond without normal force.
 void write_bonds(Simulation const& bonded, std::string const& folder) {
   Snapshot const s = take_snapshot(bonded);
-  BondLaw const& law = bonded.laws().contact.bond;
+  BondLaw const& law = bonded.assembly().laws.contact.bond;
   std::ofstream file(folder + "/bonds.txt");
   ContactStiffness<Real> stiffness{0, 0, 0}, strength{0, 0, 0};
   Real bonds = 0, longest = 0;
@@ -123,14 +123,15 @@ void write_for_peers(char const* path, std::string const& folder) {
   write_discs(rolling, folder);
   write_bonds(bonded, folder);
   Scene const scene = scene_of(specimen, "rolling");
-  GrainLaw const& law = rolling.laws().contact.grain;
+  GrainLaw const& law = rolling.assembly().laws.contact.grain;
   double const dt = std::min(stable_step(rolling), stable_step(bonded));
   std::printf("dt %.17g\nskin %.17g\nkn %.17g\nks %.17g\nfriction %.17g\nshape_factor %.17g\ndensity %.17g\n", dt,
               skin_in_d50 * specimen.d50, law.normal_stiffness, law.shear_stiffness, law.friction, law.shape_factor,
               specimen.density);
   std::printf("left %.17g\nright %.17g\nbottom %.17g\ntop %.17g\n", specimen.left, specimen.right, specimen.bottom, specimen.top);
-  std::printf("discs %d\ntouching %.0f\nbonds %.0f\nbond_reach %.17g\nd50 %.17g\n", rolling.discs(), rolling.measures().touching,
-              bonded.measures().bonded, bonded.facts().critical_thickness, specimen.d50);
+  std::printf("discs %d\ntouching %.0f\nbonds %.0f\nbond_reach %.17g\nd50 %.17g\n", rolling.assembly().discs(),
+              rolling.assembly().measures().touching, bonded.assembly().measures().bonded,
+              bonded.assembly().facts.critical_thickness, specimen.d50);
 }
 
 /// Stress of the contacts between discs [Pa], without those at the walls: all that the peers report alike.
@@ -144,7 +145,7 @@ void print_stress(Simulation const& simulation) {
     xx += (s.normal_force[k] * nx + s.shear_force[k] * ny) * lx;
     yy += (s.normal_force[k] * ny - s.shear_force[k] * nx) * ly;
   }
-  double const area = simulation.area();
+  double const area = simulation.assembly().area();
   std::printf("stress_xx %.9g\nstress_yy %.9g\n", xx / area, yy / area);
 }
 
@@ -153,13 +154,13 @@ void run(char const* path, std::string const& what, double dt, int check, int st
   simulation.time_step = dt;
   for (int n = 0; n < check; ++n) simulation.step();
   print_stress(simulation);
-  std::int64_t const searches = simulation.upkeep().searches();
+  std::int64_t const searches = simulation.assembly().upkeep.searches();
   Kokkos::fence();
   Kokkos::Timer const clock;
   for (int n = 0; n < steps; ++n) simulation.step();
   Kokkos::fence();
   std::printf("loop %.9g\nsearches %lld\nbroken %d\n", clock.seconds(),
-              static_cast<long long>(simulation.upkeep().searches() - searches), simulation.broken_bonds());
+              static_cast<long long>(simulation.assembly().upkeep.searches() - searches), simulation.assembly().broken_bonds());
 }
 
 }  // namespace

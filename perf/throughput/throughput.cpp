@@ -33,14 +33,15 @@ Specimen make_specimen(Scene const& scene, std::int64_t discs, Ranks const& rank
 }
 
 std::int64_t total(Simulation const& simulation, std::size_t of_this_rank) {
-  return simulation.ranks().sum(static_cast<std::int64_t>(of_this_rank));
+  return simulation.assembly().ranks().sum(static_cast<std::int64_t>(of_this_rank));
 }
 
 /// Bytes that one step touches at the least, a disc: the contact pass reads discs and rows and writes forces and history, the
 /// drift reads and writes the discs.
 double moved_bytes(Simulation const& simulation) {
-  double const entries = static_cast<double>(total(simulation, simulation.contact_entries())) / simulation.discs();
-  ContactRows rows = simulation.rows();
+  double const entries =
+      static_cast<double>(total(simulation, simulation.assembly().contact_entries())) / simulation.assembly().discs();
+  ContactRows rows = simulation.assembly().rows;
   bool const mixed = rows.features.format.precision == Precision::mixed;
   double read = rows.features.bonds ? 1 : 0, written = 0;  // histories, and the width of bonds
   for_each_history(rows, [&](HistoryField const&, auto const& field) {
@@ -62,7 +63,7 @@ constexpr double flops_of_contact = 58, flops_of_bonded_pair = 113, flops_of_dri
 
 double flops_per_step(Simulation const& simulation, Measures const& m) {
   double const pairs = flops_of_bonded_pair * m.bonded + flops_of_contact * (m.interacting - m.bonded);
-  return 2 * pairs + flops_of_drift * simulation.discs();
+  return 2 * pairs + flops_of_drift * simulation.assembly().discs();
 }
 
 // Numbers that one call updates: on a GPU those of its neighbours stand beside them.
@@ -101,7 +102,7 @@ struct Arithmetic {
 /// faster than those of a million discs, a tenth of a grain in a step: those of twenty millions would pass through grains.
 void let_walls_find_packing(Simulation& simulation, Scene const& scene, double d50, int steps) {
   constexpr double rate_of_large = 1e-2, large = 1e6;
-  double const rate = rate_of_large / std::sqrt(std::max(1.0, simulation.discs() / large));
+  double const rate = rate_of_large / std::sqrt(std::max(1.0, simulation.assembly().discs() / large));
   prepare_servo(simulation, scene.bond.stress, rate, d50, scene.run.step_choice());
   simulation.step(steps);
 }
@@ -131,13 +132,14 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   let_walls_find_packing(simulation, scene, specimen.d50, setup.relaxation_steps);
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
   prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
-  RateNumbers const rate = rate_numbers(scene, specimen.d50, simulation.walls().height(), simulation.void_ratio());
+  RateNumbers const rate =
+      rate_numbers(scene, specimen.d50, simulation.assembly().walls().height(), simulation.assembly().void_ratio());
   simulation.drive(simulation.loading().x, AxisDrive::at_rate(rate.strain_rate), -0.25 * rate.strain_rate, rate.strain_rate);
   if (breaking) {
     // Faster to where bonds break, but platens no faster than those of a small specimen, or large ones burst; then a while for
     // the waves of that to die.
     constexpr double strain = 0.05, rate_factor_of_small = 10, calming_of_small = 500, small = 20000;
-    double const length = std::sqrt(std::max(1.0, simulation.discs() / small)),
+    double const length = std::sqrt(std::max(1.0, simulation.assembly().discs() / small)),
                  rate_factor = std::max(1.0, rate_factor_of_small / length);
     simulation.loading().y = AxisDrive::at_rate(rate_factor * rate.strain_rate);
     auto const steps = static_cast<int>(strain / (rate_factor * rate.strain_rate * simulation.time_step));
@@ -150,25 +152,26 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
 
 Throughput measure_throughput(Simulation& simulation, double seconds) {
   Throughput result;
-  std::int64_t const first = simulation.steps(), first_rebuilds = simulation.upkeep().searches();
-  int const broken = simulation.broken_bonds();
-  double const rebuilding = simulation.upkeep().seconds();
+  std::int64_t const first = simulation.assembly().steps(), first_rebuilds = simulation.assembly().upkeep.searches();
+  int const broken = simulation.assembly().broken_bonds();
+  double const rebuilding = simulation.assembly().upkeep.seconds();
   Kokkos::Timer const clock;
-  while (simulation.ranks().max(clock.seconds()) < seconds) simulation.step(20);
+  while (simulation.assembly().ranks().max(clock.seconds()) < seconds) simulation.step(20);
   Kokkos::fence();
   result.seconds = clock.seconds();
-  result.steps = simulation.steps() - first;
-  result.rebuilds = simulation.upkeep().searches() - first_rebuilds;
+  result.steps = simulation.assembly().steps() - first;
+  result.rebuilds = simulation.assembly().upkeep.searches() - first_rebuilds;
   double const steps_per_s = static_cast<double>(result.steps) / result.seconds;
-  result.disc_steps_per_second = steps_per_s * simulation.discs();
-  Measures const m = simulation.measures();
+  result.disc_steps_per_second = steps_per_s * simulation.assembly().discs();
+  Measures const m = simulation.assembly().measures();
   result.contact_steps_per_s = steps_per_s * m.interacting;
   result.flops_per_s = steps_per_s * flops_per_step(simulation, m);
-  result.broken = simulation.broken_bonds() - broken;
-  result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.discs();
-  result.search_bytes_per_disc = static_cast<double>(total(simulation, simulation.search_bytes())) / simulation.discs();
+  result.broken = simulation.assembly().broken_bonds() - broken;
+  result.bytes_per_disc = static_cast<double>(total(simulation, simulation.bytes())) / simulation.assembly().discs();
+  result.search_bytes_per_disc =
+      static_cast<double>(total(simulation, simulation.assembly().search_bytes())) / simulation.assembly().discs();
   result.moved_per_step = moved_bytes(simulation);
-  result.rebuild_share = (simulation.upkeep().seconds() - rebuilding) / result.seconds;
+  result.rebuild_share = (simulation.assembly().upkeep.seconds() - rebuilding) / result.seconds;
   return result;
 }
 

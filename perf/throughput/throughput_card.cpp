@@ -38,7 +38,7 @@ ThroughputRow throughput_row(ThroughputSetup const& setup, double seconds) {
   measure_throughput(simulation, 0.2 * seconds);  // caches and clock speed settle
   ThroughputRow row;
   row.precision = setup.precision;
-  row.discs = simulation.discs();
+  row.discs = simulation.assembly().discs();
   row.measured = measure_throughput(simulation, seconds);
   row.bandwidth = update_bandwidth(simulation.bytes());
   row.launches_per_step = launches_per_step(simulation);

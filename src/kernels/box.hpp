@@ -1,89 +1,88 @@
 #pragma once
-/// The box of a specimen and its homogeneous motion.
+/// The box of an assembly, whatever bounds it, and its homogeneous motion.
 #include "kernels/lane.hpp"
 
 namespace clathra {
 
-inline constexpr int wall_count = 4;
-enum WallName : int { left = 0, right = 1, bottom = 2, top = 3 };
-
-/// Where the walls stand and how they move: x of left and right, y of bottom and top. A wall that is absent stands at infinity.
-struct Walls {
-  Coord position[wall_count] = {-1e9, 1e9, -1e9, 1e9};  ///< [m]
-  Real velocity[wall_count] = {0, 0, 0, 0};             ///< [m/s]
-  KOKKOS_INLINE_FUNCTION Coord width() const { return position[right] - position[left]; }
-  KOKKOS_INLINE_FUNCTION Coord height() const { return position[top] - position[bottom]; }
-  KOKKOS_INLINE_FUNCTION Coord middle(WallName a, WallName b) const { return 0.5 * (position[a] + position[b]); }
-  KOKKOS_INLINE_FUNCTION Real mean_velocity(WallName a, WallName b) const { return 0.5 * (velocity[a] + velocity[b]); }
-  /// The larger speed of two walls [m/s], >= 0.
-  KOKKOS_INLINE_FUNCTION Real largest_speed(WallName a, WallName b) const {
-    return lane_max(lane_abs(velocity[a]), lane_abs(velocity[b]));
-  }
-  /// Moves them by their velocities over one step of length dt [s].
-  KOKKOS_INLINE_FUNCTION void move(Real dt) {
-    for (int wall = 0; wall < wall_count; ++wall) position[wall] += velocity[wall] * dt;
-  }
+/// An upper triangular matrix: of two edges of a cell, a = (xx, 0) and b = (xy, yy), of a strain or of its rate. Such matrices
+/// keep the first edge along x.
+struct CellMatrix {
+  Real xx = 0, xy = 0, yy = 0;
 };
 
-/// A rectangular periodic cell. Its stretching is homogeneous: discs and images move with it.
-struct PeriodicCell {
-  Coord left = 0, bottom = 0;
-  Real width = 0, height = 0;  ///< [m]; 0 = not periodic
-  KOKKOS_INLINE_FUNCTION bool exists() const { return width > 0; }
-};
-
-/// Walls, or a periodic cell in their place.
+/// Where the discs may be, and how that moves.
 struct Box {
-  Walls walls;
-  PeriodicCell cell;
-  KOKKOS_INLINE_FUNCTION bool periodic() const { return cell.exists(); }
-  KOKKOS_INLINE_FUNCTION Coord width() const { return periodic() ? cell.width : walls.width(); }
-  KOKKOS_INLINE_FUNCTION Coord height() const { return periodic() ? cell.height : walls.height(); }
+  Coord x = 0, y = 0;  ///< the point that its motion is told from: the middle of walls, a periodic cell's lower left corner [m]
+  CellMatrix edges{2e9, 0, 2e9};  ///< H: the edges are its columns [m]
+  CellMatrix rate;                ///< L = dH/dt H^-1: d v_x / d x, d v_x / d y, d v_y / d y [1/s]
+  Real drift_x = 0, drift_y = 0;  ///< velocity of (x, y) [m/s]
+  Real largest_speed = 0;         ///< of the motion anywhere inside, at most [m/s]
+  bool periodic = false;          ///< images of the discs surround it
+
+  KOKKOS_INLINE_FUNCTION Real width() const { return edges.xx; }   ///< along x [m]
+  KOKKOS_INLINE_FUNCTION Real height() const { return edges.yy; }  ///< along y, whatever the tilt [m]
+  KOKKOS_INLINE_FUNCTION Real area() const { return edges.xx * edges.yy; }
+
+  /// A periodic cell from its lower left corner on, with upright sides.
+  static Box cell(Coord left, Coord bottom, Real width, Real height) {
+    Box box;
+    box.x = left;
+    box.y = bottom;
+    box.edges = {width, 0, height};
+    box.periodic = true;
+    return box;
+  }
 };
 
-/// The homogeneous motion of the box. Neighbour lists may ignore it: x maps to centre + stretch (x_ref - reference_centre). Local
-/// damping is taken against the motion relative to it, v_frame = gradient * (x - centre) + drift: against the absolute velocity
-/// it would drag every disc of a specimen under compression the same way and hold up a share of the platens' stress that no
-/// contact carries.
+/// The homogeneous motion of the box. Neighbour lists may ignore it: r maps to centre + F (r_ref - reference_centre). Local
+/// damping is taken against the motion relative to it, v_frame = L (r - centre) + drift: against the absolute velocity it would
+/// drag every disc of a specimen under compression the same way and hold up a share of the platens' stress that no contact
+/// carries.
 struct AffineFrame {
   Coord centre_x = 0, centre_y = 0;
   Coord reference_centre_x = 0, reference_centre_y = 0;
-  Real stretch_x = 1, stretch_y = 1;
-  Real gradient_x = 0, gradient_y = 0;  ///< d v_x / d x and d v_y / d y [1/s]
-  Real drift_x = 0, drift_y = 0;        ///< velocity of the centre [m/s]
+  CellMatrix stretch{1, 0, 1};    ///< F
+  CellMatrix gradient;            ///< L [1/s]
+  Real drift_x = 0, drift_y = 0;  ///< velocity of the centre [m/s]
 
   /// Velocity of the homogeneous motion at a place [m/s].
-  template <class L>
-  KOKKOS_INLINE_FUNCTION L velocity_x(L const& x) const {
-    return gradient_x * (x - centre_x) + drift_x;
+  template <class P>
+  KOKKOS_INLINE_FUNCTION P velocity_x(P const& x, P const& y) const {
+    return gradient.xx * (x - centre_x) + gradient.xy * (y - centre_y) + drift_x;
   }
-  template <class L>
-  KOKKOS_INLINE_FUNCTION L velocity_y(L const& y) const {
-    return gradient_y * (y - centre_y) + drift_y;
+  template <class P>
+  KOKKOS_INLINE_FUNCTION P velocity_y(P const& y) const {
+    return gradient.yy * (y - centre_y) + drift_y;
+  }
+  /// Where it has brought what was at a place.
+  template <class P>
+  KOKKOS_INLINE_FUNCTION P mapped_x(P const& x, P const& y) const {
+    return centre_x + (stretch.xx * (x - reference_centre_x) + stretch.xy * (y - reference_centre_y));
+  }
+  template <class P>
+  KOKKOS_INLINE_FUNCTION P mapped_y(P const& y) const {
+    return centre_y + stretch.yy * (y - reference_centre_y);
+  }
+  /// What it brings two discs nearer at most, relatively: no less than the norm of F - I.
+  KOKKOS_INLINE_FUNCTION Real closing() const {
+    Real const tilt = lane_abs(stretch.xy);
+    return lane_max(lane_abs(1 - stretch.xx) + tilt, lane_abs(1 - stretch.yy) + tilt);
   }
 };
 
-/// The homogeneous motion since the box was another: that of the walls, or of the periodic cell.
+/// The homogeneous motion since the box was another: F = H H_then^-1.
 KOKKOS_INLINE_FUNCTION AffineFrame frame_since(Box const& now, Box const& then) {
   AffineFrame f;
-  if (now.periodic()) {
-    f.centre_x = f.reference_centre_x = now.cell.left;
-    f.centre_y = f.reference_centre_y = now.cell.bottom;
-    f.stretch_x = now.cell.width / then.cell.width;
-    f.stretch_y = now.cell.height / then.cell.height;
-    return f;
-  }
-  Walls const &walls = now.walls, &before = then.walls;
-  f.centre_x = walls.middle(left, right);
-  f.centre_y = walls.middle(bottom, top);
-  f.reference_centre_x = before.middle(left, right);
-  f.reference_centre_y = before.middle(bottom, top);
-  f.stretch_x = walls.width() / before.width();
-  f.stretch_y = walls.height() / before.height();
-  f.gradient_x = (walls.velocity[right] - walls.velocity[left]) / walls.width();
-  f.gradient_y = (walls.velocity[top] - walls.velocity[bottom]) / walls.height();
-  f.drift_x = walls.mean_velocity(left, right);
-  f.drift_y = walls.mean_velocity(bottom, top);
+  f.centre_x = now.x;
+  f.centre_y = now.y;
+  f.reference_centre_x = then.x;
+  f.reference_centre_y = then.y;
+  f.stretch.xx = now.edges.xx / then.edges.xx;
+  f.stretch.yy = now.edges.yy / then.edges.yy;
+  f.stretch.xy = (now.edges.xy - f.stretch.xx * then.edges.xy) / then.edges.yy;
+  f.gradient = now.rate;
+  f.drift_x = now.drift_x;
+  f.drift_y = now.drift_y;
   return f;
 }
 

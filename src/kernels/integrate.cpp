@@ -60,7 +60,7 @@ struct MotionConstants {
         drift(m.dt.drift),
         per_tick(1 / m.p.mirror.tick),
         frame(m.steps(0).frame) {
-    if (!m.law.in_frame) frame.gradient_x = frame.gradient_y = frame.drift_x = frame.drift_y = 0;
+    if (!m.law.in_frame) frame.gradient = {}, frame.drift_x = frame.drift_y = 0;
   }
 };
 
@@ -79,7 +79,7 @@ struct KickAndDrift : Moving {
     Real* const omega_of = p.omega.data<Real>() + i;
     Lanes const fx = load(p.force_x.data<Real>() + i), fy = load(p.force_y.data<Real>() + i);
     Lanes const x0 = load(&p.x(i)), y0 = load(&p.y(i));
-    Lanes const vx = kicked<Ledger>(load(vx_of), by.frame.velocity_x(x0), fx, inverse_mass, by.damping, by.kick, lost) +
+    Lanes const vx = kicked<Ledger>(load(vx_of), by.frame.velocity_x(x0, y0), fx, inverse_mass, by.damping, by.kick, lost) +
                      select(free, Lanes(by.pull_x), Lanes(0));
     Lanes const vy = kicked<Ledger>(load(vy_of), by.frame.velocity_y(y0), fy, inverse_mass, by.damping, by.kick, lost) +
                      select(free, Lanes(by.pull_y), Lanes(0));
@@ -115,8 +115,12 @@ struct KickAndDriftMixed : Moving {
       places.turn = counted_on(places.turn);
     }
     LanesOfHalves x = load_halves(&p.x(i)), y = load_halves(&p.y(i));
-    V const frame_x = frame_velocity(x, by.frame.centre_x, by.frame.gradient_x, by.frame.drift_x),
-            frame_y = frame_velocity(y, by.frame.centre_y, by.frame.gradient_y, by.frame.drift_y);
+    AffineFrame const& frame = by.frame;
+    V const from_x = from_centre(x, frame.centre_x), from_y = from_centre(y, frame.centre_y);
+    // Velocity of the homogeneous motion, from the exact distances from its centre.
+    V const frame_x = multiply_add(single(frame.gradient.xx), from_x,
+                                   multiply_add(single(frame.gradient.xy), from_y, single(frame.drift_x))),
+            frame_y = multiply_add(single(frame.gradient.yy), from_y, single(frame.drift_y));
     V const of_force = inverse_mass * by.kick;
     V lost(0);
     vx = kicked_mixed(vx, frame_x, load(p.force_x.data<float>() + i), of_force, by, lost);
@@ -152,11 +156,11 @@ struct KickAndDriftMixed : Moving {
     return after;
   }
 
-  /// Velocity of the homogeneous motion at these places (AffineFrame), from their exact distances from its centre.
-  KOKKOS_FORCEINLINE_FUNCTION static V frame_velocity(LanesOfHalves from_centre, Coord centre, Real gradient, Real drift) {
-    for (Lanes& half : from_centre.of) half = half - Lanes(centre);
-    return multiply_add(V(static_cast<R>(gradient)), in_single(from_centre), V(static_cast<R>(drift)));
+  KOKKOS_FORCEINLINE_FUNCTION static V from_centre(LanesOfHalves places, Coord centre) {
+    for (Lanes& half : places.of) half = half - Lanes(centre);
+    return in_single(places);
   }
+  KOKKOS_FORCEINLINE_FUNCTION static V single(Real number) { return V(static_cast<R>(number)); }
 
   /// Their pairs have been anchored anew: the discs count their turns from now on.
   CLATHRA_COLD_FUNCTION void count_on(MaskOf<V> const& far, std::size_t i) const {

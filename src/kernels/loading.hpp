@@ -1,24 +1,8 @@
 #pragma once
 /// How the walls move: held, driven at a strain rate, or steered to a stress (servo walls).
-#include "kernels/box.hpp"
+#include "kernels/walls.hpp"
 
 namespace clathra {
-
-/// What the walls feel, summed without regard to order (fixed point).
-struct WallReactions {
-  Real normal[wall_count] = {0, 0, 0, 0};  ///< force pressing the wall outward [N/m], >= 0
-  Real shear[wall_count] = {0, 0, 0, 0};   ///< along +y on left/right, along +x on bottom/top [N/m]
-  int contacts[wall_count] = {0, 0, 0, 0};
-};
-
-/// Mean wall stresses [Pa]: sigma_x from left and right over the height, sigma_y from bottom and top over the width.
-struct WallStress {
-  Real x = 0, y = 0;
-};
-KOKKOS_INLINE_FUNCTION WallStress wall_stress(Walls const& walls, WallReactions const& reactions) {
-  return {0.5 * (reactions.normal[left] + reactions.normal[right]) / walls.height(),
-          0.5 * (reactions.normal[bottom] + reactions.normal[top]) / walls.width()};
-}
 
 /// Constants of the servo: a proportional part limited by the stiffness of the discs that touch the wall, and an integral part
 /// that takes over the speed at which the wall must go on moving (a proportional servo alone keeps an error proportional to that

@@ -1,7 +1,7 @@
 #pragma once
 /// What is measured on a specimen between steps. All sums are order-free.
 #include "kernels/pair_state.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/wall_forces.hpp"
 
 namespace clathra {
 

@@ -72,7 +72,7 @@ struct ScanSlices {
   KOKKOS_FUNCTION void operator()(int slice, std::int64_t& sum, bool const final) const {
     if (final) slice_start(slice) = static_cast<int>(sum);
     if (slice == slices) {
-      if (final) sizes(blocks_of_rows) = sum;
+      if (final) sizes(0) = sum;
       return;
     }
     int longest = 0;
@@ -230,8 +230,9 @@ Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old, Scra
   return slot;
 }
 
-SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& reach, OldRows& old, Field<int> const& slot,
-                            ContactRows& rows, Faults const& faults, Field<std::int64_t> const& sizes, Scratch& scratch) {
+std::vector<std::int64_t> find_neighbours(ParticleSoA const& particles, SearchReach const& reach, OldRows& old,
+                                          Field<int> const& slot, ContactRows& rows, Faults const& faults,
+                                          Field<std::int64_t> const& sizes, Scratch& scratch) {
   auto const owned = static_cast<std::size_t>(particles.owned);
   HistoryFormat const& format = old.here.features.format;
   int const slices = format.slice_count(particles.owned);
@@ -241,7 +242,7 @@ SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& rea
   found.features = old.here.features;
   found.length = scratch.take<RowLength>("rows.length", owned);
   found.slice_start = scratch.take<int>("rows.slice_start", static_cast<std::size_t>(slices) + 1);
-  SearchSizes needed;
+  std::vector<std::int64_t> read;
   Field<int> source;
   {
     Lists const lists(particles, old.here, scratch);
@@ -250,11 +251,10 @@ SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& rea
                          CountNeighbours{search, lists.found, found.length, faults});
     Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, slices + 1),
                           ScanSlices{found.length, found.slice_start, sizes, particles.owned, slices, format.slice_width()});
-    auto const read = host_copy(sizes);
-    needed = {read(blocks_of_rows), static_cast<int>(read(discs_near_walls))};
-    require_countable(needed.blocks * format.slice_width(), particles.all());
-    std::size_t const entries = static_cast<std::size_t>(needed.blocks) * slice_width,
-                      size = room_for(entries, held, slice_width);
+    read = on_host(sizes, sizes.extent(0));
+    std::int64_t const blocks = read[0];
+    require_countable(blocks * format.slice_width(), particles.all());
+    std::size_t const entries = static_cast<std::size_t>(blocks) * slice_width, size = room_for(entries, held, slice_width);
     found.entries = static_cast<int>(entries);
     found.neighbour = scratch.take<int>("rows.neighbour", size);
     source = scratch.take<int>("rows.source", size);
@@ -262,7 +262,7 @@ SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& rea
   }
   carry_history(old, found, source, scratch);
   rows = found;
-  return needed;
+  return read;
 }
 
 }  // namespace clathra

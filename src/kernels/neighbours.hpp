@@ -1,5 +1,7 @@
 #pragma once
 /// Neighbour search: rows of nearby discs, with the history of contacts and bonds carried from the old rows to the new.
+#include <vector>
+
 #include "kernels/bond_law.hpp"
 #include "kernels/cell_grid.hpp"
 #include "kernels/contacts.hpp"
@@ -42,14 +44,6 @@ OldRows take_as_old(ParticleSoA const& particles, ContactRows& rows);
 /// [owned] the slot of each disc, before discs move: its index.
 Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old, Scratch& scratch);
 
-/// What the host has to know of a search before it goes on, counted by kernels and read at once.
-struct SearchSizes {
-  std::int64_t blocks = 0;  ///< of slice_width() entries in the rows
-  int near_walls = 0;       ///< discs
-};
-/// Their places in what the kernels write.
-enum SizeOf : int { blocks_of_rows, discs_near_walls, sizes_of_search };
-
 /// How far a search looks, the same on all ranks.
 struct SearchReach {
   Real largest_radius, largest_skin;  ///< [m]
@@ -60,11 +54,14 @@ struct SearchReach {
 /// Makes rows of all pairs closer than the sum of their skins (surface to surface), plus all bonded pairs at any distance.
 /// History is kept by the pair's ids.
 /// @param old  loses its history;  @param slot  [owned] where the old row of each disc is
-/// @param sizes  [sizes_of_search] what the host then reads; that of the walls' has been set
+/// @param sizes  what the host then reads at once: the first becomes the number of blocks of slice_width() entries, the others
+/// have been set by what was enqueued before
+/// @return these
 /// Row overflow (more than `longest_row` neighbours) is reported as a fault.
 /// @throws TooManyToNumber by require_countable()
-SearchSizes find_neighbours(ParticleSoA const& particles, SearchReach const& reach, OldRows& old, Field<int> const& slot,
-                            ContactRows& rows, Faults const& faults, Field<std::int64_t> const& sizes, Scratch& scratch);
+std::vector<std::int64_t> find_neighbours(ParticleSoA const& particles, SearchReach const& reach, OldRows& old,
+                                          Field<int> const& slot, ContactRows& rows, Faults const& faults,
+                                          Field<std::int64_t> const& sizes, Scratch& scratch);
 
 /// Intact bonds whose break this rank would report: those of its discs to discs with a larger id.
 int count_own_bonds(ParticleSoA const& particles, ContactRows const& rows);

@@ -2,7 +2,7 @@
 /// The pairs that carry force, once each, as a list; and what they do to each disc. For files and pictures, not for the time
 /// step.
 #include "kernels/forces.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/wall_forces.hpp"
 
 namespace clathra {
 

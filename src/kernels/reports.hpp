@@ -34,7 +34,7 @@ struct BreakLog {
     y(slot) = at_y;
     if (details.extent(0) == 0) return;
     details(slot) = details_of_it();
-    height(slot) = steps(0).box.height();
+    height(slot) = steps(0).box().height();
   }
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The network of contacts, bonds and walls as springs: what the stability of the time step depends on.
 #include "kernels/pair_state.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/wall_forces.hpp"
 
 namespace clathra {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What a step changes beside the discs, in the memory of the device: between steps nobody has to ask the host.
 #include "kernels/exact_sum.hpp"
-#include "kernels/loading.hpp"
+#include "kernels/moving_walls.hpp"
 
 namespace clathra {
 
@@ -11,10 +11,7 @@ struct ReferenceState {
   Real displacement = 1e300;  ///< the largest since then, at most, beside the homogeneous motion, as a share of a skin
 
   /// What the homogeneous motion since then brings two discs nearer, relatively.
-  KOKKOS_INLINE_FUNCTION Real closing(Box const& now) const {
-    AffineFrame const f = frame_since(now, box);
-    return lane_max(lane_abs(1 - f.stretch_x), lane_abs(1 - f.stretch_y));
-  }
+  KOKKOS_INLINE_FUNCTION Real closing(Box const& now) const { return frame_since(now, box).closing(); }
   /// Whether two discs whose gap was wider than a share of both their skins could touch: by their displacements, as a share of
   /// their skins, and what the homogeneous motion itself brings them nearer, as a share of the least skin.
   /// @param reach  of a pair, in skins;  @param skin_fraction  that share
@@ -50,11 +47,6 @@ struct StepOrders {
   bool host_synchronous = true;  ///< the host has a part in each step: other ranks, images of discs, a search
 };
 
-/// The largest sigma_y - sigma_x after any step since somebody asked [Pa], and the height of the box then [m].
-struct LargestDeviator {
-  Real q = -1e300, height = 0;
-};
-
 inline constexpr int numbers_of_rebuild_inputs = 15;
 
 /// The largest of all discs.
@@ -65,11 +57,10 @@ struct LargestDisplacements {
 };
 
 struct StepState {
-  Box box;
-  WallReactions reactions;
-  Loading loading;
-  Real time = 0, boundary_work = 0;  ///< [s], [J/m]
-  LargestDeviator largest;
+  // The boundaries:
+  MovingWalls walls;
+  Box cell;       ///< a periodic one, in place of the walls
+  Real time = 0;  ///< [s]
   std::int64_t step = 0;
   ReferenceState at_search, at_update;  ///< the last neighbour search, the last update of the time step
   StepOrders orders;
@@ -85,10 +76,14 @@ struct StepState {
   std::int64_t out_of_range = 0;                                ///< terms of the forces on the walls
   std::int64_t rebuild_inputs[numbers_of_rebuild_inputs] = {};  ///< where a search is due (rebuild_inputs.hpp)
 
+  KOKKOS_INLINE_FUNCTION bool periodic() const { return cell.periodic; }
+  KOKKOS_INLINE_FUNCTION Box box() const { return periodic() ? cell : box_within(walls.place); }
+
   /// To be called before steps, and done by a step for the next one.
   KOKKOS_INLINE_FUNCTION void begin_step() {
-    Box moved = box;
-    moved.walls.move(orders.dt);
+    Walls next = walls.place;
+    next.move(orders.dt);
+    Box const moved = periodic() ? cell : box_within(next);
     frame = frame_since(moved, at_search.box);
     if constexpr (for_gpu) {
       frame_since_update = frame_since(moved, at_update.box);
@@ -104,7 +99,7 @@ struct StepState {
   /// After kick and drift: the box has moved too.
   KOKKOS_INLINE_FUNCTION void end_move(LargestDisplacements const& largest_of) {
     step_displacement = largest_of.of_step;
-    box.walls.move(orders.dt);
+    walls.place.move(orders.dt);
     if (orders.host_synchronous) {
       stop = StepStop::after_move;
       return;
@@ -119,38 +114,24 @@ struct StepState {
   /// By each disc's own displacement. @param share2  (d / skin)^2 of the disc with the largest
   KOKKOS_INLINE_FUNCTION bool is_outdated(ReferenceState& reference, Real share2, Real skin_fraction) const {
     reference.displacement = lane_sqrt(share2);
-    return reference.is_outdated(box, orders.reach, skin_fraction);
+    return reference.is_outdated(box(), orders.reach, skin_fraction);
   }
   /// Whether the displacements since the last search, and since the last update of the time step, may have become too large.
   KOKKOS_INLINE_FUNCTION void add_displacements() {
-    Walls const& walls = box.walls;
-    Real const of_frame = box.periodic() ? 0 : (walls.largest_speed(left, right) + walls.largest_speed(bottom, top)) * orders.dt;
-    relative_displacement = (step_displacement + of_frame) / orders.least_skin;
-    search_may_be_due = at_search.add_displacement(box, relative_displacement, orders.reach, 1);
+    Box const now = box();
+    relative_displacement = (step_displacement + now.largest_speed * orders.dt) / orders.least_skin;
+    search_may_be_due = at_search.add_displacement(now, relative_displacement, orders.reach, 1);
     update_may_be_due =
-        orders.follows_limit && at_update.add_displacement(box, relative_displacement, orders.reach, orders.skin_fraction);
+        orders.follows_limit && at_update.add_displacement(now, relative_displacement, orders.reach, orders.skin_fraction);
     search_is_due = update_is_due = false;
   }
 
-  /// After the forces of the walls: adds up their work, keeps the largest deviator stress and steers them.
-  KOKKOS_INLINE_FUNCTION void end_step(WallReactions const& now) {
-    // The mean force over the step times the way: what leapfrog's kinetic energy sees to the digit.
-    for (int wall = 0; wall < wall_count; ++wall) {
-      Real const outward = wall == right || wall == top ? 1 : -1;
-      boundary_work -= 0.5 * (reactions.normal[wall] + now.normal[wall]) * outward * box.walls.velocity[wall] * orders.dt;
-    }
-    reactions = now;
-    WallStress const stress = wall_stress(box.walls, reactions);
-    if (stress.y - stress.x > largest.q) largest = {stress.y - stress.x, box.height()};
-    loading.steer(box.walls, stress, reactions, orders.dt);
-    end_step();
-  }
-  /// The same in a periodic cell.
+  /// After the forces of all boundaries.
   KOKKOS_INLINE_FUNCTION void end_step() {
     time += orders.dt;
     ++step;
     begin_step();
-    if (box.height() <= orders.height) stop = StepStop::low_box;
+    if (box().height() <= orders.height) stop = StepStop::low_box;
   }
 };
 

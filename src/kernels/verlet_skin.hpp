@@ -7,7 +7,7 @@ namespace clathra {
 
 /// Speed of a disc against the homogeneous motion [m/s].
 KOKKOS_INLINE_FUNCTION Real wandering_speed(ParticleSoA const& p, AffineFrame const& frame, int i) {
-  Real const vx = p.vx(i) - frame.velocity_x(p.x(i)), vy = p.vy(i) - frame.velocity_y(p.y(i));
+  Real const vx = p.vx(i) - frame.velocity_x(p.x(i), p.y(i)), vy = p.vy(i) - frame.velocity_y(p.y(i));
   return lane_sqrt(vx * vx + vy * vy);
 }
 
@@ -32,8 +32,8 @@ void assign_verlet_skins(ParticleSoA const& particles, AffineFrame const& frame,
 KOKKOS_FORCEINLINE_FUNCTION Real nonaffine_displacement2(ParticleSoA const& p, Field<Coord> const& x, Field<Coord> const& y,
                                                          AffineFrame const& frame, int group) {
   auto const i = static_cast<std::size_t>(group) * lane_count;
-  Lanes const dx = load(&p.x(i)) - (frame.centre_x + frame.stretch_x * (load(&x(i)) - frame.reference_centre_x));
-  Lanes const dy = load(&p.y(i)) - (frame.centre_y + frame.stretch_y * (load(&y(i)) - frame.reference_centre_y));
+  Lanes const x_then = load(&x(i)), y_then = load(&y(i));
+  Lanes const dx = load(&p.x(i)) - frame.mapped_x(x_then, y_then), dy = load(&p.y(i)) - frame.mapped_y(y_then);
   Lanes const skin = load(&p.verlet_skin(i));
   Lanes share2 = (dx * dx + dy * dy) / (skin * skin);
   for (auto l = p.owned - static_cast<int>(i); l < lane_count; ++l) set_lane(share2, l, 0);  // ghosts share the last group

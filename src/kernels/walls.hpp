@@ -1,22 +1,42 @@
 #pragma once
-/// Four rigid walls around the specimen, with or without friction.
-#include "kernels/contacts.hpp"
-#include "kernels/grain_contact.hpp"
-#include "kernels/reports.hpp"
-#include "kernels/step_graph.hpp"
-#include "kernels/step_state.hpp"
+/// Four rigid walls: where they stand, how they move, what they feel.
+#include "kernels/box.hpp"
 
 namespace clathra {
 
-struct WallLaw {
-  Real normal_stiffness = 3.0e8;  ///< k_n of a wall contact; also used with a dashpot ratio
-  Real shear_stiffness = 2.0e8;
-  Real friction = 0;       ///< mu_w; 0 = smooth: no shear history exists
-  Real damping_ratio = 0;  ///< xi of the normal dashpot
+inline constexpr int wall_count = 4;
+enum WallName : int { left = 0, right = 1, bottom = 2, top = 3 };
 
-  /// A wall contact follows the law of grains, without rolling.
-  KOKKOS_INLINE_FUNCTION GrainLaw as_grain() const { return {normal_stiffness, shear_stiffness, friction, 0, damping_ratio}; }
+/// x of left and right, y of bottom and top. A wall that is absent stands at infinity.
+struct Walls {
+  Coord position[wall_count] = {-1e9, 1e9, -1e9, 1e9};  ///< [m]
+  Real velocity[wall_count] = {0, 0, 0, 0};             ///< [m/s]
+  KOKKOS_INLINE_FUNCTION Coord width() const { return position[right] - position[left]; }
+  KOKKOS_INLINE_FUNCTION Coord height() const { return position[top] - position[bottom]; }
+  KOKKOS_INLINE_FUNCTION Coord middle(WallName a, WallName b) const { return 0.5 * (position[a] + position[b]); }
+  KOKKOS_INLINE_FUNCTION Real mean_velocity(WallName a, WallName b) const { return 0.5 * (velocity[a] + velocity[b]); }
+  /// The larger speed of two walls [m/s], >= 0.
+  KOKKOS_INLINE_FUNCTION Real largest_speed(WallName a, WallName b) const {
+    return lane_max(lane_abs(velocity[a]), lane_abs(velocity[b]));
+  }
+  /// Moves them by their velocities over one step of length dt [s].
+  KOKKOS_INLINE_FUNCTION void move(Real dt) {
+    for (int wall = 0; wall < wall_count; ++wall) position[wall] += velocity[wall] * dt;
+  }
 };
+
+KOKKOS_INLINE_FUNCTION Box box_within(Walls const& walls) {
+  Box box;
+  box.x = walls.middle(left, right);
+  box.y = walls.middle(bottom, top);
+  box.edges = {walls.width(), 0, walls.height()};
+  box.rate = {(walls.velocity[right] - walls.velocity[left]) / walls.width(), 0,
+              (walls.velocity[top] - walls.velocity[bottom]) / walls.height()};
+  box.drift_x = walls.mean_velocity(left, right);
+  box.drift_y = walls.mean_velocity(bottom, top);
+  box.largest_speed = walls.largest_speed(left, right) + walls.largest_speed(bottom, top);
+  return box;
+}
 
 /// A wall as a disc meets it. L is a lane type.
 template <class L>
@@ -35,42 +55,20 @@ KOKKOS_FORCEINLINE_FUNCTION WallFace<L> wall_face(Walls const& walls, int wall, 
           upright ? 0 : speed};
 }
 
-/// The discs near a wall, in no particular order, with the shear history of their four possible wall contacts.
-struct WallContacts {
-  int size = 0;
-  bool rough = false;
-  Field<int> disc;                                      ///< [size]
-  Kokkos::View<Real* [wall_count], MemorySpace> shear;  ///< [size][4] F_s [N/m], empty for smooth walls
-  Field<Real> history;                                  ///< where it stands
+/// What the walls feel, summed without regard to order (fixed point).
+struct WallReactions {
+  Real normal[wall_count] = {0, 0, 0, 0};  ///< force pressing the wall outward [N/m], >= 0
+  Real shear[wall_count] = {0, 0, 0, 0};   ///< along +y on left/right, along +x on bottom/top [N/m]
+  int contacts[wall_count] = {0, 0, 0, 0};
 };
 
-/// The shear of rough walls by disc, while discs change their places: [owned] each, empty for smooth walls.
-struct WallShear {
-  Field<Real> of[wall_count];
+/// Mean wall stresses [Pa]: sigma_x from left and right over the height, sigma_y from bottom and top over the width.
+struct WallStress {
+  Real x = 0, y = 0;
 };
-WallShear wall_shear_of_discs(ParticleSoA const& particles, WallContacts const& contacts, Scratch& scratch);
-
-/// Lists the discs whose surface is within twice their skin of a wall (found again after a restart, discs may have moved away
-/// from it by one and may come back by two).
-/// @param number  [1] on the device: how many; the list is not whole until the host has read it
-Field<int> list_near_walls(ParticleSoA const& particles, Walls const& walls, Field<std::int64_t> const& number, Scratch& scratch);
-
-/// The contacts of the listed discs; those of a rough wall have the shear history `shear`.
-WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction, WallShear const& shear, Scratch& scratch);
-
-/// Adds the forces of the walls, where the state of the steps has them, to the discs near them, and ends the step there unless
-/// the host has a part in it (StepState). A wall is a disc of infinite radius without rolling. A disc whose centre lies behind a
-/// wall (overlap above its radius) is a fault, as between discs.
-/// @param losses  sliding and dashpot are written when their fields exist;  @param steps  nothing happens while they are stopped
-/// @param launches  where the kernel goes
-void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
-                     Dissipation const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
-                     StepLaunches const& launches = {});
-
-/// What the walls have felt of the discs of all ranks.
-/// @throws SumOutOfRange where a reaction is not finite
-WallReactions wall_reactions(DeviceSteps const& steps, Summation const& sums);
-/// The same of a step that found so many terms out of range: throws where there are any.
-void require_reactions_in_range(std::int64_t out_of_range);
+KOKKOS_INLINE_FUNCTION WallStress wall_stress(Walls const& walls, WallReactions const& reactions) {
+  return {0.5 * (reactions.normal[left] + reactions.normal[right]) / walls.height(),
+          0.5 * (reactions.normal[bottom] + reactions.normal[top]) / walls.width()};
+}
 
 }  // namespace clathra

@@ -21,23 +21,24 @@ TEST(DeviceLike, AnAccessOfTheHostIsSeen) {
 
 /// All that a run asks a simulation for.
 void use(Simulation& sim) {
-  (void)sim.measures();
-  (void)sim.losses();
-  (void)sim.hash();
+  (void)sim.assembly().measures();
+  (void)sim.assembly().losses();
+  (void)sim.assembly().hash();
   (void)sim.specimen();
-  (void)sim.deepest_overlap();
-  (void)sim.stable_time_step();
-  (void)sim.largest_frequency();
-  (void)sim.broken_bonds();
-  (void)sim.break_events(0);
-  (void)list_pairs(sim.particles(), sim.rows(), sim.laws().contact);
-  (void)disc_loads(sim.particles(), sim.rows(), sim.laws().contact, sim.walls(), sim.wall_contacts(), sim.laws().wall);
+  (void)sim.assembly().deepest_overlap();
+  (void)sim.assembly().stable_time_step();
+  (void)sim.assembly().largest_frequency();
+  (void)sim.assembly().broken_bonds();
+  (void)sim.assembly().break_events(0);
+  (void)list_pairs(sim.assembly().particles, sim.assembly().rows, sim.assembly().laws.contact);
+  (void)disc_loads(sim.assembly().particles, sim.assembly().rows, sim.assembly().laws.contact, sim.assembly().walls(),
+                   sim.assembly().wall_contacts(), sim.assembly().laws.wall);
 }
 
 /// Nothing so far, and it would have been seen.
 void expect_none(HostAccessWatch const& watch, Simulation const& sim) {
   EXPECT_EQ(watch.report(), "");
-  EXPECT_GE(sim.particles().id(0), 0);
+  EXPECT_GE(sim.assembly().particles.id(0), 0);
   EXPECT_NE(watch.report(), "");
 }
 
@@ -50,18 +51,17 @@ TEST_P(HostAccess, IsNotWhatABondedSpecimenThatBreaksNeeds) {
   Specimen const s = bonded_patch(Composite::parallel);
   Simulation sim = ready(s, Composite::parallel, {}, nullptr, GetParam());
   sim.set_ledger(true);
-  sim.keep_break_events(true);
-  sim.keep_break_details();
+  sim.keep_breaks(BreakRecord::details);
   sim.mark_start();
   sim.choose_time_step({});
-  std::int64_t const searches = sim.upkeep().searches();
+  std::int64_t const searches = sim.assembly().upkeep.searches();
   for (int n = 0; n < 600; ++n) sim.step();
-  EXPECT_GT(sim.upkeep().searches(), searches);
-  EXPECT_GT(sim.broken_bonds(), 0);
+  EXPECT_GT(sim.assembly().upkeep.searches(), searches);
+  EXPECT_GT(sim.assembly().broken_bonds(), 0);
   use(sim);
-  SimulationLaws const laws = sim.laws();
+  SimulationLaws const laws = sim.assembly().laws;
   Simulation resumed(sim.state(), laws, {});
-  EXPECT_EQ(resumed.hash(), sim.hash());
+  EXPECT_EQ(resumed.assembly().hash(), sim.assembly().hash());
   expect_none(watch, resumed);
 }
 

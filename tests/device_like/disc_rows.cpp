@@ -22,17 +22,17 @@ TEST(DiscRows, AreWhatTheFieldsHoldAfterWhateverChangesThem) {
   Specimen const s = bonded_patch(Composite::parallel);
   Simulation sim = ready(s, Composite::parallel);
   sim.step(1);
-  expect_rows_as_fields(sim.particles(), "a step");
-  std::int64_t const searches = sim.upkeep().searches();
+  expect_rows_as_fields(sim.assembly().particles, "a step");
+  std::int64_t const searches = sim.assembly().upkeep.searches();
   sim.step(600);
-  ASSERT_GT(sim.upkeep().searches(), searches);
-  expect_rows_as_fields(sim.particles(), "a search");
+  ASSERT_GT(sim.assembly().upkeep.searches(), searches);
+  expect_rows_as_fields(sim.assembly().particles, "a search");
   sim.add_uniform_strain_rate(3, -4);
-  expect_rows_as_fields(sim.particles(), "a strain rate");
+  expect_rows_as_fields(sim.assembly().particles, "a strain rate");
   sim.strain(1e-4, -2e-4);
-  expect_rows_as_fields(sim.particles(), "a strain");
+  expect_rows_as_fields(sim.assembly().particles, "a strain");
   sim.stop_discs();
-  expect_rows_as_fields(sim.particles(), "a stop");
+  expect_rows_as_fields(sim.assembly().particles, "a stop");
 }
 
 TEST(DiscRows, AreWhatTheFieldsHoldOfTheImagesOfAPeriodicCell) {
@@ -42,10 +42,10 @@ TEST(DiscRows, AreWhatTheFieldsHoldOfTheImagesOfAPeriodicCell) {
   sim.time_step = 1e-7;
   for (int n = 0; n < 3; ++n) {
     sim.strain(3e-3, 2e-3);
-    expect_rows_as_fields(sim.particles(), "a strain");
+    expect_rows_as_fields(sim.assembly().particles, "a strain");
     sim.step(100);
-    ASSERT_GT(sim.particles().ghosts, 0);
-    expect_rows_as_fields(sim.particles(), "steps");
+    ASSERT_GT(sim.assembly().particles.ghosts, 0);
+    expect_rows_as_fields(sim.assembly().particles, "steps");
   }
 }
 

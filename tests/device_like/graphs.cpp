@@ -18,32 +18,32 @@ Simulation sheared(Precision precision, int at_once) {
   go_on();
   sim.time_step *= 0.9;
   go_on();
-  SimulationLaws laws = sim.laws();
+  SimulationLaws laws = sim.assembly().laws;
   laws.contact.grain.friction = 0.3;
   sim.set_laws(laws);
   go_on();
   sim.set_ledger(true);
   go_on();
-  sim.keep_break_events(true);
+  sim.keep_breaks(BreakRecord::events);
   go_on();
-  sim.keep_break_details();
+  sim.keep_breaks(BreakRecord::details);
   go_on();
   return sim;
 }
 
 TEST_P(Graphs, GiveTheStateOfStepsOneByOne) {
   Simulation const many = sheared(GetParam(), 640), single = sheared(GetParam(), 1);
-  EXPECT_EQ(many.hash(), single.hash());
-  EXPECT_EQ(many.steps(), single.steps());
-  EXPECT_EQ(many.broken_bonds(), single.broken_bonds());
-  EXPECT_GT(many.broken_bonds(), 0);
-  EXPECT_EQ(many.losses().sliding, single.losses().sliding);
+  EXPECT_EQ(many.assembly().hash(), single.assembly().hash());
+  EXPECT_EQ(many.assembly().steps(), single.assembly().steps());
+  EXPECT_EQ(many.assembly().broken_bonds(), single.assembly().broken_bonds());
+  EXPECT_GT(many.assembly().broken_bonds(), 0);
+  EXPECT_EQ(many.assembly().losses().sliding, single.assembly().losses().sliding);
   auto const steps_of = [](std::vector<BreakEvent> const& events) {
     std::vector<std::int64_t> steps;
     for (BreakEvent const& event : events) steps.push_back(event.step);
     return steps;
   };
-  EXPECT_EQ(steps_of(many.break_events(0)), steps_of(single.break_events(0)));
+  EXPECT_EQ(steps_of(many.assembly().break_events(0)), steps_of(single.assembly().break_events(0)));
   EXPECT_GE(many.graph_runs(), 6 * 4);
   EXPECT_EQ(single.graph_runs(), 0);
 }

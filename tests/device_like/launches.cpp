@@ -18,10 +18,10 @@ Asked for_steps(Precision precision, int steps) {
   sim.loading().x = sim.loading().y = AxisDrive::held();
   sim.set_skin(0.3 * grain_d50);
   sim.step();
-  std::int64_t const searches = sim.upkeep().searches();
+  std::int64_t const searches = sim.assembly().upkeep.searches();
   LaunchCount const count;
   sim.step(steps);
-  EXPECT_EQ(sim.upkeep().searches(), searches);
+  EXPECT_EQ(sim.assembly().upkeep.searches(), searches);
   return {count.launches(), count.round_trips(), count.allocations()};
 }
 

@@ -14,8 +14,8 @@ namespace clathra {
 Snapshot BiaxialTest::snapshot() const {
   Simulation const& s = *state_->simulation;
   Snapshot snapshot = take_snapshot(s);
-  snapshot.step = s.steps() - state_->first_step;
-  snapshot.time = s.time() - state_->start_time;
+  snapshot.step = s.assembly().steps() - state_->first_step;
+  snapshot.time = s.assembly().time() - state_->start_time;
   snapshot.eps1 = state_->eps1();
   snapshot.eps_v = state_->eps_v();
   snapshot.d50 = state_->d50;
@@ -25,31 +25,31 @@ Snapshot BiaxialTest::snapshot() const {
 HistoryRow BiaxialTest::record() {
   Simulation& s = *state_->simulation;
   Measures const& m = state_->measures();
-  WallStress const stress = s.stress();
+  WallStress const stress = s.assembly().stress();
   HistoryRow row;
-  row.step = s.steps() - state_->first_step;
-  row.time_s = s.time() - state_->start_time;
+  row.step = s.assembly().steps() - state_->first_step;
+  row.time_s = s.assembly().time() - state_->start_time;
   row.eps1 = state_->eps1();
   row.eps_v = state_->eps_v();
   row.sigma1_Pa = stress.y;
   row.sigma3_Pa = stress.x;
   row.q_Pa = stress.y - stress.x;
   row.p_Pa = 0.5 * (stress.y + stress.x);
-  row.contact_sigma1_Pa = m.stress_area_yy / s.area();
-  row.contact_sigma3_Pa = m.stress_area_xx / s.area();
-  row.void_ratio = s.void_ratio();
+  row.contact_sigma1_Pa = m.stress_area_yy / s.assembly().area();
+  row.contact_sigma3_Pa = m.stress_area_xx / s.assembly().area();
+  row.void_ratio = s.assembly().void_ratio();
   row.bonds_intact = std::llround(m.bonded);
   row.intact_initial_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
   row.intact_interacting_pct = m.interacting > 0 ? 100.0 * m.bonded / m.interacting : 0;
-  row.broken = s.break_counts();
-  row.coordination = 2 * m.interacting / s.discs();
+  row.broken = s.assembly().break_counts();
+  row.coordination = 2 * m.interacting / s.assembly().discs();
   row.mechanical_coordination = m.mechanical_coordination();
   row.inertial_number =
-      state_->rate.strain_rate * state_->d50 * std::sqrt(s.facts().moving_density() / std::max(row.sigma3_Pa, 1.0));
-  row.wave_number = wave_number(state_->scene, state_->rate.strain_rate, s.walls().height(), row.void_ratio,
-                                state_->scene.grains.density * (1 + s.facts().added_mass));
-  row.unbalanced = m.unbalanced_ratio(s.discs());
-  LargestDeviator const& largest = s.largest_deviator();
+      state_->rate.strain_rate * state_->d50 * std::sqrt(s.assembly().facts.moving_density() / std::max(row.sigma3_Pa, 1.0));
+  row.wave_number = wave_number(state_->scene, state_->rate.strain_rate, s.assembly().walls().height(), row.void_ratio,
+                                state_->scene.grains.density * (1 + s.assembly().facts.added_mass));
+  row.unbalanced = m.unbalanced_ratio(s.assembly().discs());
+  LargestDeviator const& largest = s.assembly().now.walls.largest;
   bool const between = largest.q > row.q_Pa;
   row.largest_q_Pa = between ? largest.q : row.q_Pa;
   row.largest_q_eps1 = between ? std::log(state_->height0 / largest.height) : row.eps1;
@@ -62,9 +62,9 @@ HistoryRow BiaxialTest::record() {
 EnergyRow BiaxialTest::energy() {
   Simulation const& s = *state_->simulation;
   Measures const& m = state_->measures();
-  DissipationTotals const lost = s.losses();
+  DissipationTotals const lost = s.assembly().losses();
   EnergyRow row;
-  row.boundary_work = s.boundary_work();
+  row.boundary_work = s.assembly().boundary_work();
   row.kinetic = m.kinetic;
   row.grain_elastic = m.grain_energy;
   row.bond_elastic = m.bond_energy;
@@ -83,16 +83,16 @@ EnergyRow BiaxialTest::energy() {
 }
 
 BreakEvents BiaxialTest::take_events() {
-  BreakEvents events = state_->simulation->detailed_break_events(state_->events_taken);
+  BreakEvents events = state_->simulation->assembly().detailed_break_events(state_->events_taken);
   state_->events_taken += static_cast<int>(events.rows.size());
   for (BreakEvent& event : events.rows) event.step -= state_->first_step;
   return gathered(state_->ranks, std::move(events));
 }
 
 BreakEvents BiaxialTest::events_after(std::int64_t step) const {
-  BreakEvents all = state_->simulation->detailed_break_events(0), later;
+  BreakEvents all = state_->simulation->assembly().detailed_break_events(0), later;
   later.detailed = all.detailed;
-  std::vector<BreakEvent> const pending = state_->simulation->break_events(state_->events_taken);
+  std::vector<BreakEvent> const pending = state_->simulation->assembly().break_events(state_->events_taken);
   for (std::size_t k = 0; k < all.rows.size(); ++k) {
     BreakEvent& event = all.rows[k];
     if (!pending.empty() && !comes_before(event, pending.front())) break;
@@ -127,7 +127,7 @@ TestState BiaxialTest::state() const {
   TestState s;
   s.simulation = t.simulation->state();
   s.events_taken = static_cast<std::size_t>(t.events_taken);
-  s.hash = t.simulation->hash();
+  s.hash = t.simulation->assembly().hash();
   t.for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
   s.preparation = t.preparation;
   s.warnings = t.warnings;
@@ -151,14 +151,14 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
 StageRecord BiaxialTest::plan() const {
   Simulation const& s = *state_->simulation;
   StageRecord plan;
-  plan["discs"] = s.discs();
+  plan["discs"] = s.assembly().discs();
   plan["time_step_s"] = s.time_step;
   plan["strain_rate_per_s"] = state_->rate.strain_rate;
   plan["inertial_number"] = state_->rate.inertial_number;
   plan["wave_number"] = state_->rate.wave_number;
   plan["steps"] = std::ceil(state_->scene.test.axial_strain / (state_->rate.strain_rate * s.time_step));
-  plan["width_m"] = s.walls().width();
-  plan["height_m"] = s.walls().height();
+  plan["width_m"] = s.assembly().walls().width();
+  plan["height_m"] = s.assembly().walls().height();
   return plan;
 }
 

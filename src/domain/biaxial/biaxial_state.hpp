@@ -50,15 +50,15 @@ struct BiaxialTest::State {
     double const last = scene.test.axial_strain * (1 - 1e-9);
     return height0 * std::exp(-std::min({watch.next(), next_record(), last, pause_at})) * (1 + 1e-12);
   }
-  double eps1() const { return std::log(height0 / simulation->walls().height()); }
-  double eps_v() const { return std::log(area0 / simulation->area()); }
+  double eps1() const { return std::log(height0 / simulation->assembly().walls().height()); }
+  double eps_v() const { return std::log(area0 / simulation->assembly().area()); }
   void check();
   /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.
   Measures const& measures();
   double skin(std::vector<double> const& radii) const;  ///< of this rank's discs; collective
   template <class Visit>
   void for_each_number(Visit&& visit);
-  void count_disc_steps() { disc_steps += simulation->steps() * simulation->discs(); }
+  void count_disc_steps() { disc_steps += simulation->assembly().steps() * simulation->assembly().discs(); }
 };
 
 }  // namespace clathra

@@ -86,10 +86,10 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     laws.scaling = mass_scaling(specimen.radius);
     double const skin = this->skin(specimen.radius);
     simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin, ranks);
-    simulation->keep_break_events(scene.output.events || scene.output.takes_snapshots());
+    simulation->keep_breaks(scene.output.events || scene.output.takes_snapshots() ? BreakRecord::events : BreakRecord::counts);
   };
   start_simulation();
-  preparation["void_ratio_before_consolidation"] = simulation->void_ratio();
+  preparation["void_ratio_before_consolidation"] = simulation->assembly().void_ratio();
   consolidate(scene.test.confining_stress, progress);
   if (bond && scene.bond.after_consolidation) {
     count_disc_steps();
@@ -97,24 +97,24 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     simulation.reset();
     bond_specimen(scene, specimen, preparation, ranks);
     start_simulation();
-    double const before = simulation->void_ratio();
+    double const before = simulation->assembly().void_ratio();
     consolidate(scene.test.confining_stress, progress);
-    if (before - simulation->void_ratio() > 0.003 && !scene.run.force) {
+    if (before - simulation->assembly().void_ratio() > 0.003 && !scene.run.force) {
       throw Refused("bonding after consolidation with this composite lets the void ratio drop from " + std::to_string(before) +
-                    " to " + std::to_string(simulation->void_ratio()) +
+                    " to " + std::to_string(simulation->assembly().void_ratio()) +
                     ": bond at low stress, or use composite 'parallel' or 'memory'");
     }
   }
-  preparation["void_ratio_after_consolidation"] = simulation->void_ratio();
+  preparation["void_ratio_after_consolidation"] = simulation->assembly().void_ratio();
   warn_of_density(preparation.at("void_ratio_before_consolidation"), made_under);
-  Measures const m = simulation->measures();
+  Measures const m = simulation->assembly().measures();
   require_grains(m.touching > 0 ? m.deep / m.touching : 0);
 }
 
 /// A specimen that is packed denser by its consolidation, beyond what is elastic, has no longer the void ratio it was made with.
 void BiaxialTest::State::warn_of_density(double before, double made_under) {
   constexpr double plastic = 0.015;
-  double const after = simulation->void_ratio(), elastic = elastic_loss(scene, before, made_under);
+  double const after = simulation->assembly().void_ratio(), elastic = elastic_loss(scene, before, made_under);
   if (before - after <= 1.2 * elastic + plastic) return;
   warnings.push_back("under the confining stress the void ratio fell from " + short_number(before, 4) + " to " +
                      short_number(after, 4) + " (" + short_number(elastic, 2) +
@@ -124,7 +124,7 @@ void BiaxialTest::State::warn_of_density(double before, double made_under) {
 std::string BiaxialTest::State::text_of_scaling() const {
   char text[160];
   std::snprintf(text, sizeof text, "masses are scaled: %.3g %% of the mass of all grains added, moments of inertia times %g",
-                100 * simulation->facts().added_mass, scene.run.inertia_scaling);
+                100 * simulation->assembly().facts.added_mass, scene.run.inertia_scaling);
   return text;
 }
 
@@ -141,28 +141,29 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   constexpr double inertial_number = 2e-4;
   Simulation& s = *simulation;
   prepare_servo(s, stress, inertial_number, d50, scene.run.step_choice());
-  double const closing_rate = strain_rate_of(inertial_number, stress, s.facts().moving_density(), d50);
+  double const closing_rate = strain_rate_of(inertial_number, stress, s.assembly().facts.moving_density(), d50);
   AxisDrive const servo_x = s.loading().x, servo_y = s.loading().y;
   std::int64_t const budget = scene.test.consolidation_steps,
                      most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (closing_rate * s.time_step)));
   if (mean_stress(s) < 0.95 * stress) {
     s.drive(AxisDrive::at_rate(closing_rate), AxisDrive::at_rate(closing_rate), closing_rate, closing_rate);
-    while (mean_stress(s) < 0.98 * stress && s.steps() < most_steps) {
-      s.step(std::min<std::int64_t>(20, most_steps - s.steps()));
-      if (s.steps() % 2000 == 0)
-        report(progress, {"consolidate", 0.5 * mean_stress(s) / stress, "compressing", s.steps() * s.discs()});
+    while (mean_stress(s) < 0.98 * stress && s.assembly().steps() < most_steps) {
+      s.step(std::min<std::int64_t>(20, most_steps - s.assembly().steps()));
+      if (s.assembly().steps() % 2000 == 0)
+        report(progress,
+               {"consolidate", 0.5 * mean_stress(s) / stress, "compressing", s.assembly().steps() * s.assembly().discs()});
     }
     s.drive(servo_x, servo_y, -closing_rate, -closing_rate);
   }
-  at_rest = hold_stress(s, stress, unbalanced_at_rest, budget - s.steps(), progress, "consolidate");
-  preparation["consolidation_steps"] = static_cast<double>(s.steps());
-  preparation["consolidated_unbalanced"] = s.measures().unbalanced_ratio(s.discs());
+  at_rest = hold_stress(s, stress, unbalanced_at_rest, budget - s.assembly().steps(), progress, "consolidate");
+  preparation["consolidation_steps"] = static_cast<double>(s.assembly().steps());
+  preparation["consolidated_unbalanced"] = s.assembly().measures().unbalanced_ratio(s.assembly().discs());
   if (!at_rest) require_rest(budget);
 }
 
 /// The specimen did not come to rest: refused, unless the scene has asked for so many steps or forces it.
 void BiaxialTest::State::require_rest(std::int64_t steps) {
-  std::string const why = unrest(*simulation, simulation->measures(), scene.test.confining_stress, unbalanced_at_rest);
+  std::string const why = unrest(*simulation, simulation->assembly().measures(), scene.test.confining_stress, unbalanced_at_rest);
   std::string const text = "consolidation did not come to rest within " + std::to_string(steps) +
                            " steps: " + (why.empty() ? "it rested for fewer than three checks on end" : why);
   if (scene.test.consolidation_steps == TestScene::usual_consolidation_steps && !scene.run.force)
@@ -173,32 +174,32 @@ void BiaxialTest::State::require_rest(std::int64_t steps) {
 /// Sets platens, discs and servo in motion together, so that the shear starts without a wave, and opens the accounts.
 void BiaxialTest::State::begin_shear() {
   Simulation& s = *simulation;
-  SimulationLaws laws = s.laws();
+  SimulationLaws laws = s.assembly().laws;
   laws.motion.damping = scene.run.damping;
   s.set_laws(laws);
   s.choose_time_step(scene.run.step_choice());
-  double const frequency = s.largest_frequency();
+  double const frequency = s.assembly().largest_frequency();
   preparation["time_step_s"] = s.time_step;
   double const damped = 2 / std::sqrt(1 + scene.run.damping);
   preparation["time_step_margin"] = frequency > 0 ? damped / frequency / s.time_step : 0;
-  preparation["time_step_limit_s"] = s.stable_limit();
-  preparation["added_mass_share"] = s.facts().added_mass;
-  height0 = s.walls().height();
-  area0 = s.area();
-  rate = rate_numbers(scene, d50, height0, s.void_ratio(), s.facts().added_mass);
+  preparation["time_step_limit_s"] = s.assembly().stable_limit();
+  preparation["added_mass_share"] = s.assembly().facts.added_mass;
+  height0 = s.assembly().walls().height();
+  area0 = s.assembly().area();
+  rate = rate_numbers(scene, d50, height0, s.assembly().void_ratio(), s.assembly().facts.added_mass);
   for (std::string const& warning : check_rate(scene, rate)) warnings.push_back(warning);
   if (scene.run.scales_masses_further()) warnings.push_back(text_of_scaling());
   AxisDrive lateral = AxisDrive::at_stress(scene.test.confining_stress, largest_lateral_speed * 0.5 * rate.strain_rate * height0);
-  lateral.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.walls().width();
+  lateral.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.assembly().walls().width();
   s.drive(lateral, AxisDrive::at_rate(rate.strain_rate), -elastic_lateral_ratio * rate.strain_rate, rate.strain_rate);
   if (scene.output.energy) s.set_ledger(true);
-  first_step = s.steps();
-  start_time = s.time();
+  first_step = s.assembly().steps();
+  start_time = s.assembly().time();
   record_interval = scene.test.axial_strain / scene.output.records;
-  if (scene.output.takes_event_details() && has_bonds(scene)) s.keep_break_details();
-  events_taken = static_cast<int>(s.break_events(0).size());
-  int const broken = s.broken_bonds();
-  bonds0 = std::llround(s.measures().bonded) + broken;
+  if (scene.output.takes_event_details() && has_bonds(scene)) s.keep_breaks(BreakRecord::details);
+  events_taken = static_cast<int>(s.assembly().break_events(0).size());
+  int const broken = s.assembly().broken_bonds();
+  bonds0 = std::llround(s.assembly().measures().bonded) + broken;
   if (scene.output.takes_snapshots()) s.mark_start();
   s.watch_deviator();
   preparation["broken_in_consolidation"] = broken;
@@ -206,7 +207,7 @@ void BiaxialTest::State::begin_shear() {
   if (broken > many * static_cast<double>(bonds0))
     warnings.push_back(short_number(100.0 * broken / static_cast<double>(bonds0)) +
                        " % of the bonds broke before the test: the specimen is no longer the one that was bonded");
-  preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.discs();
+  preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.assembly().discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
   if (rate.share < 1) preparation["rate_share"] = rate.share;
   began_quasi_static = at_rest && is_quasi_static(scene, rate);
@@ -235,13 +236,13 @@ bool BiaxialTest::finished() const { return strain_fraction() >= 1 - 1e-9; }
 double BiaxialTest::axial_strain() const { return state_->eps1(); }
 double BiaxialTest::strain_fraction() const { return state_->eps1() / state_->scene.test.axial_strain; }
 std::int64_t BiaxialTest::disc_steps() const {
-  return state_->disc_steps + state_->simulation->steps() * state_->simulation->discs();
+  return state_->disc_steps + state_->simulation->assembly().steps() * state_->simulation->assembly().discs();
 }
 std::int64_t BiaxialTest::shear_disc_steps() const {
-  return (state_->simulation->steps() - state_->first_step) * state_->simulation->discs();
+  return (state_->simulation->assembly().steps() - state_->first_step) * state_->simulation->assembly().discs();
 }
-double BiaxialTest::search_seconds() const { return state_->simulation->upkeep().seconds(); }
-std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->hash(); }
+double BiaxialTest::search_seconds() const { return state_->simulation->assembly().upkeep.seconds(); }
+std::uint64_t BiaxialTest::state_hash() const { return state_->simulation->assembly().hash(); }
 
 Specimen BiaxialTest::specimen() const {
   Specimen specimen = state_->simulation->specimen();
@@ -255,32 +256,32 @@ bool BiaxialTest::advance(std::int64_t most_steps, double pause_at) {
 
 bool BiaxialTest::advance_unobserved(std::int64_t most_steps, double pause_at) {
   Simulation& s = *state_->simulation;
-  for (std::int64_t const last = s.steps() + most_steps; s.steps() < last;) {
-    s.step(last - s.steps(), state_->height_of_next_look(pause_at));
+  for (std::int64_t const last = s.assembly().steps() + most_steps; s.assembly().steps() < last;) {
+    s.step(last - s.assembly().steps(), state_->height_of_next_look(pause_at));
     if (state_->watch.due(state_->eps1())) state_->check();
     bool const due = state_->record_is_due() || finished();
     if (!due && state_->eps1() >= pause_at) {
-      s.throw_if_unstable();
+      s.assembly().throw_if_unstable();
       return false;
     }
     if (!due) continue;
     ++state_->records_due;
-    s.throw_if_unstable();
+    s.assembly().throw_if_unstable();
     return true;
   }
   return false;
 }
 
 Measures const& BiaxialTest::State::measures() {
-  if (measured_after != simulation->steps()) measured = simulation->measures();
-  measured_after = simulation->steps();
+  if (measured_after != simulation->assembly().steps()) measured = simulation->assembly().measures();
+  measured_after = simulation->assembly().steps();
   return measured;
 }
 
 /// A specimen whose grains have mostly moved into each other is none: such a test ends.
 void BiaxialTest::State::require_grains(double deep_share) const {
   if (scene.run.force) return;
-  if (std::string const problem = collapse(simulation->void_ratio(), deep_share); !problem.empty())
+  if (std::string const problem = collapse(simulation->assembly().void_ratio(), deep_share); !problem.empty())
     throw Refused(problem + ": the grains are too soft for this stress, raise grains.kn (--force goes on)");
 }
 
@@ -289,7 +290,7 @@ void BiaxialTest::State::check() {
   ShearCheck const seen = look_at_shear(*simulation, measures(), eps1());
   watch.add(seen);
   dilation.check(eps1(), eps_v());
-  bool const is_sand = collapse(simulation->void_ratio(), seen.deep_share).empty();
+  bool const is_sand = collapse(simulation->assembly().void_ratio(), seen.deep_share).empty();
   preparation["quasi_static"] = began_quasi_static && is_sand && watch.balanced(bonds0 > 0) ? 1 : 0;
   require_grains(seen.deep_share);
   if (!scene.run.scales_masses_further() || watch.is_slow(scene.test.axial_strain) || scene.run.force) return;
@@ -300,7 +301,7 @@ std::vector<std::string> BiaxialTest::shear_warnings() const {
   State const& t = *state_;
   std::vector<std::string> warnings = t.watch.warnings(t.bonds0 > 0);
   if (std::string const soft = stiffness_warning_at(t.scene, t.watch.largest_sigma1()); !soft.empty()) warnings.push_back(soft);
-  if (std::string const problem = collapse(t.simulation->void_ratio(), 0); t.scene.run.force && !problem.empty())
+  if (std::string const problem = collapse(t.simulation->assembly().void_ratio(), 0); t.scene.run.force && !problem.empty())
     warnings.push_back("forced: " + problem);
   constexpr double said = 1.01;  // of the strain that was asked for
   if (finished() && strain_fraction() > said) warnings.push_back(overshoot_text(t.eps1(), t.scene.test.axial_strain));

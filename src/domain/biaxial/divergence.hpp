@@ -19,7 +19,7 @@ auto with_snapshot_of_divergence(std::unique_ptr<Simulation> const& simulation, 
   } catch (Diverged& fault) {
     if (fault.placed && simulation)
       fault.around = std::make_shared<Snapshot>(
-          surroundings(take_snapshot(*simulation), fault.x, fault.y, distance * d50, simulation->ranks()));
+          surroundings(take_snapshot(*simulation), fault.x, fault.y, distance * d50, simulation->assembly().ranks()));
     throw;
   }
 }

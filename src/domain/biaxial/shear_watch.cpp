@@ -22,8 +22,9 @@ double share(std::int64_t part, std::int64_t whole) {
 
 /// q on the walls less q of the contacts without what rough walls shear, over p.
 double stress_mismatch(Simulation const& simulation, Measures const& m) {
-  WallStress const stress = simulation.stress();
-  double const contacts = (m.stress_area_yy - m.wall_shear_yy - (m.stress_area_xx - m.wall_shear_xx)) / simulation.area(),
+  WallStress const stress = simulation.assembly().stress();
+  double const contacts =
+                   (m.stress_area_yy - m.wall_shear_yy - (m.stress_area_xx - m.wall_shear_xx)) / simulation.assembly().area(),
                p = 0.5 * (stress.x + stress.y);
   return p > 0 ? std::fabs(stress.y - stress.x - contacts) / p : 0;
 }
@@ -43,18 +44,19 @@ void count(ShearChecks& all, ShearCheck const& check) {
 }  // namespace
 
 ShearCheck look_at_shear(Simulation const& simulation, Measures const& m, double eps1) {
-  WallStress const stress = simulation.stress();
-  double const elastic = m.grain_energy + m.bond_energy + m.wall_energy, target = simulation.loading().x.target_stress;
+  WallStress const stress = simulation.assembly().stress();
+  double const elastic = m.grain_energy + m.bond_energy + m.wall_energy,
+               target = simulation.assembly().now.walls.loading.x.target_stress;
   ShearCheck check;
   check.eps1 = eps1;
   check.q = stress.y - stress.x;
   check.sigma1 = stress.y;
   check.stress_error = std::fabs(stress.x - target) / target;
   check.mismatch = stress_mismatch(simulation, m);
-  check.unbalanced = m.unbalanced_ratio(simulation.discs());
+  check.unbalanced = m.unbalanced_ratio(simulation.assembly().discs());
   check.kinetic = elastic > 0 ? m.kinetic / elastic : 0;
   check.deep_share = m.deep > 0 ? m.deep / m.touching : 0;
-  check.deepest = m.deep > 0 ? simulation.deepest_overlap() : 0;
+  check.deepest = m.deep > 0 ? simulation.assembly().deepest_overlap() : 0;
   check.time_step = simulation.time_step;
   return check;
 }

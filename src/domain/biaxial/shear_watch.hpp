@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/scene/stage.hpp"
 #include "domain/simulation/simulation.hpp"
 
 namespace clathra {

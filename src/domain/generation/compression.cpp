@@ -26,7 +26,7 @@ double mean_inside(Simulation const& simulation) {
 }
 
 /// An assembly on its way.
-struct Assembly {
+struct PartlyClosed {
   Specimen specimen;
   GenerationFriction friction;
   double lowest_share = 1;  ///< of the friction, so far
@@ -49,11 +49,11 @@ class Compression {
 
  private:
   PackedSpecimen close_and_rest(Specimen const& loose) {
-    Assembly const near = stiffened(close_softly({loose, generation_friction(wanted_)}));
+    PartlyClosed const near = stiffened(close_softly({loose, generation_friction(wanted_)}));
     constexpr int most_attempts = 4;
     double goal = wanted_;
     for (int attempt = 1;; ++attempt) {
-      Assembly closed = closed_to(goal, near);
+      PartlyClosed closed = closed_to(goal, near);
       PackedSpecimen packed = at_rest(closed);
       double const error = packed.specimen.void_ratio - wanted_;
       if (std::abs(error) <= void_tolerance) return packed;
@@ -85,15 +85,18 @@ class Compression {
   /// Closes, ever slower towards the goal, so that the assembly arrives at rest: the force network of a flowing assembly would
   /// collapse once it stops. The friction is the servo of the stress here: too much stress, less friction.
   template <class Laws>
-  void close(Simulation& simulation, Assembly& a, Part const& part, Laws const& laws) {
+  void close(Simulation& simulation, PartlyClosed& a, Part const& part, Laws const& laws) {
     constexpr double loose_margin = 0.1;     // in void ratio: further above, far from touching all over, it may close much faster
     constexpr double slowing_range = 0.004;  // in void ratio
     constexpr double scarce_friction = 0.1;  // share below which discs find denser places if given time
     constexpr double least_resistance = 0.05;  // of the stress
-    double const full_rate = strain_rate_of(part.inertial_number / slowness_, stress_, simulation.facts().moving_density(), d50_);
+    double const full_rate =
+        strain_rate_of(part.inertial_number / slowness_, stress_, simulation.assembly().facts.moving_density(), d50_);
     simulation.evaluate_forces();
     double stress = mean_inside(simulation);
-    auto const above = [&] { return simulation.void_ratio() + part.softness * std::min(stress, 1.5 * stress_) - part.goal; };
+    auto const above = [&] {
+      return simulation.assembly().void_ratio() + part.softness * std::min(stress, 1.5 * stress_) - part.goal;
+    };
     auto const on_its_way = [&] { return above() > 1e-5 || (part.until_it_resists && stress < least_resistance * stress_); };
     while (on_its_way() && !a.blocked) {
       double const far = std::clamp(above() > 0 ? (above() - loose_margin) / 0.2 : (-above() - far_off) / 0.1, 0.0, 1.0),
@@ -110,12 +113,12 @@ class Compression {
       a.lowest_share = std::min(a.lowest_share, a.friction.share);
       simulation.set_laws(laws(a.friction));
       a.blocked = a.friction.share <= least_share && stress > 4 * stress_;
-      if (simulation.steps() % 1000 == 0) tell(simulation);
+      if (simulation.assembly().steps() % 1000 == 0) tell(simulation);
     }
   }
 
   /// With soft grains to the reserve above the target, what their overlaps take away counted in.
-  Assembly close_softly(Assembly a) {
+  PartlyClosed close_softly(PartlyClosed a) {
     auto const laws = [&](GenerationFriction const& friction) {
       return flowing_laws(generation_laws(scene_, friction), stress_, design_.grading);
     };
@@ -123,7 +126,7 @@ class Compression {
     prepare_servo(simulation, stress_, wall_rate, d50_, StepChoice{});
     auto const modulus = [](double normal_stiffness) { return flowing_modulus * normal_stiffness; };
     // Area strain that the soft grains' overlaps take away beyond those of the scene's, over the stress.
-    double const give = 1 / modulus(simulation.laws().contact.grain.normal_stiffness) - 1 / modulus(scene_.grains.kn);
+    double const give = 1 / modulus(simulation.assembly().laws.contact.grain.normal_stiffness) - 1 / modulus(scene_.grains.kn);
     close(simulation, a, {wanted_ + unjammed, vertical_rate, 0, true}, laws);
     a.blocked = false;
     close(simulation, a, {wanted_ + reserve, soft_rate, (1 + wanted_) * give}, laws);
@@ -131,12 +134,12 @@ class Compression {
     a.strain = 0.5 * give * mean_inside(simulation);
     simulation.stop_discs();
     a.specimen = simulation.specimen();
-    disc_steps_ += simulation.steps() * simulation.discs();
+    disc_steps_ += simulation.assembly().steps() * simulation.assembly().discs();
     return a;
   }
 
   /// The same discs, just no longer pressed into each other, so that grains as stiff as the scene's can take over.
-  static Assembly stiffened(Assembly a) {
+  static PartlyClosed stiffened(PartlyClosed a) {
     Specimen& s = a.specimen;
     auto const stretched = [&](double at, double from) { return from + (1 + a.strain) * (at - from); };
     for (double& x : s.x) x = stretched(x, s.left);
@@ -147,7 +150,7 @@ class Compression {
     return a;
   }
 
-  Assembly closed_to(double goal, Assembly a) {
+  PartlyClosed closed_to(double goal, PartlyClosed a) {
     auto const laws = [&](GenerationFriction const& friction) { return closing_laws(scene_, friction, design_.grading); };
     Simulation simulation(a.specimen, laws(a.friction), skin_, ranks_);
     prepare_servo(simulation, stress_, wall_rate, d50_, StepChoice{});
@@ -155,13 +158,13 @@ class Compression {
     double const softness = (1 + wanted_) / (resting_modulus * scene_.grains.kn);
     close(simulation, a, {goal + softness * stress_, last_rate, softness, false, true}, laws);
     a.specimen = simulation.specimen();
-    disc_steps_ += simulation.steps() * simulation.discs();
+    disc_steps_ += simulation.assembly().steps() * simulation.assembly().discs();
     return a;
   }
 
   /// With the full friction back the assembly creeps no further. Most of the way to rest its small discs are heavier. One
   /// simulation at a time is in memory. @param closed  loses its discs
-  PackedSpecimen at_rest(Assembly& closed) {
+  PackedSpecimen at_rest(PartlyClosed& closed) {
     GenerationFriction full = closed.friction;
     full.share = 1;
     auto const calm = [&] {
@@ -183,15 +186,16 @@ class Compression {
     };
     prepare_servo(simulation, stress_, wall_rate, d50_, StepChoice{});
     if (!settle(simulation, stress_, rest_of_specimens, most_steps_to_rest, counted)) {
-      if (std::abs(simulation.void_ratio() - wanted_) > void_tolerance) refuse(simulation.void_ratio(), friction);
+      if (std::abs(simulation.assembly().void_ratio() - wanted_) > void_tolerance)
+        refuse(simulation.assembly().void_ratio(), friction);
       throw Refused(text_of_unrest(simulation, stress_));
     }
-    disc_steps_ += simulation.steps() * simulation.discs();
+    disc_steps_ += simulation.assembly().steps() * simulation.assembly().discs();
   }
 
   void tell(Simulation const& simulation) const {
-    report(progress_, {"generate", 0.7, "void ratio " + digits(simulation.void_ratio()) + " -> " + digits(wanted_),
-                       disc_steps_ + simulation.steps() * simulation.discs()});
+    report(progress_, {"generate", 0.7, "void ratio " + digits(simulation.assembly().void_ratio()) + " -> " + digits(wanted_),
+                       disc_steps_ + simulation.assembly().steps() * simulation.assembly().discs()});
   }
 
   Scene const& scene_;

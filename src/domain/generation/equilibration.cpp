@@ -27,10 +27,10 @@ std::string percent_text(double value, int digits) {
 Strains strains_towards(Simulation const& simulation, WallStress const& inside, double stress) {
   constexpr double part = 0.05, twice_bulk = 1.0, twice_shear = 0.25;  // moduli over k_n
   auto const lacking = [&](double present) {
-    return part * (stress - present) / simulation.laws().contact.grain.normal_stiffness;
+    return part * (stress - present) / simulation.assembly().laws.contact.grain.normal_stiffness;
   };
   double const x = lacking(inside.x), y = lacking(inside.y);
-  double const mean = 0.5 * (x + y) / twice_bulk, difference = simulation.periodic() ? 0 : 0.5 * (x - y) / twice_shear;
+  double const mean = 0.5 * (x + y) / twice_bulk, difference = simulation.assembly().periodic() ? 0 : 0.5 * (x - y) / twice_shear;
   return {mean + difference, mean - difference};
 }
 
@@ -38,17 +38,17 @@ Strains strains_towards(Simulation const& simulation, WallStress const& inside, 
 template <class Advance>
 bool step_to_rest(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
                   char const* stage, Advance const& advance) {
-  std::int64_t const first = simulation.steps();
+  std::int64_t const first = simulation.assembly().steps();
   int checks_at_rest = 0;
-  Measures m = simulation.measures();
-  while (simulation.steps() - first < most_steps && checks_at_rest < 3) {
-    advance(std::min<std::int64_t>(chunk, first + most_steps - simulation.steps()));
-    m = simulation.measures();
+  Measures m = simulation.assembly().measures();
+  while (simulation.assembly().steps() - first < most_steps && checks_at_rest < 3) {
+    advance(std::min<std::int64_t>(chunk, first + most_steps - simulation.assembly().steps()));
+    m = simulation.assembly().measures();
     checks_at_rest = unrest(simulation, m, stress, rest).empty() ? checks_at_rest + 1 : 0;
-    report(progress,
-           {stage, static_cast<double>(simulation.steps() - first) / static_cast<double>(most_steps),
-            "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " + percent_text(simulation.void_ratio(), 4),
-            simulation.steps() * simulation.discs()});
+    report(progress, {stage, static_cast<double>(simulation.assembly().steps() - first) / static_cast<double>(most_steps),
+                      "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " +
+                          percent_text(simulation.assembly().void_ratio(), 4),
+                      simulation.assembly().steps() * simulation.assembly().discs()});
   }
   return checks_at_rest >= 3;
 }
@@ -56,18 +56,18 @@ bool step_to_rest(Simulation& simulation, double stress, double rest, std::int64
 }  // namespace
 
 WallStress stress_inside(Simulation const& simulation) {
-  Measures const m = simulation.measures();
-  return {m.stress_area_xx / simulation.area(), m.stress_area_yy / simulation.area()};
+  Measures const m = simulation.assembly().measures();
+  return {m.stress_area_xx / simulation.assembly().area(), m.stress_area_yy / simulation.assembly().area()};
 }
 
 void close_together(Simulation& simulation, Strains const& strains, WallStress const& stress_at_walls) {
   simulation.strain(strains.x, strains.y);
-  if (simulation.periodic()) return;
+  if (simulation.assembly().periodic()) return;
   Loading& loading = simulation.loading();
   // In a small specimen the walls must not undo what the strains do; in a large one nothing else makes up for a difference
   // between the stress at them and inside, which a wave needs long_way steps and more to even out.
   constexpr double long_way = 1500, integral_steps = 2000;
-  Walls const& walls = simulation.walls();
+  Walls const& walls = simulation.assembly().walls();
   bool const large = std::max(walls.width(), walls.height()) > long_way * wave_speed(simulation) * simulation.time_step;
   loading.servo.gain = large ? 0.8 : 0.2;
   loading.servo.integral_time = large ? integral_steps * simulation.time_step : HUGE_VAL;
@@ -89,13 +89,13 @@ double strain_rate_of(double inertial_number, double stress, double density, dou
 }
 
 double mean_stress(Simulation const& simulation) {
-  WallStress const stress = simulation.periodic() ? stress_inside(simulation) : simulation.stress();
+  WallStress const stress = simulation.assembly().periodic() ? stress_inside(simulation) : simulation.assembly().stress();
   return 0.5 * (stress.x + stress.y);
 }
 
 double wave_speed(Simulation const& simulation) {
-  double const bulk_density = simulation.facts().moving_density() / (1 + simulation.void_ratio());
-  return std::sqrt(packing_modulus(simulation.laws().contact.grain) / bulk_density);
+  double const bulk_density = simulation.assembly().facts.moving_density() / (1 + simulation.assembly().void_ratio());
+  return std::sqrt(packing_modulus(simulation.assembly().laws.contact.grain) / bulk_density);
 }
 
 std::string unrest(Simulation const& simulation, Measures const& m, double stress, double rest) {
@@ -110,16 +110,16 @@ std::string unrest(Simulation const& simulation, Measures const& m, double stres
     if (std::abs(value / stress - 1) < tolerance) return;
     say("%s %.4g of %.4g MPa (at rest within %g %%)", what, value * 1e-6, stress * 1e-6, 100 * tolerance);
   };
-  double const area = simulation.area();
-  if (simulation.periodic()) {
+  double const area = simulation.assembly().area();
+  if (simulation.assembly().periodic()) {
     require("mean stress of the contacts", 0.5 * (m.stress_area_xx + m.stress_area_yy) / area);
   } else {
-    require("lateral stress on the walls", simulation.stress().x);
-    require("vertical stress on the walls", simulation.stress().y);
+    require("lateral stress on the walls", simulation.assembly().stress().x);
+    require("vertical stress on the walls", simulation.assembly().stress().y);
     require("lateral stress of the contacts less the shear of the walls", (m.stress_area_xx - m.wall_shear_xx) / area);
     require("vertical stress of the contacts less the shear of the walls", (m.stress_area_yy - m.wall_shear_yy) / area);
   }
-  double const unbalanced = m.unbalanced_ratio(simulation.discs());
+  double const unbalanced = m.unbalanced_ratio(simulation.assembly().discs());
   if (!(unbalanced < rest)) say("unbalanced ratio %.2g (at rest below %g)", unbalanced, rest);
   return text;
 }
@@ -153,10 +153,10 @@ SimulationLaws flowing_laws(SimulationLaws laws, double stress, Grading const& g
 
 void prepare_servo(Simulation& simulation, double stress, double inertial_number, double d50, StepChoice const& step) {
   simulation.choose_time_step(step);
-  if (simulation.periodic()) return;
-  Walls const& walls = simulation.walls();
-  double const rate = strain_rate_of(inertial_number, stress, simulation.facts().moving_density(), d50);
-  simulation.loading().servo.contact_stiffness = simulation.laws().wall.normal_stiffness;
+  if (simulation.assembly().periodic()) return;
+  Walls const& walls = simulation.assembly().walls();
+  double const rate = strain_rate_of(inertial_number, stress, simulation.assembly().facts.moving_density(), d50);
+  simulation.loading().servo.contact_stiffness = simulation.assembly().laws.wall.normal_stiffness;
   simulation.loading().servo.integral_time =
       integral_share_of_transit * std::max(walls.width(), walls.height()) / wave_speed(simulation);
   simulation.loading().x = AxisDrive::at_stress(stress, 0.5 * rate * walls.width());
@@ -180,23 +180,23 @@ bool settle(Simulation& simulation, double stress, double rest, std::int64_t mos
 
 std::string text_of_unrest(Simulation const& simulation, double stress) {
   return "the specimen did not come to rest within " + std::to_string(most_steps_to_rest) +
-         " steps: " + unrest(simulation, simulation.measures(), stress, rest_of_specimens);
+         " steps: " + unrest(simulation, simulation.assembly().measures(), stress, rest_of_specimens);
 }
 
 PackedSpecimen packed_at_rest(Simulation const& resting, double stress, GenerationFriction friction, double lowest_share) {
   friction.share = lowest_share;
   GrainLaw const law = friction.apply({});
-  Measures const m = resting.measures();
+  Measures const m = resting.assembly().measures();
   PackedSpecimen packed;
   packed.specimen = resting.specimen();
   packed.specimen.stress = stress;
   packed.friction = law.friction;
   packed.shape_factor = law.shape_factor;
-  packed.unbalanced = m.unbalanced_ratio(resting.discs());
+  packed.unbalanced = m.unbalanced_ratio(resting.assembly().discs());
   packed.deep_overlap_share = m.touching > 0 ? m.deep / m.touching : 0;
-  if (resting.periodic()) return packed;
-  packed.stress_x = resting.stress().x;
-  packed.stress_y = resting.stress().y;
+  if (resting.assembly().periodic()) return packed;
+  packed.stress_x = resting.assembly().stress().x;
+  packed.stress_y = resting.assembly().stress().y;
   return packed;
 }
 

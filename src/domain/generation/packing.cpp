@@ -42,14 +42,15 @@ void compact(Simulation& simulation, LayerClosing const& layer, Progress const& 
   simulation.choose_time_step(StepChoice{});
   simulation.loading().x = simulation.loading().y = AxisDrive::held();
   simulation.evaluate_forces();
-  while (simulation.void_ratio() > layer.void_ratio && stress_inside(simulation).y < layer.resistance) {
-    double const far = std::clamp((simulation.void_ratio() - layer.void_ratio) / slowing_range, 0.0, 1.0);
+  while (simulation.assembly().void_ratio() > layer.void_ratio && stress_inside(simulation).y < layer.resistance) {
+    double const far = std::clamp((simulation.assembly().void_ratio() - layer.void_ratio) / slowing_range, 0.0, 1.0);
     double const rate = layer.near_rate + far * (layer.loose_rate - layer.near_rate);
     simulation.strain_above(layer.floor, rate * steering * simulation.time_step);
     simulation.step(steering);
-    if (simulation.steps() % 500 == 0)
-      report(progress, {stage.stage, stage.fraction, stage.detail + ", e " + std::to_string(simulation.void_ratio()).substr(0, 5),
-                        simulation.steps() * simulation.discs()});
+    if (simulation.assembly().steps() % 500 == 0)
+      report(progress, {stage.stage, stage.fraction,
+                        stage.detail + ", e " + std::to_string(simulation.assembly().void_ratio()).substr(0, 5),
+                        simulation.assembly().steps() * simulation.assembly().discs()});
   }
 }
 
@@ -69,12 +70,13 @@ Specimen compacted_layers(Scene const& scene, SampleDesign const& design, Simula
     Simulation simulation(specimen, laws, usual_skin(specimen.d50, design.grading.smallest()), ranks);
     Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
-    double const unit = strain_rate_of(1, scene.bond.stress, simulation.facts().moving_density(), specimen.d50) / slowness;
+    double const unit =
+        strain_rate_of(1, scene.bond.stress, simulation.assembly().facts.moving_density(), specimen.d50) / slowness;
     compact(simulation,
             {floor, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, unit * loose_rate, unit * near_rate,
              20 * scene.bond.stress},
             stage, counted);
-    disc_steps += simulation.steps() * simulation.discs();
+    disc_steps += simulation.assembly().steps() * simulation.assembly().discs();
     simulation.stop_discs();
     specimen = simulation.specimen();
   }

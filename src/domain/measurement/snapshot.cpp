@@ -32,7 +32,7 @@ std::vector<To> listed(RealField const& field, std::size_t size) {
 std::uint8_t broken_state(int mode) { return static_cast<std::uint8_t>(broken_in(static_cast<BreakMode>(mode))); }
 
 void copy_discs(Snapshot& s, Simulation const& simulation) {
-  ParticleSoA const& p = simulation.particles();
+  ParticleSoA const& p = simulation.assembly().particles;
   auto const n = static_cast<std::size_t>(p.owned);
   s.id = listed<std::int32_t>(p.id, n);
   s.x = listed<double>(p.x, n);
@@ -43,17 +43,18 @@ void copy_discs(Snapshot& s, Simulation const& simulation) {
   s.vx = listed<float>(p.vx, n);
   s.vy = listed<float>(p.vy, n);
   s.omega = listed<float>(p.omega, n);
-  bool const marked = simulation.start_x().extent(0) > 0;
-  std::vector<double> const x = marked ? listed<double>(simulation.start_x(), n) : s.x;
-  std::vector<double> const y = marked ? listed<double>(simulation.start_y(), n) : s.y;
+  bool const marked = simulation.assembly().start_x.extent(0) > 0;
+  std::vector<double> const x = marked ? listed<double>(simulation.assembly().start_x, n) : s.x;
+  std::vector<double> const y = marked ? listed<double>(simulation.assembly().start_y, n) : s.y;
   s.ux.resize(n);
   s.uy.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     s.ux[i] = static_cast<float>(s.x[i] - x[i]);
     s.uy[i] = static_cast<float>(s.y[i] - y[i]);
   }
-  DiscLoads const loads = disc_loads(p, simulation.rows(), simulation.laws().contact, simulation.walls(),
-                                     simulation.wall_contacts(), simulation.laws().wall);
+  DiscLoads const loads =
+      disc_loads(p, simulation.assembly().rows, simulation.assembly().laws.contact, simulation.assembly().walls(),
+                 simulation.assembly().wall_contacts(), simulation.assembly().laws.wall);
   s.stress_xx = listed<float>(loads.stress_xx, n);
   s.stress_yy = listed<float>(loads.stress_yy, n);
   s.stress_xy = listed<float>(loads.stress_xy, n);
@@ -63,17 +64,18 @@ void copy_discs(Snapshot& s, Simulation const& simulation) {
 }
 
 void copy_pairs(Snapshot& s, Simulation const& simulation) {
-  PairList const list = list_pairs(simulation.particles(), simulation.rows(), simulation.laws().contact);
+  PairList const list =
+      list_pairs(simulation.assembly().particles, simulation.assembly().rows, simulation.assembly().laws.contact);
   auto const n = static_cast<std::size_t>(list.size);
-  ParticleSoA const& p = simulation.particles();
+  ParticleSoA const& p = simulation.assembly().particles;
   std::vector<double> number(static_cast<std::size_t>(p.all()));
   for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<double>(s.first_disc) + static_cast<double>(i);
-  if (!simulation.ranks().alone()) {  // ghosts have the numbers that their owners gave them
+  if (!simulation.assembly().ranks().alone()) {  // ghosts have the numbers that their owners gave them
     Field<double> const numbers("numbers", p.x.extent(0));
     auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), numbers);
     std::copy_n(number.begin(), p.owned, host.data());
     Kokkos::deep_copy(numbers, host);
-    simulation.refresh_ghosts(numbers);
+    simulation.assembly().refresh_ghosts(numbers);
     number = listed<double>(numbers, number.size());
   }
   auto const numbered = [&](Field<int> const& field) {
@@ -166,22 +168,23 @@ void add_broken_pairs(Snapshot& s, BrokenHere const& broken) {
 
 Snapshot take_snapshot(Simulation const& simulation) {
   Snapshot s;
-  s.step = simulation.steps();
-  s.time = simulation.time();
-  Walls const& walls = simulation.walls();
+  s.step = simulation.assembly().steps();
+  s.time = simulation.assembly().time();
+  Walls const& walls = simulation.assembly().walls();
   s.left = walls.position[left];
   s.right = walls.position[right];
   s.bottom = walls.position[bottom];
   s.top = walls.position[top];
-  WallStress const stress = simulation.stress();
+  WallStress const stress = simulation.assembly().stress();
   s.sigma1 = stress.y;
   s.sigma3 = stress.x;
-  s.density = simulation.facts().density;
-  s.critical_thickness = simulation.facts().critical_thickness;
-  s.first_disc = simulation.ranks().sum_before(simulation.particles().owned);
+  s.density = simulation.assembly().facts.density;
+  s.critical_thickness = simulation.assembly().facts.critical_thickness;
+  s.first_disc = simulation.assembly().ranks().sum_before(simulation.assembly().particles.owned);
   copy_discs(s, simulation);
   copy_pairs(s, simulation);
-  add_broken_pairs(s, broken_here(simulation.ranks(), s, simulation.discs(), simulation.break_events(0)));
+  add_broken_pairs(
+      s, broken_here(simulation.assembly().ranks(), s, simulation.assembly().discs(), simulation.assembly().break_events(0)));
   return s;
 }
 

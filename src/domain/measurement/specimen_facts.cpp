@@ -31,10 +31,12 @@ void look_at_walls(Specimen const& part, std::array<DiscAtWall, 4>& at_wall) {
 /// The smallest of the ranks' ids that count.
 int smallest_id(Ranks const& ranks, bool counts, int id) { return static_cast<int>(ranks.min(counts ? id : none)); }
 
+/// Columns of motion that are empty stand for rest.
 FastestDisc fastest_of(Specimen const& part, Ranks const& ranks) {
+  auto const number = [](std::vector<double> const& column, std::size_t i) { return column.empty() ? 0 : column[i]; };
   FastestDisc fastest;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    double const speed = std::hypot(part.vx[i], part.vy[i]) + std::abs(part.omega[i]) * part.radius[i];
+    double const speed = std::hypot(number(part.vx, i), number(part.vy, i)) + std::abs(number(part.omega, i)) * part.radius[i];
     if (fastest.id < 0 || speed > fastest.speed || (speed == fastest.speed && part.id[i] < fastest.id))
       fastest = {part.id[i], speed};
   }

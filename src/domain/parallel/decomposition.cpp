@@ -147,10 +147,7 @@ Rectangle Decomposition::rectangle(int rank) const {
 }
 
 void Decomposition::follow(AffineFrame const& f) {
-  for (Cut& cut : cuts_) {
-    cut.at = cut.upright ? f.centre_x + f.stretch_x * (cut.at - f.reference_centre_x)
-                         : f.centre_y + f.stretch_y * (cut.at - f.reference_centre_y);
-  }
+  for (Cut& cut : cuts_) cut.at = cut.upright ? f.mapped_x(cut.at, f.reference_centre_y) : f.mapped_y(cut.at);
 }
 
 Decomposition::OwnerOf Decomposition::owner_of() const {

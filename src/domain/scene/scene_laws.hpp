@@ -1,7 +1,7 @@
 #pragma once
 /// The contact laws that a scene asks for: the one way from its keys to their constants.
 #include "domain/scene/scene.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/wall_forces.hpp"
 
 namespace clathra {
 

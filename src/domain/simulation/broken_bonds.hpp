@@ -12,6 +12,13 @@
 
 namespace clathra {
 
+/// What is kept of each break.
+enum class BreakRecord {
+  counts,  ///< how many by mode
+  events,  ///< when, where, how
+  details  ///< and the forces and strains of each, which count from now
+};
+
 /// Those of one rank; each break is seen by one rank.
 class BrokenBonds {
  public:

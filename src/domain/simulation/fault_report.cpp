@@ -51,12 +51,12 @@ struct Deepest {
   int other = -2;  ///< none
 };
 
-Deepest deepest_contact(Simulation const& simulation, Discs const& discs, int i) {
+Deepest deepest_contact(Assembly const& assembly, Discs const& discs, int i) {
   Deepest deepest;
   auto const take = [&](double overlap, double smaller, int other) {
     if (overlap / smaller > deepest.share) deepest = {overlap / smaller, other};
   };
-  ContactRows const& rows = simulation.rows();
+  ContactRows const& rows = assembly.rows;
   auto const start = host_copy(rows.slice_start);
   auto const length = host_copy(rows.length);
   auto const neighbour = host_copy(rows.neighbour);
@@ -67,9 +67,9 @@ Deepest deepest_contact(Simulation const& simulation, Discs const& discs, int i)
     double const distance = std::hypot(discs.x[b] - discs.x[a], discs.y[b] - discs.y[a]);
     take(discs.radius[a] + discs.radius[b] - distance, std::min(discs.radius[a], discs.radius[b]), discs.id[b]);
   }
-  if (simulation.periodic()) return deepest;
+  if (assembly.periodic()) return deepest;
   for (int wall = 0; wall < wall_count; ++wall)
-    take(discs.radius[a] - wall_face(simulation.walls(), wall, discs.x[a], discs.y[a]).distance, discs.radius[a], -1);
+    take(discs.radius[a] - wall_face(assembly.walls(), wall, discs.x[a], discs.y[a]).distance, discs.radius[a], -1);
   return deepest;
 }
 
@@ -91,12 +91,12 @@ std::string advice(Fault what, double share) {
 
 }  // namespace
 
-std::string fault_text(Simulation const& simulation, ReportedFault const& fault, double (&place)[2]) {
+std::string fault_text(Assembly const& assembly, ReportedFault const& fault, double (&place)[2]) {
   static constexpr char const* cause[fault_count] = {"has a position or velocity that is not finite",
                                                      "overlaps a neighbour or a wall by more than the smaller radius",
                                                      "has more neighbours than a row holds"};
-  Ranks const& ranks = simulation.ranks();
-  Discs const discs(simulation.particles());
+  Ranks const& ranks = assembly.ranks();
+  Discs const discs(assembly.particles);
   double found[4] = {nowhere, nowhere, nowhere, nowhere};  // where, overlap, with whom: of the rank that owns the disc
   std::int64_t lost = 0;
   for (int i = 0; i < discs.owned; ++i) {
@@ -106,7 +106,7 @@ std::string fault_text(Simulation const& simulation, ReportedFault const& fault,
     bool const placed = discs.placed(i);
     found[0] = placed ? discs.x[k] : discs.reference_x[k];
     found[1] = placed ? discs.y[k] : discs.reference_y[k];
-    Deepest const deepest = placed ? deepest_contact(simulation, discs, i) : Deepest{};
+    Deepest const deepest = placed ? deepest_contact(assembly, discs, i) : Deepest{};
     found[2] = deepest.share;
     found[3] = deepest.other;
   }
@@ -114,10 +114,10 @@ std::string fault_text(Simulation const& simulation, ReportedFault const& fault,
   lost = ranks.sum(lost);
   place[0] = found[0];
   place[1] = found[1];
-  double const share = simulation.time_step / simulation.stable_limit();
-  std::string text = text_of("step %lld, time %g s: disc %d %s", static_cast<long long>(simulation.steps()), simulation.time(),
+  double const share = assembly.now.orders.dt / assembly.stable_limit();
+  std::string text = text_of("step %lld, time %g s: disc %d %s", static_cast<long long>(assembly.steps()), assembly.time(),
                              fault.id, cause[static_cast<int>(fault.what)]);
-  if (fault.last_good < simulation.steps()) text += text_of(", since a step after %lld", static_cast<long long>(fault.last_good));
+  if (fault.last_good < assembly.steps()) text += text_of(", since a step after %lld", static_cast<long long>(fault.last_good));
   text += text_of("; it is at (%.6g, %.6g) mm", place[0] * 1e3, place[1] * 1e3);
   if (lost > 1) text += text_of(", %lld discs are like it", static_cast<long long>(lost));
   if (found[3] >= 0)
@@ -127,7 +127,7 @@ std::string fault_text(Simulation const& simulation, ReportedFault const& fault,
   if (std::isfinite(share) && share > 1e-6)
     text += text_of("; the time step is %.3g of the stable limit of the present contacts", share);
   return text + ": " +
-         (fault.what == Fault::row_overflow ? advice_on_rows(simulation.upkeep().skin(), simulation.facts().d50)
+         (fault.what == Fault::row_overflow ? advice_on_rows(assembly.upkeep.skin(), assembly.facts.d50)
                                             : advice(fault.what, share));
 }
 

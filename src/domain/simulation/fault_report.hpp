@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "domain/simulation/simulation.hpp"
+#include "domain/simulation/assembly.hpp"
 
 namespace clathra {
 
@@ -18,6 +18,6 @@ struct ReportedFault {
 /// how long the time step is against the stable limit of the present network, and what to change. Collective; the same on all
 /// ranks.
 /// @param place  gets the centre of the disc, of the last neighbour search where its own is not finite [m]
-std::string fault_text(Simulation const& simulation, ReportedFault const& fault, double (&place)[2]);
+std::string fault_text(Assembly const& assembly, ReportedFault const& fault, double (&place)[2]);
 
 }  // namespace clathra

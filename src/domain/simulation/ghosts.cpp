@@ -8,12 +8,12 @@
 namespace clathra {
 
 void Ghosts::refresh(ParticleSoA const& particles, Box const& box) const {
-  if (box.periodic()) images_.refresh(particles, box.cell);
+  if (box.periodic) images_.refresh(particles, box);
   if (!ranks_.alone()) halo_.refresh(ranks_, particles);
 }
 
 void Ghosts::refresh(ParticleSoA const& particles, Box const& box, AnyField const& field) const {
-  if (box.periodic()) images_.refresh(particles, field);
+  if (box.periodic) images_.refresh(particles, field);
   if (!ranks_.alone()) halo_.refresh(ranks_, particles, field);
 }
 
@@ -26,9 +26,9 @@ void Ghosts::migrate_discs(AffineFrame const& motion, double seconds_of_a_search
 }
 
 Bounds Ghosts::own_bounds(Bounds const& all, Box const& box) const {
-  if (box.periodic()) {
-    PeriodicCell const& cell = box.cell;
-    return {cell.left, cell.left + cell.width, cell.bottom, cell.bottom + cell.height};
+  if (box.periodic) {
+    Real const tilt = box.edges.xy;
+    return {box.x + std::min(tilt, 0.0), box.x + box.width() + std::max(tilt, 0.0), box.y, box.y + box.height()};
   }
   if (ranks_.alone()) return all;
   Rectangle const own = decomposition_.rectangle(ranks_.rank());
@@ -37,7 +37,7 @@ Bounds Ghosts::own_bounds(Bounds const& all, Box const& box) const {
 }
 
 void Ghosts::rebuild(ParticleSoA& particles, Box const& box, Real reach) {
-  if (box.periodic()) images_.rebuild(particles, box.cell, reach);
+  if (box.periodic) images_.rebuild(particles, box, reach);
   if (!ranks_.alone()) halo_.rebuild(ranks_, decomposition_, particles, reach);
 }
 

@@ -1,31 +1,39 @@
 #include "domain/simulation/periodic_images.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace clathra {
 
 namespace {
 
+/// How far right of the left edge of the cell a place is [m].
+KOKKOS_INLINE_FUNCTION Coord from_left_edge(Box const& cell, Coord x, Coord y) {
+  return x - cell.x - cell.edges.xy / cell.edges.yy * (y - cell.y);
+}
+
 struct Wrap {
   ParticleSoA p;
-  PeriodicCell cell;
+  Box cell;
   KOKKOS_FUNCTION void operator()(int i) const {
-    while (p.x(i) < cell.left) p.x(i) += cell.width;
-    while (p.x(i) >= cell.left + cell.width) p.x(i) -= cell.width;
-    while (p.y(i) < cell.bottom) p.y(i) += cell.height;
-    while (p.y(i) >= cell.bottom + cell.height) p.y(i) -= cell.height;
+    while (p.y(i) < cell.y) p.y(i) += cell.edges.yy, p.x(i) += cell.edges.xy;
+    while (p.y(i) >= cell.y + cell.edges.yy) p.y(i) -= cell.edges.yy, p.x(i) -= cell.edges.xy;
+    while (from_left_edge(cell, p.x(i), p.y(i)) < 0) p.x(i) += cell.edges.xx;
+    while (from_left_edge(cell, p.x(i), p.y(i)) >= cell.edges.xx) p.x(i) -= cell.edges.xx;
   }
 };
 
 /// Lists the images of discs, as far as there is room: up to three of a disc, where it lies near a corner.
 struct ListImages {
   ParticleSoA p;
-  PeriodicCell cell;
-  Real reach;
+  Box cell;
+  Real reach;           ///< to the lower and upper edges
+  Real reach_sideways;  ///< along x, to the left and right ones, which may lean
   Field<int> source, shift_x, shift_y;
   KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
-    int const sx = p.x(i) < cell.left + reach ? 1 : p.x(i) >= cell.left + cell.width - reach ? -1 : 0;
-    int const sy = p.y(i) < cell.bottom + reach ? 1 : p.y(i) >= cell.bottom + cell.height - reach ? -1 : 0;
+    Coord const across = from_left_edge(cell, p.x(i), p.y(i)), up = p.y(i) - cell.y;
+    int const sx = across < reach_sideways ? 1 : across >= cell.edges.xx - reach_sideways ? -1 : 0;
+    int const sy = up < reach ? 1 : up >= cell.edges.yy - reach ? -1 : 0;
     if (sx != 0) add(i, sx, 0, slot, final);
     if (sy != 0) add(i, 0, sy, slot, final);
     if (sx != 0 && sy != 0) add(i, sx, sy, slot, final);
@@ -43,7 +51,7 @@ struct ListImages {
 /// Copies what changes in each step, or all of the state.
 struct CopyImages {
   ParticleSoA p;
-  PeriodicCell cell;
+  Box cell;
   Field<int> source, shift_x, shift_y;
   bool all;
   KOKKOS_FUNCTION void operator()(int g) const {
@@ -51,8 +59,8 @@ struct CopyImages {
     for_each_field(p, [&](DiscField const& about, auto const& field) {
       if (all || about.moves) set(field, static_cast<std::size_t>(to), field(from));
     });
-    p.x(to) += shift_x(g) * cell.width;
-    p.y(to) += shift_y(g) * cell.height;
+    p.x(to) += shift_x(g) * cell.edges.xx + shift_y(g) * cell.edges.xy;
+    p.y(to) += shift_y(g) * cell.edges.yy;
   }
 };
 
@@ -66,15 +74,16 @@ struct CopyValues {
 
 }  // namespace
 
-void PeriodicImages::rebuild(ParticleSoA& particles, PeriodicCell const& cell, Real reach) {
-  if (2 * reach > cell.width || 2 * reach > cell.height)
+void PeriodicImages::rebuild(ParticleSoA& particles, Box const& cell, Real reach) {
+  Real const sideways = reach * std::hypot(1, cell.edges.xy / cell.edges.yy);
+  if (2 * sideways > cell.width() || 2 * reach > cell.height())
     throw std::invalid_argument("the periodic cell is smaller than four disc diameters");
   Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
   particles.ghosts = 0;
   Kokkos::parallel_for("wrap", each, Wrap{particles, cell});
   int count = 0;
   auto const list = [&] {
-    Kokkos::parallel_scan("list_images", each, ListImages{particles, cell, reach, source_, shift_x_, shift_y_}, count);
+    Kokkos::parallel_scan("list_images", each, ListImages{particles, cell, reach, sideways, source_, shift_x_, shift_y_}, count);
   };
   list();
   if (auto const images = static_cast<std::size_t>(count); images > source_.extent(0)) {
@@ -87,13 +96,13 @@ void PeriodicImages::rebuild(ParticleSoA& particles, PeriodicCell const& cell, R
   copy(particles, cell, true);
 }
 
-void PeriodicImages::copy(ParticleSoA const& particles, PeriodicCell const& cell, bool all) const {
+void PeriodicImages::copy(ParticleSoA const& particles, Box const& cell, bool all) const {
   Kokkos::parallel_for("copy_images", Kokkos::RangePolicy<ExecutionSpace>(0, particles.ghosts),
                        CopyImages{particles, cell, source_, shift_x_, shift_y_, all});
   update_mirror(particles, particles.owned, particles.ghosts);
 }
 
-void PeriodicImages::refresh(ParticleSoA const& particles, PeriodicCell const& cell) const { copy(particles, cell, false); }
+void PeriodicImages::refresh(ParticleSoA const& particles, Box const& cell) const { copy(particles, cell, false); }
 
 void PeriodicImages::refresh(ParticleSoA const& particles, AnyField const& field) const {
   auto const copy = [&]<class AField>(AField const& values) {

@@ -1,213 +1,172 @@
 #include "domain/simulation/simulation.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <type_traits>
+#include <utility>
 
-#include "domain/simulation/fault_report.hpp"
+#include "domain/simulation/assembly_records.hpp"
+#include "domain/simulation/neighbour_search.hpp"
+#include "domain/simulation/specimen_transfer.hpp"
 #include "kernels/history_forces.hpp"
 
 namespace clathra {
 
-void Simulation::throw_out_of_range(SumOutOfRange const& problem) const {
-  throw Diverged("step " + std::to_string(now_.step) + ", time " + std::to_string(now_.time) + " s: " + problem.what());
+namespace {
+
+std::vector<std::unique_ptr<Boundary>> walls_as(SimulationLaws const& laws) {
+  std::vector<std::unique_ptr<Boundary>> boundaries;
+  boundaries.push_back(std::make_unique<RigidWalls>(/*rough=*/laws.wall.friction > 0));
+  return boundaries;
 }
 
-void Simulation::set_sums() {
-  sums_ = {
-      SumUnits::of(facts_.d50 > 0 ? facts_.d50 : 2 * facts_.largest_radius, laws_.contact.grain.normal_stiffness, facts_.density),
-      ranks().summation()};
+/// Visits the numbers that a checkpoint keeps.
+template <class Visit>
+void for_each_kept_number(Assembly& assembly, TimeStepControl& time_steps, Real& time_step, Visit&& visit) {
+  for_each_number(assembly, visit);
+  time_steps.for_each_number(visit);
+  visit("time_step", time_step);
 }
 
-ContactFeatures Simulation::features_of_rows() const {
-  ContactFeatures features = laws_.features();
-  features.format.precision = laws_.precision;
-  return features;
+/// Where the last update of the time step found the discs.
+AuxiliaryFields places_at_update(TimeStepControl& time_steps) {
+  UpdatePlaces& places = time_steps.places();
+  if (!time_steps.follows()) return {};
+  return {{"x_at_update", &places.x}, {"y_at_update", &places.y}};
 }
 
-/// What a search has to know of the discs of all ranks; throws where there are faults.
-RebuildInputs Simulation::rebuild_inputs_of_all() const {
-  if (rows_.features.bonds) refresh_ghosts();  // gaps to ghosts are those of now
-  return checked(rebuild_inputs(particles_, rows_, frame(), faults_, sums_.unit));
+}  // namespace
+
+Simulation::Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin, Ranks among)
+    : assembly_(laws, skin, std::move(among), boundaries_of(specimen)) {
+  take_over(assembly_, specimen);
+  evaluate_forces();
 }
 
-RebuildInputs Simulation::checked(RebuildInputs all) const {
-  ranks().sum(all.sums, RebuildInputs::sum_count);
-  ranks().max(all.largest, RebuildInputs::largest_count);
-  throw_of(all.largest + RebuildInputs::faults);
-  all.mean_speed = in_range([&] { return all.mean_of_speeds(sums_.unit); });
-  return all;
+Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks among)
+    : assembly_(laws, 0, std::move(among), walls_as(laws)) {
+  for_each_kept_number(assembly_, time_steps_, time_step, [&](std::string const& name, auto& value) {
+    value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name));
+  });
+  time_steps_.go_on_with(laws);
+  unpack_assembly(assembly_, places_at_update(time_steps_), state);
+}
+
+SimulationState Simulation::state() {
+  if (assembly_.periodic()) throw std::logic_error("a periodic cell has no checkpoint");
+  // Rows as the next step would find them.
+  if (assembly_.upkeep.is_asked()) rebuild(rebuild_inputs_of_all(assembly_), force_fields(assembly_));
+  SimulationState s;
+  for_each_kept_number(assembly_, time_steps_, time_step,
+                       [&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
+  pack_assembly(assembly_, places_at_update(time_steps_), s);
+  return s;
+}
+
+Specimen Simulation::specimen() const { return specimen_of(assembly_); }
+
+std::size_t Simulation::bytes() const {
+  UpdatePlaces const& places = time_steps_.places();
+  return assembly_.bytes() + (places.x.span() + places.y.span()) * sizeof(Coord);
 }
 
 void Simulation::set_laws(SimulationLaws const& laws) {
-  bool const ledger = laws_.contact.ledger;
-  if (laws.precision != laws_.precision) throw std::invalid_argument("a simulation keeps its precision");
+  Assembly& a = assembly_;
+  bool const ledger = a.laws.contact.ledger;
+  if (laws.precision != a.laws.precision) throw std::invalid_argument("a simulation keeps its precision");
   graph_.drop();
-  ContactLaws const before = laws_.contact;
-  laws_ = laws;
-  laws_.contact.ledger = ledger;
-  ContactFeatures const features = features_of_rows();
-  bool const same_history = features == rows_.features, anchors = !same_history || !same_stiffness(before, laws_.contact);
-  if (anchors) rows_ = with_forces(particles_, rows_, before);
-  if (!same_history) change_features(rows_, features);
-  if (!same_history || rows_.features.bonds) prepare_rows(particles_, rows_, laws_.contact.bond);
+  ContactLaws const before = a.laws.contact;
+  a.laws = laws;
+  a.laws.contact.ledger = ledger;
+  ContactLaws const& now = a.laws.contact;
+  ContactFeatures const features = a.laws.features_of_rows();
+  bool const same_history = features == a.rows.features, anchors = !same_history || !same_stiffness(before, now);
+  if (anchors) a.rows = with_forces(a.particles, a.rows, before);
+  if (!same_history) change_features(a.rows, features);
+  if (!same_history || a.rows.features.bonds) prepare_rows(a.particles, a.rows, now.bond);
   if (anchors)
-    anchor_rows(particles_, rows_, laws_.contact);
-  else if (before.grain.shape_factor != laws_.contact.grain.shape_factor)
-    keep_moments(particles_, rows_, before, laws_.contact);
-  if (ledger) allocate_dissipation(losses_, laws_.losses(), particles_.x.extent(0));
-  time_steps_.after_laws(laws_);
+    anchor_rows(a.particles, a.rows, now);
+  else if (before.grain.shape_factor != now.grain.shape_factor)
+    keep_moments(a.particles, a.rows, before, now);
+  if (ledger) allocate_dissipation(a.dissipation, a.laws.losses(), a.particles.x.extent(0));
+  time_steps_.after_laws(a.laws);
+}
+
+void Simulation::set_skin(Real skin) {
+  assembly_.upkeep.set_skin(skin);
+  assembly_.upkeep.ask();
 }
 
 void Simulation::set_ledger(bool on) {
   graph_.drop();
-  laws_.contact.ledger = on;
-  losses_ = Dissipation();
-  if (on) allocate_dissipation(losses_, laws_.losses(), particles_.x.extent(0));
-  now_.boundary_work = 0;
+  Assembly& a = assembly_;
+  a.laws.contact.ledger = on;
+  a.dissipation = Dissipation();
+  if (on) allocate_dissipation(a.dissipation, a.laws.losses(), a.particles.x.extent(0));
+  a.now.walls.work = 0;
 }
 
-void Simulation::mark_start() {
-  start_x_ = Field<Coord>("start_x", particles_.x.extent(0));
-  start_y_ = Field<Coord>("start_y", particles_.x.extent(0));
-  Kokkos::deep_copy(start_x_, particles_.x);
-  Kokkos::deep_copy(start_y_, particles_.y);
+void Simulation::keep_breaks(BreakRecord record) {
+  graph_.drop();
+  assembly_.keep_breaks(record);
 }
 
 void Simulation::set_decomposition(Decomposition const& cuts) {
-  ghosts_.set_decomposition(cuts);
-  upkeep_.ask();
+  assembly_.ghosts.set_decomposition(cuts);
+  assembly_.upkeep.ask();
 }
 
-void Simulation::refresh_ghosts() const { ghosts_.refresh(particles_, now_.box); }
-
-void Simulation::refresh_ghosts(AnyField const& field) const { ghosts_.refresh(particles_, now_.box, field); }
-
 void Simulation::add_uniform_strain_rate(Real rate_x, Real rate_y) {
-  AffineFrame const f = frame();
-  add_affine_velocity(particles_, rate_x, rate_y, f.centre_x, f.centre_y);
+  AffineFrame const f = assembly_.frame();
+  add_affine_velocity(assembly_.particles, rate_x, rate_y, f.centre_x, f.centre_y);
+}
+
+void Simulation::drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y) {
+  MovingWalls& walls = assembly_.now.walls;
+  walls.loading.x = x;
+  walls.loading.y = y;
+  walls.loading.steer(walls.place, assembly_.stress(), walls.reactions, time_step);
+  add_uniform_strain_rate(rate_x, rate_y);
 }
 
 void Simulation::strain(Real x, Real y) {
   Real const factor_x = 1 - x, factor_y = 1 - y;
-  if (periodic()) {
-    PeriodicCell& cell = now_.box.cell;
-    scale_positions(particles_, factor_x, factor_y, cell.left, cell.bottom);
-    cell.width *= factor_x;
-    cell.height *= factor_y;
+  StepState& now = assembly_.now;
+  Box const box = now.box();
+  scale_positions(assembly_.particles, factor_x, factor_y, box.x, box.y);
+  if (now.periodic()) {
+    CellMatrix& edges = now.cell.edges;
+    edges = {edges.xx * factor_x, edges.xy * factor_x, edges.yy * factor_y};
   } else {
-    Coord(&at)[wall_count] = now_.box.walls.position;
-    AffineFrame const f = frame();
-    scale_positions(particles_, factor_x, factor_y, f.centre_x, f.centre_y);
-    for (WallName const wall : {left, right}) at[wall] = f.centre_x + factor_x * (at[wall] - f.centre_x);
-    for (WallName const wall : {bottom, top}) at[wall] = f.centre_y + factor_y * (at[wall] - f.centre_y);
+    Coord(&at)[wall_count] = now.walls.place.position;
+    for (WallName const wall : {left, right}) at[wall] = box.x + factor_x * (at[wall] - box.x);
+    for (WallName const wall : {bottom, top}) at[wall] = box.y + factor_y * (at[wall] - box.y);
   }
-  refresh_ghosts();
+  assembly_.refresh_ghosts();
 }
 
 void Simulation::strain_above(Coord floor, Real y) {
-  Coord& at = now_.box.walls.position[top];
-  scale_positions(particles_, 1, 1 - y, 0, floor, floor);
+  Coord& at = assembly_.now.walls.place.position[top];
+  scale_positions(assembly_.particles, 1, 1 - y, 0, floor, floor);
   at = floor + (1 - y) * (at - floor);
-  refresh_ghosts();
+  assembly_.refresh_ghosts();
 }
 
-void Simulation::drive(AxisDrive const& x, AxisDrive const& y, Real rate_x, Real rate_y) {
-  now_.loading.x = x;
-  now_.loading.y = y;
-  now_.loading.steer(now_.box.walls, stress(), now_.reactions, time_step);
-  add_uniform_strain_rate(rate_x, rate_y);
-}
-
-Measures Simulation::measures() const {
-  return in_range([&] { return measure(particles_, rows_, laws_.contact, wall_contacts_, now_.box.walls, laws_.wall, sums_); });
-}
-
-DissipationTotals Simulation::losses() const {
-  if (!laws_.contact.ledger) return {};
-  return in_range([&] { return total_losses(losses_, particles_.owned, sums_); });
-}
-
-std::uint64_t Simulation::hash() const {
-  return static_cast<std::uint64_t>(ranks().sum(static_cast<std::int64_t>(state_hash(particles_, rows_))));
-}
-
-SpringNetwork Simulation::springs() const { return {particles_, rows_, laws_.contact, now_.box.walls, laws_.wall}; }
-
-AcrossRanks Simulation::across() const {
-  return {sums_, [this](double value) { return ranks().max(value); },
-          [this](Field<Real> const& field) { refresh_ghosts(field); }};
-}
-
-Real Simulation::stable_time_step(Real safety) const {
-  return std::min(safety * ranks().min(local_time_step(springs())), usual_share_of_limit * stable_limit());
+void Simulation::rebuild(RebuildInputs const& all, AuxiliaryFields const& also) {
+  graph_.drop();
+  search_neighbours(assembly_, all, /*skin_by_speed=*/true, also);
+  time_steps_.after_search();
 }
 
 void Simulation::choose_time_step(StepChoice const& choice) {
-  time_steps_.follow(choice, ranks().min(local_time_step(springs())));
+  time_steps_.follow(choice, assembly_.ranks().min(local_time_step(assembly_.springs())));
   update_time_step();
 }
 
 void Simulation::update_time_step() {
-  if (upkeep_.is_asked()) rebuild(rebuild_inputs_of_all(), true, forces());
-  time_step = time_steps_.update(springs(), laws_, across());
-  now_.at_update = {now_.box, 0};
-  if (time_steps_.remember_places(particles_)) graph_.drop();
-}
-
-Real Simulation::largest_frequency(int iterations) const {
-  return in_range([&] { return clathra::largest_frequency(springs(), across(), iterations); });
-}
-
-Real Simulation::stable_limit() const { return TimeStepControl::calm_limit(springs(), laws_.motion.damping, across()); }
-
-void Simulation::keep_break_events(bool on) {
-  graph_.drop();
-  broken_bonds_.collect();
-  broken_bonds_.keeps_events = on;
-  broken_bonds_.drop_log();
-  make_room_for_breaks();
-}
-
-void Simulation::keep_break_details() {
-  graph_.drop();
-  broken_bonds_.collect();
-  broken_bonds_.details_from_height = height();
-  broken_bonds_.drop_log();
-  make_room_for_breaks();
-}
-
-int Simulation::broken_bonds() const { return static_cast<int>(break_counts().total()); }
-
-BreakCounts Simulation::break_counts() const {
-  broken_bonds_.collect();
-  BreakCounts counts = broken_bonds_.counts();
-  ranks().sum(counts.number, break_mode_count);
-  return counts;
-}
-
-BreakEvents Simulation::detailed_break_events(int first) const {
-  broken_bonds_.collect();
-  return broken_bonds_.sorted_events(first);
-}
-
-void Simulation::throw_if_unstable() const {
-  auto const here = host_copy(faults_.disc);
-  double disc[fault_count];
-  for (int fault = 0; fault < fault_count; ++fault) disc[fault] = here(fault);
-  ranks().max(disc, fault_count);
-  throw_of(disc);
-}
-
-/// @param disc  [fault_count] the largest id of a disc of any rank that met each fault, or -1
-void Simulation::throw_of(double const* disc) const {
-  for (int fault = 0; fault < fault_count; ++fault) {
-    if (disc[fault] < 0) continue;
-    double place[2] = {0, 0};
-    std::string const text =
-        fault_text(*this, {static_cast<Fault>(fault), static_cast<int>(disc[fault]), last_good_step_}, place);
-    throw Diverged(text, place[0], place[1]);
-  }
-  last_good_step_ = now_.step;
+  Assembly& a = assembly_;
+  if (a.upkeep.is_asked()) rebuild(rebuild_inputs_of_all(a), force_fields(a));
+  time_step = time_steps_.update(a.springs(), a.laws, a.across());
+  a.now.at_update = {a.now.box(), 0};
+  if (time_steps_.remember_places(a.particles)) graph_.drop();
 }
 
 }  // namespace clathra

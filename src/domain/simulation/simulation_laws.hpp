@@ -2,7 +2,7 @@
 /// What the discs of a simulation obey.
 #include "kernels/forces.hpp"
 #include "kernels/integrate.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/wall_forces.hpp"
 
 namespace clathra {
 
@@ -27,6 +27,11 @@ struct SimulationLaws {
             contact.bond_kind != BondKind::none,
             contact.bond_kind == BondKind::parallel,
             {}};
+  }
+  ContactFeatures features_of_rows() const {
+    ContactFeatures kept = features();
+    kept.format.precision = precision;
+    return kept;
   }
   DissipationKinds losses() const {
     ContactFeatures const f = features();

@@ -1,4 +1,5 @@
-/// Moving a specimen between the host's form (Specimen) and the running one (Simulation).
+#include "domain/simulation/specimen_transfer.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -8,7 +9,8 @@
 
 #include "domain/parallel/directory.hpp"
 #include "domain/parallel/id_index.hpp"
-#include "domain/simulation/simulation.hpp"
+#include "domain/scene/stage.hpp"
+#include "domain/simulation/neighbour_search.hpp"
 #include "kernels/history_forces.hpp"
 
 namespace clathra {
@@ -163,127 +165,140 @@ std::vector<SpecimenContact> contacts_from_others(Ranks const& ranks, Specimen c
   return contacts;
 }
 
-}  // namespace
-
-Simulation::Simulation(Specimen const& s, SimulationLaws const& laws, Real skin, Ranks among)
-    : ghosts_(std::move(among)), laws_(laws), upkeep_(skin), faults_(make_faults()) {
-  std::int64_t const total = ranks().sum(static_cast<std::int64_t>(s.size()));
-  if (total == 0) throw std::invalid_argument("a specimen needs at least one disc");
-  if (s.periodic && !ranks().alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
-  require_finite(ranks(), s);
-  facts_.discs = static_cast<int>(total);
-  upload_discs(s);
-  set_sums();
-  rows_.features = features_of_rows();
-  ghosts_.set_decomposition(Decomposition::bisect(ranks(), particles_, 1));
-  // The first search must reach the widest bond; the skin is its own again afterwards.
-  upkeep_.set_skin(std::max(skin, widest_gap(ranks(), s, total) * (1 + 1e-9)));
-  rebuild(rebuild_inputs_of_all(), /*skin_by_speed=*/false);
-  set_skin(skin);
-  restore_history(s);
-  evaluate_forces();
-}
-
-void Simulation::upload_discs(Specimen const& s) {
+void upload_discs(Assembly& a, Specimen const& s) {
+  AssemblyFacts& facts = a.facts;
+  Ranks const& ranks = a.ranks();
   std::size_t const n = s.size();
   std::vector<double> inverse_mass(n), inverse_inertia(n);
-  MassScaling const& scaling = laws_.scaling;
+  MassScaling const& scaling = a.laws.scaling;
   auto const moving_area = [least = scaling.least_radius](double r) { return pi * std::max(r, least) * std::max(r, least); };
   for (std::size_t i = 0; i < n; ++i) {
     inverse_mass[i] = 1 / (moving_area(s.radius[i]) * s.density);
     inverse_inertia[i] = 2 * inverse_mass[i] / (scaling.inertia * (s.radius[i] * s.radius[i]));
-    facts_.largest_radius = std::max(facts_.largest_radius, s.radius[i]);
+    facts.largest_radius = std::max(facts.largest_radius, s.radius[i]);
   }
-  facts_.largest_radius = ranks().max(facts_.largest_radius);
-  facts_.smallest_radius = ranks().min(s.radius.empty() ? HUGE_VAL : *std::min_element(s.radius.begin(), s.radius.end()));
-  particles_ = allocate_particles(static_cast<int>(n), laws_.precision, facts_.largest_radius);
+  facts.largest_radius = ranks.max(facts.largest_radius);
+  facts.smallest_radius = ranks.min(s.radius.empty() ? HUGE_VAL : *std::min_element(s.radius.begin(), s.radius.end()));
+  a.particles = allocate_particles(static_cast<int>(n), a.laws.precision, facts.largest_radius);
   // Summed by id, so that the order of the input does not show.
-  Directory const radii(ranks(), facts_.discs, s.id, {s.radius});
-  facts_.solid_area = radii.sum_by_id([](double const* r) { return pi * *r * *r; });
-  facts_.added_mass = radii.sum_by_id([&](double const* r) { return moving_area(*r); }) / facts_.solid_area - 1;
-  upload(particles_.id, s.id);
-  upload(particles_.inverse_mass, inverse_mass);
-  upload(particles_.inverse_inertia, inverse_inertia);
-  for_each_column_of_specimen(particles_,
+  Directory const radii(ranks, facts.discs, s.id, {s.radius});
+  facts.solid_area = radii.sum_by_id([](double const* r) { return pi * *r * *r; });
+  facts.added_mass = radii.sum_by_id([&](double const* r) { return moving_area(*r); }) / facts.solid_area - 1;
+  upload(a.particles.id, s.id);
+  upload(a.particles.inverse_mass, inverse_mass);
+  upload(a.particles.inverse_inertia, inverse_inertia);
+  for_each_column_of_specimen(a.particles,
                               [&](auto const& field, ParticleColumn const& column) { upload(field, or_zero(s.*column.of, n)); });
-  facts_.density = s.density;
-  facts_.d50 = s.d50;
-  facts_.critical_thickness = s.critical_thickness;
-  if (s.periodic) {
-    now_.box.cell = now_.at_search.box.cell = {s.left, s.bottom, s.width(), s.height()};
-  } else {
-    now_.box.walls = now_.at_search.box.walls = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
-  }
+  facts.density = s.density;
+  facts.d50 = s.d50;
+  facts.critical_thickness = s.critical_thickness;
+  if (s.periodic)
+    a.now.cell = Box::cell(s.left, s.bottom, s.width(), s.height());
+  else
+    a.now.walls.place = {{s.left, s.right, s.bottom, s.top}, {0, 0, 0, 0}};
+  a.now.at_search.box = a.now.box();
 }
 
 /// Writes the history of the specimen's contacts into the rows, on both sides.
-void Simulation::restore_history(Specimen const& s) {
-  auto const id = host_copy(particles_.id), slice_start = host_copy(rows_.slice_start), neighbour = host_copy(rows_.neighbour);
-  auto const length = host_copy(rows_.length);
-  IdIndex const at(id, particles_.owned);
-  HistoryOnHost history(rows_);
+void restore_history(Assembly& a, Specimen const& s) {
+  ContactRows const& rows = a.rows;
+  auto const id = host_copy(a.particles.id), slice_start = host_copy(rows.slice_start), neighbour = host_copy(rows.neighbour);
+  auto const length = host_copy(rows.length);
+  IdIndex const at(id, a.particles.owned);
+  HistoryOnHost history(rows);
   auto const write = [&](SpecimenContact const& c) {
     for (auto const& [mine, other, is_first] : {std::tuple{c.id_a, c.id_b, true}, std::tuple{c.id_b, c.id_a, false}}) {
       int const i = at.find(mine);
       if (i < 0) continue;
       for (int k = 0; k < length(i); ++k) {
-        std::size_t const e = entry_in(slice_start, rows_.features.format, i, k);
+        std::size_t const e = entry_in(slice_start, rows.features.format, i, k);
         if (id(neighbour(e)) == other) history.set(e, c, is_first);
       }
     }
   };
   std::for_each(s.contacts.begin(), s.contacts.end(), write);
   auto const others =
-      contacts_from_others(ranks(), s, facts_.discs, at, {id.data(), id.data() + static_cast<std::size_t>(particles_.owned)});
+      contacts_from_others(a.ranks(), s, a.discs(), at, {id.data(), id.data() + static_cast<std::size_t>(a.particles.owned)});
   std::for_each(others.begin(), others.end(), write);
-  history.upload_to(rows_);
-  prepare_rows(particles_, rows_, laws_.contact.bond);
-  anchor_rows(particles_, rows_, laws_.contact);
-  broken_bonds_.drop_log();  // that of the search before it has room for no bond
-  make_room_for_breaks();
-}
-
-Specimen Simulation::specimen() const {
-  Specimen s;
-  s.periodic = periodic();
-  s.left = periodic() ? now_.box.cell.left : now_.box.walls.position[left];
-  s.right = periodic() ? now_.box.cell.left + now_.box.cell.width : now_.box.walls.position[right];
-  s.bottom = periodic() ? now_.box.cell.bottom : now_.box.walls.position[bottom];
-  s.top = periodic() ? now_.box.cell.bottom + now_.box.cell.height : now_.box.walls.position[top];
-  s.density = facts_.density;
-  s.d50 = facts_.d50;
-  s.void_ratio = void_ratio();
-  s.separate_bonds = laws_.contact.bond_kind == BondKind::parallel;
-  s.critical_thickness = laws_.contact.bond_kind == BondKind::none ? 0 : facts_.critical_thickness;
-  auto const n = static_cast<std::size_t>(particles_.owned);
-  IdIndex const places(host_copy(particles_.id), particles_.owned);
-  for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
-  for_each_column_of_specimen(particles_, [&](auto const& field, ParticleColumn const& column) {
-    bool const turned = std::string_view(column.name) == "angle";
-    std::vector<double> const host = turned ? rotations(particles_) : numbers_on_host(field, n);
-    std::vector<double>& values = s.*column.of;
-    values.reserve(n);
-    for (auto const& [id, index] : places.sorted()) values.push_back(host[static_cast<std::size_t>(index)]);
-  });
-  s.contacts = contacts_by_id();
-  return s;
+  history.upload_to(rows);
+  prepare_rows(a.particles, a.rows, a.laws.contact.bond);
+  anchor_rows(a.particles, rows, a.laws.contact);
+  a.broken.drop_log();  // that of the search before it has room for no bond
+  a.make_room_for_breaks();
 }
 
 /// The pairs with history, sorted by (id_a, id_b).
-std::vector<SpecimenContact> Simulation::contacts_by_id() const {
-  auto const id = host_copy(particles_.id), slice_start = host_copy(rows_.slice_start), neighbour = host_copy(rows_.neighbour);
-  auto const length = host_copy(rows_.length);
-  HistoryOnHost const history(with_forces(particles_, rows_, laws_.contact));
+std::vector<SpecimenContact> contacts_by_id(Assembly const& a) {
+  ContactRows const& rows = a.rows;
+  auto const id = host_copy(a.particles.id), slice_start = host_copy(rows.slice_start), neighbour = host_copy(rows.neighbour);
+  auto const length = host_copy(rows.length);
+  HistoryOnHost const history(with_forces(a.particles, rows, a.laws.contact));
   std::vector<SpecimenContact> contacts;
-  for (int i = 0; i < particles_.owned; ++i) {
+  for (int i = 0; i < a.particles.owned; ++i) {
     for (int k = 0; k < length(i); ++k) {
-      std::size_t const e = entry_in(slice_start, rows_.features.format, i, k);
+      std::size_t const e = entry_in(slice_start, rows.features.format, i, k);
       int const other = id(neighbour(e));
       if (other > id(i) && !history.empty(e)) contacts.push_back(history.contact(e, id(i), other));
     }
   }
   std::sort(contacts.begin(), contacts.end(), by_ids);
   return contacts;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<Boundary>> boundaries_of(Specimen const& s) {
+  std::vector<std::unique_ptr<Boundary>> boundaries;
+  if (!s.periodic) boundaries.push_back(std::make_unique<RigidWalls>(/*rough=*/false));
+  return boundaries;
+}
+
+void take_over(Assembly& a, Specimen const& s) {
+  Ranks const& ranks = a.ranks();
+  std::int64_t const total = ranks.sum(static_cast<std::int64_t>(s.size()));
+  if (total == 0) throw std::invalid_argument("a specimen needs at least one disc");
+  if (s.periodic && !ranks.alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
+  require_finite(ranks, s);
+  a.facts.discs = static_cast<int>(total);
+  upload_discs(a, s);
+  a.set_sums();
+  a.rows.features = a.laws.features_of_rows();
+  a.ghosts.set_decomposition(Decomposition::bisect(ranks, a.particles, 1));
+  // The first search must reach the widest bond; the skin is its own again afterwards.
+  Real const skin = a.upkeep.skin();
+  a.upkeep.set_skin(std::max(skin, widest_gap(ranks, s, total) * (1 + 1e-9)));
+  search_neighbours(a, rebuild_inputs_of_all(a), /*skin_by_speed=*/false);
+  a.upkeep.set_skin(skin);
+  a.upkeep.ask();
+  restore_history(a, s);
+}
+
+Specimen specimen_of(Assembly const& a) {
+  Specimen s;
+  Box const box = a.now.box();
+  Walls const& walls = a.walls();
+  s.periodic = a.periodic();
+  s.left = s.periodic ? box.x : walls.position[left];
+  s.right = s.periodic ? box.x + box.width() : walls.position[right];
+  s.bottom = s.periodic ? box.y : walls.position[bottom];
+  s.top = s.periodic ? box.y + box.height() : walls.position[top];
+  s.density = a.facts.density;
+  s.d50 = a.facts.d50;
+  s.void_ratio = a.void_ratio();
+  s.separate_bonds = a.laws.contact.bond_kind == BondKind::parallel;
+  s.critical_thickness = a.laws.contact.bond_kind == BondKind::none ? 0 : a.facts.critical_thickness;
+  auto const n = static_cast<std::size_t>(a.particles.owned);
+  IdIndex const places(host_copy(a.particles.id), a.particles.owned);
+  for (auto const& [id, index] : places.sorted()) s.id.push_back(id);
+  for_each_column_of_specimen(a.particles, [&](auto const& field, ParticleColumn const& column) {
+    bool const turned = std::string_view(column.name) == "angle";
+    std::vector<double> const host = turned ? rotations(a.particles) : numbers_on_host(field, n);
+    std::vector<double>& values = s.*column.of;
+    values.reserve(n);
+    for (auto const& [id, index] : places.sorted()) values.push_back(host[static_cast<std::size_t>(index)]);
+  });
+  s.contacts = contacts_by_id(a);
+  return s;
 }
 
 }  // namespace clathra

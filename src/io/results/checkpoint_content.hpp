@@ -11,7 +11,7 @@ namespace clathra {
 
 /// 1 had one skin for all discs, 2 all accounts of losses in every ledger and no counts of breaks, 3 a hash that left inverse
 /// inertias out, 4 former names of columns; all are read, too.
-inline constexpr std::int64_t checkpoint_version = 5;
+inline constexpr std::int64_t checkpoint_version = 6;
 
 /// @throws FileProblem cannot_create or io_error
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks);

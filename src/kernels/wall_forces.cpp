@@ -1,4 +1,4 @@
-#include "kernels/walls.hpp"
+#include "kernels/wall_forces.hpp"
 
 #include <algorithm>
 
@@ -34,7 +34,7 @@ struct WallDiscs {
   Lanes x, y, radius, vx, vy, omega;
 };
 
-/// The forces of up to four walls on the discs near them, and with them the end of the step.
+/// The forces of up to four walls on the discs near them.
 struct WallForces : ReactionSums {
   ParticleSoA p;
   WallContacts contacts;
@@ -44,6 +44,7 @@ struct WallForces : ReactionSums {
   Dissipation losses;
   Faults faults;
   Real unit_of_force;
+  bool ends_step;
 
   /// Whether anybody asks how the discs move.
   KOKKOS_FORCEINLINE_FUNCTION bool needs_motion() const { return law.friction > 0 || law.damping_ratio > 0; }
@@ -88,7 +89,7 @@ struct WallForces : ReactionSums {
   }
   template <class Sums>
   KOKKOS_FORCEINLINE_FUNCTION void add_group(int group, Sums reactions) const {
-    Walls const walls = steps(0).box.walls;
+    Walls const walls = steps(0).walls.place;
     int const first = group * lane_count;
     WallDiscs const d = discs(first);
     for (int wall = 0; wall < wall_count; ++wall) {
@@ -155,9 +156,10 @@ struct WallForces : ReactionSums {
     now.out_of_range = out_of_range(sums);
     if (now.out_of_range > 0) {
       now.stop = StepStop::out_of_range;
-    } else {
-      now.end_step(reactions_of(sums, unit_of_force));
+      return;
     }
+    now.walls.after_forces(reactions_of(sums, unit_of_force), now.orders.dt);
+    if (ends_step) now.end_step();
   }
 };
 
@@ -263,9 +265,17 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
                      Dissipation const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
-                     StepLaunches const& launches) {
-  WallForces const forces{
-      ReactionSums(ReactionUnits(unit).of), particles, contacts, steps.state, law.as_grain(), dt, losses, faults, unit.force()};
+                     bool ends_step, StepLaunches const& launches) {
+  WallForces const forces{ReactionSums(ReactionUnits(unit).of),
+                          particles,
+                          contacts,
+                          steps.state,
+                          law.as_grain(),
+                          dt,
+                          losses,
+                          faults,
+                          unit.force(),
+                          ends_step};
   int const groups = group_count(contacts.size);
   if constexpr (for_gpu) {
     int const threads = std::max(groups, 1);  // the step ends without discs near walls, too
