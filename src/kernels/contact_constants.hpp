@@ -15,12 +15,13 @@ struct ContactConstants {
   LeastStrengthOf<R> least;
   R dt;
   R tick, per_tick;  ///< mixed precision: what differences of places count in [m], and one over it
+  bool ledger;       ///< whether energy losses are added up
 };
 
 /// The laws as the kernel takes them, in numbers R.
 template <class R>
 ContactConstants<R> constants_in(ContactLaws const& laws, Real dt, Real tick) {
-  return {cast<R>(laws.grain), cast<R>(laws.bond), least_strength<R>(laws.bond), R(dt), R(tick), R(1 / tick)};
+  return {cast<R>(laws.grain), cast<R>(laws.bond), least_strength<R>(laws.bond), R(dt), R(tick), R(1 / tick), laws.ledger};
 }
 
 }  // namespace clathra

@@ -11,7 +11,7 @@ template <BondKind Bond>
 using BondAxis = std::integral_constant<BondKind, Bond>;
 using AnyBond = std::variant<BondAxis<BondKind::none>, BondAxis<BondKind::replace>, BondAxis<BondKind::parallel>>;
 using AnySwitch = std::variant<std::false_type, std::true_type>;
-static_assert(std::variant_size_v<AnyBond> * 2 * 2 * 2 * 2 <= 48,
+static_assert(std::variant_size_v<AnyBond> * 2 * 2 * 2 <= 24,
               "the contact kernel is specialised on few axes; add a term to a law, not an axis to the kernel");
 
 inline AnyBond bond_axis(BondKind kind) {
@@ -39,15 +39,15 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
   ContactConstants<R> const constants = constants_in<R>(laws, dt, particles.mirror.tick);
   int const groups = group_count(particles.owned, lane_count_of<R>);
   std::visit(
-      [&](auto bond, auto friction, auto rolling, auto dashpot, auto ledger) {
+      [&](auto bond, auto friction, auto rolling, auto losing) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
-        using Kernel = ContactKernel<P, bond(), shears, rolling(), dashpot(), ledger()>;
+        using Kernel = ContactKernel<P, bond(), shears, rolling(), losing()>;
         launches.parallel_for(
             Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
             Kernel{particles, rows, constants, laws.bond, step, steps, breaks, losses, faults, discs_ahead(particles.owned)});
       },
-      bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling), on(laws.grain.damping_ratio > 0),
-      on(laws.ledger));
+      bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling),
+      on(laws.grain.damping_ratio > 0 || laws.ledger));
 }
 
 }  // namespace clathra

@@ -1,5 +1,5 @@
 #pragma once
-/// The contact kernel, specialised by precision, bond kind, friction, rolling, dashpot and ledger; instantiated in
+/// The contact kernel, specialised by precision, bond kind, friction, rolling and losses; instantiated in
 /// forces_full.cpp and forces_mixed.cpp only.
 #include <type_traits>
 
@@ -13,7 +13,9 @@ namespace clathra {
 
 /// One group of discs per call, as many as a vector holds: walks their rows side by side.
 /// @tparam P  FullPrecision or MixedPrecision;  @tparam Friction  false where grain contacts carry no shear
-template <class P, BondKind Bond, bool Friction, bool Rolling, bool Dashpot, bool Ledger>
+/// @tparam Losses  whether there are dashpots or an energy ledger; which of them a branch finds that goes one way in a whole
+/// launch
+template <class P, BondKind Bond, bool Friction, bool Rolling, bool Losses>
 struct ContactKernel {
   using R = typename P::Real;
   using V = LanesOf<R>;
@@ -22,7 +24,7 @@ struct ContactKernel {
   using Force = typename Kept::Force;
   using Constants = ContactConstants<R>;
   static constexpr bool mixed = P::precision == Precision::mixed;
-  using Discs = DiscReader<P, !mixed || Dashpot || Ledger, Dashpot>;
+  using Discs = DiscReader<P, !mixed || Losses, Losses>;
   using Failures = BondFailures<P>;
   using StepWay = WayOfStep<V>;
   static constexpr int lanes = lane_count_of<R>, slice_width = slice_width_of<R>;
@@ -82,15 +84,28 @@ struct ContactKernel {
     store(p.force_x.data<R>() + first, own.force_x);
     store(p.force_y.data<R>() + first, own.force_y);
     store(p.torque.data<R>() + first, own.torque);
-    if constexpr (Ledger) {
+    if constexpr (Losses) {
+      if (!law.ledger) return;
       if constexpr (shears) Discs::add_dissipation(losses.sliding, first, own.sliding);
       if constexpr (Rolling) Discs::add_dissipation(losses.rolling, first, own.rolling);
-      if constexpr (Dashpot) Discs::add_dissipation(losses.dashpot, first, own.dashpot);
+      if (law.grain.damping_ratio > 0) Discs::add_dissipation(losses.dashpot, first, own.dashpot);
       if constexpr (bonded_code) Discs::add_dissipation(losses.breakage, first, own.breakage);
     }
   }
 
-  /// Entry block `e .. e + lanes`: the k-th neighbour of each disc of the group.
+  /// Entry block `e .. e + lanes`: the k-th neighbour of each disc of the group. Which lanes do what, by masks:
+  ///
+  ///     touching                                by the distance; decides over the grain contact alone
+  ///     none                                    had no history of the grain contact (of the bond in its place) before the step
+  ///     bonded                                  had an intact bond before the step
+  ///     begins   = none && touching             starts with the slip of this step
+  ///     broken   = bonded && beyond its strength;  intact = bonded && !broken
+  ///     carrying = touching || intact           has a history after the step; all others' forces are exact zeros
+  ///     changes  = broken || none == carrying   its history begins or ends or gets another stiffness: a new reference
+  ///                (separate bonds: none == touching, of the grain contact)
+  ///     far      = carrying && turned too far since its reference: the same
+  ///
+  /// In double precision a history that has ended is zero instead of none, and begins, changes and far are false.
   /// @param active  false if none of them holds a history;  @return whether one does afterwards
   KOKKOS_FORCEINLINE_FUNCTION bool add_block(Constants const& law, std::size_t first, std::size_t e, bool active,
                                              Own& own) const {
@@ -140,7 +155,7 @@ struct ContactKernel {
     }
 
     Viscosity dashpot;
-    if constexpr (Dashpot) dashpot = dashpot_coefficient(law.grain, disc.motion.inverse_mass, moving.inverse_mass);
+    if constexpr (Losses) dashpot = viscosity(law, disc.motion.inverse_mass, moving.inverse_mass);
     Forces now;
     ContactMotion<V> of_grains = motion;
     if constexpr (mixed && (shears || turns)) {
@@ -153,7 +168,9 @@ struct ContactKernel {
       }
     }
     ContactForce<V> force = grain_force(law, of_grains, dashpot, h, none && !begins, now);
-    if constexpr (Ledger && Bond != BondKind::replace) add_grain_losses(law, motion, now, before(h, now, in_step), force, own);
+    if constexpr (Losses && Bond != BondKind::replace) {
+      if (law.ledger) add_grain_losses(law, motion, now, before(h, now, in_step), force, own);
+    }
     [[maybe_unused]] auto intact = VMask(false), broken = VMask(false);
     if constexpr (bonded_code) {
       auto const bonded = is_bonded(h.formation_overlap);
@@ -226,7 +243,10 @@ struct ContactKernel {
     return own;
   }
 
-  using Viscosity = std::conditional_t<Dashpot, V, Undamped>;
+  using Viscosity = std::conditional_t<Losses, V, Undamped>;
+  KOKKOS_FORCEINLINE_FUNCTION static V viscosity(Constants const& law, V const& inverse_mass, V const& other_inverse_mass) {
+    return law.grain.damping_ratio > 0 ? dashpot_coefficient(law.grain, inverse_mass, other_inverse_mass) : V(0);
+  }
 
   /// Pairs without a history of the grain contact (or of the bond in its place), in mixed precision.
   KOKKOS_FORCEINLINE_FUNCTION static VMask remembers_nothing(History const& h) {
@@ -311,7 +331,7 @@ struct ContactKernel {
                                                         Forces& now, Own& own) const {
     V const zero(0);
     if constexpr (Bond == BondKind::parallel) {
-      if constexpr (Ledger) own.breakage += select(broken, constant<V>(0.5) * spring_energy(bond.force, bond.stiffness), zero);
+      if constexpr (Losses) own.breakage += select(broken, constant<V>(0.5) * spring_energy(bond.force, bond.stiffness), zero);
       now.bond_shear.now = select(intact, bond.force.shear, zero);
       now.bond_moment.now = select(intact, bond.force.moment, zero);
       return {grain_part.normal + select(intact, bond.force.normal, zero), grain_part.shear + now.bond_shear.now,
@@ -319,7 +339,9 @@ struct ContactKernel {
     } else {
       ContactForce<V> force = limit(law, motion, dashpot, now, intact);
       if constexpr (!Rolling) force.moment = now.moment.now = select(intact, now.moment.trial, zero);
-      if constexpr (Ledger) add_replace_losses(law, motion, bond, now, bonded, broken, before(h, now, in_step), force, own);
+      if constexpr (Losses) {
+        if (law.ledger) add_replace_losses(law, motion, bond, now, bonded, broken, before(h, now, in_step), force, own);
+      }
       force.normal = select(intact, bond.force.normal, force.normal);
       return force;
     }
@@ -355,9 +377,8 @@ struct ContactKernel {
       V const turned = (grains.moment.trial - now.moment) / stiffness;
       own.rolling += select(where, quarter * (old.moment + now.moment) * turned, zero);
     }
-    if constexpr (Dashpot) {
+    if (law.grain.damping_ratio > 0)
       own.dashpot += select(where, constant<V>(0.5) * dashpot_loss(law.grain, motion, now.normal, law.dt), zero);
-    }
   }
 
   /// The same for `replace`: unbonded pairs slide and roll; a bond that breaks swaps its energy for that of the grain contact.
