@@ -92,6 +92,11 @@ TEST(Units, AHintSaysHowToWriteWhatWasMeant) {
   EXPECT_EQ(said("1,000 kPa", Dimension::pressure),
             "has a comma, which may be a decimal one or set apart thousands; write 1.000 kPa or 1000 kPa");
   EXPECT_EQ(said("1e6 N/m2", Dimension::pressure), "has an unknown unit 'm2' in '1e6 N/m2'; did you mean 'm^2'?");
+  EXPECT_EQ(said("170 microns", Dimension::length), "has an unknown unit 'microns' in '170 microns'; did you mean 'um'?");
+  EXPECT_EQ(said("5 deg C", Dimension::temperature), "has an unknown unit 'deg C' in '5 deg C'; did you mean 'degC'?");
+  EXPECT_EQ(said("3 /s", Dimension::rate), "has an unknown unit '' in '3 /s'; a rate is written 1/s");
+  EXPECT_EQ(said("26 percent", Dimension::ratio), "has an unknown unit 'percent' in '26 percent'; did you mean '%'?");
+  EXPECT_EQ(said("0.9 g/cc", Dimension::density), "has an unknown unit 'cc' in '0.9 g/cc'; did you mean 'cm^3'?");
   EXPECT_EQ(said("2 g/cm3", Dimension::density), "has an unknown unit 'cm3' in '2 g/cm3'; did you mean 'cm^3'?");
 }
 

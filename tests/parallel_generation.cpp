@@ -189,6 +189,18 @@ TEST(Sizes, MayDifferAsFarAsRowsOfNeighboursReach) {
   EXPECT_NE(crowding(two_sizes(20), 0.15e-3), "");  // bonds reach the second ring
 }
 
+/// What it says fits is what a row holds.
+TEST(Sizes, TellHowWideASkinMayBe) {
+  Grading const sand = Grading::toyoura();
+  EXPECT_EQ(wide_skin(sand, 0), "");
+  EXPECT_EQ(wide_skin(sand, 0.3e-3), "");
+  std::string const text = wide_skin(sand, 1e-3);
+  EXPECT_NE(text.find("within 1 mm of a grain there may be more neighbours than the 96"), std::string::npos) << text;
+  EXPECT_NE(text.find("the skin may be 0.369 mm at most"), std::string::npos) << text;
+  EXPECT_EQ(wide_skin(sand, 0.368e-3), "");
+  EXPECT_NE(wide_skin(sand, 0.37e-3), "");
+}
+
 /// Where the fines are an eighth of the rest, specimens were once lost to rows that were too short.
 TEST(Sizes, OfAGapGradedSandMakeASpecimen) {
   Scene scene = scene_of(Generator::compression, 0.2, 600);

@@ -96,6 +96,18 @@ std::string crowding(Grading const& grading, double reach) {
   return text;
 }
 
+std::string wide_skin(Grading const& grading, double skin) {
+  if (skin == 0 || most_neighbours(grading, skin) <= longest_row) return {};
+  double const most = 0.5 * grading.smallest() * reach_of_a_full_row(grading.largest() / grading.smallest());
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "within %.4g mm of a grain there may be more neighbours than the %d that a disc can have; of this grading the skin "
+      "may be %.3g mm at most, and is best left out",
+      skin * 1e3, longest_row, most * 1e3);
+  return text;
+}
+
 std::string narrowness(double width, double height, double largest, double fewest) {
   constexpr double rounding = 1e-9;
   double const side = std::min(width, height), across = side / largest;

@@ -34,6 +34,8 @@ double reach_of_a_full_row(double ratio);
 /// Why the sizes of a grading differ too much for the rows of neighbours, with the ratio that does not; empty where they fit.
 /// @param reach  beyond touching, of bonds [m]
 std::string crowding(Grading const& grading, double reach);
+/// Why a Verlet skin [m], 0 = chosen, is too wide for the rows of neighbours, with the widest that is not; empty where it fits.
+std::string wide_skin(Grading const& grading, double skin);
 
 inline constexpr double fewest_grains_across = 3;
 

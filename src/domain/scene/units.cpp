@@ -125,9 +125,20 @@ bool same_but_for_case(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return small(x) == small(y); });
 }
 
+/// What people write, and what it is here.
+constexpr std::pair<std::string_view, std::string_view> other_names[] = {
+    {"micron", "um"}, {"microns", "um"}, {"micrometre", "um"}, {"micrometer", "um"}, {"cc", "cm^3"},      {"percent", "%"},
+    {"pct", "%"},     {"per cent", "%"}, {"deg C", "degC"},    {"deg", "degC"},      {"celsius", "degC"}, {"kelvin", "K"},
+    {"sec", "s"},     {"second", "s"},   {"seconds", "s"},     {"minute", "min"},    {"minutes", "min"},  {"hr", "h"},
+    {"hour", "h"},    {"hours", "h"},    {"day", "d"},         {"days", "d"},        {"inch", "in"},      {"metre", "m"},
+    {"meter", "m"},   {"pascal", "Pa"},  {"newton", "N"}};
+
 /// "; did you mean 'MPa'?" for "Mpa", or nothing; of units that differ in their case alone (mN, MN) it names all.
 std::string unit_suggestion(std::string_view name) {
   std::string hint;
+  if (name.empty()) return "; a rate is written 1/s";
+  for (auto const& [theirs, ours] : other_names)
+    if (same_but_for_case(theirs, name)) return "; did you mean '" + std::string(ours) + "'?";
   if (std::string_view const letters = name.substr(0, name.find_last_not_of("0123456789") + 1);
       letters.size() < name.size() && find_unit(letters))
     return "; did you mean '" + std::string(letters) + "^" + std::string(name.substr(letters.size())) + "'?";

@@ -107,6 +107,8 @@ std::optional<SampleDesign> check_design(Check& check) {
       check.refusal({"sample.width", "sample.height", "sample.particles", "grading.d50"}, problem);
     if (std::string const problem = crowding(design.grading, reach_of_bonds(scene, design.grading.d50())); !problem.empty())
       check.refusal({"grading.file", "grading.d50"}, problem);
+    if (std::string const problem = wide_skin(design.grading, scene.run.skin); !problem.empty())
+      check.refusal({"run.skin"}, problem);
     if (int const layers = compaction_layers(scene, design);
         layers < scene.sample.layers && scene.sample.generator == Generator::under_compaction && check.given("sample.layers"))
       check.warn(fmt::format("the specimen is compacted in {} layers, not {}: thinner ones would not be layers of these grains",
