@@ -1,5 +1,8 @@
 #pragma once
 /// The box of an assembly, whatever bounds it, and its homogeneous motion.
+#include <algorithm>
+#include <cmath>
+
 #include "kernels/lane.hpp"
 
 namespace clathra {
@@ -22,6 +25,8 @@ struct Box {
   KOKKOS_INLINE_FUNCTION Real width() const { return edges.xx; }   ///< along x [m]
   KOKKOS_INLINE_FUNCTION Real height() const { return edges.yy; }  ///< along y, whatever the tilt [m]
   KOKKOS_INLINE_FUNCTION Real area() const { return edges.xx * edges.yy; }
+  /// The distance of the nearer pair of opposite edges [m]; sides that lean stand nearer than the width.
+  Real narrowest() const { return std::min(edges.xx / std::hypot(1, edges.xy / edges.yy), edges.yy); }
 
   /// A periodic cell from its lower left corner on, with upright sides.
   static Box cell(Coord left, Coord bottom, Real width, Real height) {

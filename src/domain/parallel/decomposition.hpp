@@ -48,6 +48,7 @@ class Decomposition {
   bool single() const { return cuts_.empty(); }
   int owner(Coord x, Coord y) const { return owner_by(cuts_.data(), cuts_.size(), x, y); }
   Rectangle rectangle(int rank) const;
+  /// The cuts go with the box, which does not lean where there are several ranks.
   void follow(AffineFrame const& motion);
 
   /// The owner of a place, for kernels.

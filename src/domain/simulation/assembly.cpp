@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/fault_report.hpp"
 #include "domain/simulation/time_step_control.hpp"
 
 namespace clathra {
+
+Assembly::Assembly(SimulationLaws const& by_laws, Real skin, Ranks ranks, bool periodic)
+    : laws(by_laws), ghosts(std::move(ranks)), upkeep(skin), faults(make_faults()) {
+  if (!periodic) boundaries.push_back(std::make_unique<RigidWalls>(/*rough=*/laws.wall.friction > 0));
+}
 
 WallContacts Assembly::wall_contacts() const {
   for (auto const& boundary : boundaries)

@@ -40,18 +40,17 @@ struct AssemblyFacts {
 /// Several ranks may share an assembly: each owns the particles of a rectangle and keeps their rows. All calls but those that say
 /// "of this rank" are then collective, and what they return is that of the whole specimen and the same on every rank.
 struct Assembly {
-  /// Without particles. @param skin  Verlet skin [m] (NeighbourListUpkeep);  @param bounds  those with forces, none for a
-  /// periodic cell
-  Assembly(SimulationLaws const& by_laws, Real skin, Ranks ranks, std::vector<std::unique_ptr<Boundary>> bounds)
-      : laws(by_laws), ghosts(std::move(ranks)), boundaries(std::move(bounds)), upkeep(skin), faults(make_faults()) {}
+  /// Without particles. @param skin  Verlet skin [m] (NeighbourListUpkeep);  @param periodic  whether a cell stands in the place
+  /// of walls
+  Assembly(SimulationLaws const& by_laws, Real skin, Ranks ranks, bool periodic);
 
   AssemblyFacts facts;
   SimulationLaws laws;
-  StepState now;          ///< as it was after the last step that is done
-  ParticleSoA particles;  ///< of this rank, ghosts behind them
-  ContactRows rows;       ///< of this rank: neighbour list and contact history
-  Ghosts ghosts;          ///< with the ranks and who owns which particle
-  std::vector<std::unique_ptr<Boundary>> boundaries;
+  StepState now;                                      ///< as it was after the last step that is done
+  ParticleSoA particles;                              ///< of this rank, ghosts behind them
+  ContactRows rows;                                   ///< of this rank: neighbour list and contact history
+  Ghosts ghosts;                                      ///< with the ranks and who owns which particle
+  std::vector<std::unique_ptr<Boundary>> boundaries;  ///< those with forces
   NeighbourListUpkeep upkeep;
   mutable BrokenBonds broken;               ///< of this rank, collected when they are asked for
   Dissipation dissipation;                  ///< of this rank, in the ledger

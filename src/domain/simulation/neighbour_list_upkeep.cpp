@@ -17,7 +17,7 @@ SkinRange NeighbourListUpkeep::skins(Box const& box, Real smallest_radius, Real 
   Real const least = skin_ / 2;
   if (!by_speed) return {least, least};
   Real most = std::min(times * least, 0.5 * smallest_radius * reach_of_a_full_row(largest_radius / smallest_radius));
-  if (box.periodic) most = std::min(most, 0.49 * (0.5 * std::min(box.width(), box.height()) - 2 * largest_radius));
+  if (box.periodic) most = std::min(most, 0.49 * (0.5 * box.narrowest() - 2 * largest_radius));
   return {least, std::max(most, least)};
 }
 

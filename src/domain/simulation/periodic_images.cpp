@@ -75,9 +75,8 @@ struct CopyValues {
 }  // namespace
 
 void PeriodicImages::rebuild(ParticleSoA& particles, Box const& cell, Real reach) {
+  if (2 * reach > cell.narrowest()) throw std::invalid_argument("the periodic cell is smaller than four disc diameters");
   Real const sideways = reach * std::hypot(1, cell.edges.xy / cell.edges.yy);
-  if (2 * sideways > cell.width() || 2 * reach > cell.height())
-    throw std::invalid_argument("the periodic cell is smaller than four disc diameters");
   Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
   particles.ghosts = 0;
   Kokkos::parallel_for("wrap", each, Wrap{particles, cell});

@@ -12,12 +12,6 @@ namespace clathra {
 
 namespace {
 
-std::vector<std::unique_ptr<Boundary>> walls_as(SimulationLaws const& laws) {
-  std::vector<std::unique_ptr<Boundary>> boundaries;
-  boundaries.push_back(std::make_unique<RigidWalls>(/*rough=*/laws.wall.friction > 0));
-  return boundaries;
-}
-
 /// Visits the numbers that a checkpoint keeps.
 template <class Visit>
 void for_each_kept_number(Assembly& assembly, TimeStepControl& time_steps, Real& time_step, Visit&& visit) {
@@ -36,13 +30,13 @@ AuxiliaryFields places_at_update(TimeStepControl& time_steps) {
 }  // namespace
 
 Simulation::Simulation(Specimen const& specimen, SimulationLaws const& laws, Real skin, Ranks among)
-    : assembly_(laws, skin, std::move(among), boundaries_of(specimen)) {
+    : assembly_(laws, skin, std::move(among), specimen.periodic) {
   take_over(assembly_, specimen);
   evaluate_forces();
 }
 
 Simulation::Simulation(SimulationState state, SimulationLaws const& laws, Ranks among)
-    : assembly_(laws, 0, std::move(among), walls_as(laws)) {
+    : assembly_(laws, 0, std::move(among), /*periodic=*/false) {
   for_each_kept_number(assembly_, time_steps_, time_step, [&](std::string const& name, auto& value) {
     value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name));
   });

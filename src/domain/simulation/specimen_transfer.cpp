@@ -247,12 +247,6 @@ std::vector<SpecimenContact> contacts_by_id(Assembly const& a) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Boundary>> boundaries_of(Specimen const& s) {
-  std::vector<std::unique_ptr<Boundary>> boundaries;
-  if (!s.periodic) boundaries.push_back(std::make_unique<RigidWalls>(/*rough=*/false));
-  return boundaries;
-}
-
 void take_over(Assembly& a, Specimen const& s) {
   Ranks const& ranks = a.ranks();
   std::int64_t const total = ranks.sum(static_cast<std::int64_t>(s.size()));

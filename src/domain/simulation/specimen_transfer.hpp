@@ -5,12 +5,9 @@
 
 namespace clathra {
 
-/// A boundary with forces for a specimen: its walls, or none where it is a periodic cell.
-std::vector<std::unique_ptr<Boundary>> boundaries_of(Specimen const& s);
-
 /// Takes over a specimen with the history of its contacts, all but the forces that it then has.
 /// @param s  this rank's share of it: each disc and each contact on one rank, whichever
-/// @param a  new, with boundaries_of() it
+/// @param a  new, periodic as the specimen is
 /// @throws std::invalid_argument for one without discs, or a periodic cell on several ranks; Diverged for numbers not finite
 void take_over(Assembly& a, Specimen const& s);
 

@@ -9,8 +9,7 @@
 
 namespace clathra {
 
-/// 1 had one skin for all discs, 2 all accounts of losses in every ledger and no counts of breaks, 3 a hash that left inverse
-/// inertias out, 4 former names of columns; all are read, too.
+/// Only this one is read.
 inline constexpr std::int64_t checkpoint_version = 6;
 
 /// @throws FileProblem cannot_create or io_error
