@@ -107,6 +107,7 @@ TEST(GradingFile, IsRefusedWithTheNameThatIsNotUnderstood) {
            Case{"two sizes", "d_mm,size_um,finer\n1,2,3\n", ":1: both 'd_mm' and 'size_um' name the diameter"},
            Case{"two units", "d_mm (um),finer\n1,2\n", ":1: 'd_mm (um)' states two units"},
            Case{"per mille", "d_mm,\xe2\x80\xb0 finer\n1,2\n", ":1: '??? finer' is in per mille"},
+           Case{"per mille in words", "d_mm,finer per mille\n1,2\n", ":1: 'finer per mille' is in per mille"},
            Case{"two shares", "d_mm,finer,passing\n1,2,3\n", ":1: both 'finer' and 'passing' name what is finer"},
            Case{"title", "Sand 12\n" + plain, ":1: no column says the sizes: the header is 'Sand 12'; "},
            Case{"no header", rows, ":1: there is no header above '0.1,0': put d_mm,percent_finer there"},

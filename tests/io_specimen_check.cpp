@@ -241,7 +241,19 @@ TEST_F(SpecimenCheck, MotionAndForcesThatCannotBeAreRefused) {
     return [=](Specimen& s) { s.contacts.push_back({}), s.contacts.back().id_b = 1, s.contacts.back().*number = value; };
   };
   refuses("shear of contact 0 - 1 is 1e+300; with a d50 of", contact(&SpecimenContact::shear, 1e300));
-  refuses("formation_overlap of contact 0 - 1 is -1", contact(&SpecimenContact::formation_overlap, -1));
+  auto const bond = [](double critical_thickness, double overlap) {
+    return [=](Specimen& s) {
+      s.critical_thickness = critical_thickness;
+      s.contacts.push_back({});
+      s.contacts.back().id_b = 1, s.contacts.back().formation_overlap = overlap;
+    };
+  };
+  refuses("formation_overlap of contact 0 - 1 is 1; with a d50 of", bond(1e-5, 1));
+  refuses("the bond 0 - 1 has no h_max: critical_thickness is left out or 0", bond(0, -1e-6));
+  refuses("the bond 0 - 1 formed across 12 um, h_max (critical_thickness) is 10 um", bond(1e-5, -1.2e-5));
+  takes(bond(1e-5, -1e-5));
+  refuses("contact 0 - 100 names a disc that is not there: ids go to 99",
+          [](Specimen& s) { s.contacts.push_back({}), s.contacts.back().id_b = 100; });
   takes(contact(&SpecimenContact::shear, 1e4));
 }
 
@@ -258,6 +270,9 @@ TEST_F(SpecimenCheck, ABoxSmallerThanItsSandIsWarnedOf) {
   write([](Specimen& s) { s.right -= 0.03e-3; });
   leave_out({"void_ratio"});
   EXPECT_NE(warnings().find("d50 into the right wall: the box is smaller than its sand"), std::string::npos) << warnings();
+  write([](Specimen& s) { s.right -= 0.03e-3, s.axial_strain = 0.05; });  // platens press discs into themselves
+  leave_out({"void_ratio"});
+  EXPECT_EQ(warnings(), "");
 }
 
 TEST_F(SpecimenCheck, PlacesMustBeExactEnoughForOverlaps) {

@@ -132,7 +132,7 @@ TEST_F(SpecimenFile, RefusesWhatNoSpecimenCanBe) {
   expect("y of disc", [](Specimen& s) { s.y[2] = std::numeric_limits<double>::infinity(); });
   expect("the radius of disc", [](Specimen& s) { s.radius[1] = 0; });
   expect("the radius of disc", [](Specimen& s) { s.radius[1] = -1e-4; });
-  expect("contact 1 - 5 is not between two discs", [](Specimen& s) { s.contacts[1].id_b = 5; });
+  expect("contact 1 - 5 names a disc that is not there", [](Specimen& s) { s.contacts[1].id_b = 5; });
   expect("contact 1 - 1 is not between two discs", [](Specimen& s) { s.contacts[1].id_b = 1; });
   expect("contact 0 - 1 comes twice", [](Specimen& s) { s.contacts[1] = s.contacts[0]; });
   expect("moment of contact", [&](Specimen& s) { s.contacts[0].moment = nan; });

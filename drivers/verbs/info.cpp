@@ -86,7 +86,8 @@ std::string specimen_text(Specimen const& specimen, SpecimenFacts const& facts) 
   text += row("void ratio", fmt::format("{:.5g}", facts.outline.void_ratio));
   text += row("grading", fmt::format("d10 {:.4g} mm, d50 {:.4g} mm, d60 {:.4g} mm", diameter(0.1), diameter(0.5), diameter(0.6)));
   text += row("grain density", fmt::format("{:g} kg/m^3", specimen.density));
-  text += row("rests under", fmt::format("{:.6g} MPa", specimen.stress * 1e-6));
+  text += row(specimen.axial_strain != 0 ? "rested under" : "rests under",
+              specimen.stress > 0 ? fmt::format("{:.6g} MPa", specimen.stress * 1e-6) : "not stated");
   if (specimen.axial_strain != 0)
     text += row("sheared", fmt::format("to an axial strain of {:.4g} %", specimen.axial_strain * 100));
   text += row("contacts", fmt::format("{}", specimen.contacts.size()));

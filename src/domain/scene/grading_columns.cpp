@@ -65,8 +65,9 @@ double length_unit(Words const& words) {
 
 /// A name that states two units, or one that no column here may have.
 void require_one_unit(ForeignRow const& header, std::string const& name) {
-  if (name.find("\xe2\x80\xb0") != name.npos) refuse_line(header.line, quoted(name) + " is in per mille: write per cent");
   Words const words = words_of(name);
+  if (name.find("\xe2\x80\xb0") != name.npos || has(words, {"permille", "promille", "mille"}))
+    refuse_line(header.line, quoted(name) + " is in per mille: write per cent");
   double metre = 0;
   for (std::string const& word : words) {
     double const unit = length_unit({word});

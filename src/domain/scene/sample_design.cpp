@@ -98,7 +98,8 @@ std::string crowding(Grading const& grading, double reach) {
 
 std::string wide_skin(Grading const& grading, double skin) {
   if (skin == 0 || most_neighbours(grading, skin) <= longest_row) return {};
-  double const most = 0.5 * grading.smallest() * reach_of_a_full_row(grading.largest() / grading.smallest());
+  double const fits = 0.5 * grading.smallest() * reach_of_a_full_row(grading.largest() / grading.smallest());
+  double const digit = std::pow(10, std::floor(std::log10(fits)) - 2), most = digit * std::floor(fits / digit);
   char text[240];
   std::snprintf(
       text, sizeof text,

@@ -112,13 +112,26 @@ void check_pairs_once(std::filesystem::path const& path, Specimen const& specime
     damaged(path, fmt::format("contact {} - {} comes twice", twice->first, twice->second));
 }
 
+/// Bonds span h_max at most, up to the rounding of single precision.
+void check_bond(std::filesystem::path const& path, SpecimenContact const& contact, double critical_thickness) {
+  std::string const bond = fmt::format("the bond {} - {}", contact.id_a, contact.id_b);
+  if (!(critical_thickness > 0)) damaged(path, bond + " has no h_max: critical_thickness is left out or 0");
+  if (-contact.formation_overlap > critical_thickness * (1 + 1e-5))
+    damaged(path, fmt::format("{} formed across {:.4g} um, h_max (critical_thickness) is {:.4g} um", bond,
+                              -contact.formation_overlap * 1e6, critical_thickness * 1e6));
+}
+
 void check_contacts(std::filesystem::path const& path, Specimen const& specimen, std::int64_t count) {
   for (SpecimenContact const& contact : specimen.contacts) {
-    if (contact.id_a < 0 || contact.id_a >= contact.id_b || contact.id_b >= count)
+    if (contact.id_a >= count || contact.id_b >= count)
+      damaged(path,
+              fmt::format("contact {} - {} names a disc that is not there: ids go to {}", contact.id_a, contact.id_b, count - 1));
+    if (contact.id_a < 0 || contact.id_a >= contact.id_b)
       damaged(path, fmt::format("contact {} - {} is not between two discs in order of their ids", contact.id_a, contact.id_b));
     for (ContactNumber const& number : contact_numbers)
       if (!std::isfinite(contact.*number.of))
         damaged(path, fmt::format("{} of contact {} - {} is not a finite number", number.name, contact.id_a, contact.id_b));
+    if (contact.bonded()) check_bond(path, contact, specimen.critical_thickness);
   }
 }
 
