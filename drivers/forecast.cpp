@@ -43,22 +43,21 @@ std::string expected_error_text(Scene const& scene, StageRecord const& numbers) 
 
 }  // namespace
 
-Forecast forecast(Scene const& scene, int ranks) {
+Forecast forecast(Scene const& scene, SampleDesign const& design, int ranks) {
   Forecast result;
-  result.numbers = predict(scene, ranks);
+  result.numbers = predict(scene, design, ranks);
   RateNumbers const rate = rate_of(result.numbers);
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
   if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty()) result.refusals.push_back(refusal);
+  if (scene.sample.generator != Generator::file) return result;
+  // The checks of the scene know only what is generated. One that was wide enough as designed is a little narrower at rest.
+  constexpr double settled = 0.95;
+  for (std::string const& problem :
+       {narrowness(design.width, design.height, design.grading.largest(), settled * fewest_grains_across),
+        crowding(design.grading, reach_of_bonds(scene, design.grading.d50())), wide_skin(design.grading, scene.run.skin)})
+    if (!problem.empty()) result.refusals.push_back(problem);
   return result;
-}
-
-void check_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks) {
-  constexpr double settled = 0.95;  // one that was wide enough as it was designed is a little narrower at rest
-  double largest = 0;
-  for (double const radius : specimen.radius) largest = std::max(largest, 2 * radius);
-  std::string const problem = narrowness(specimen.width(), specimen.height(), ranks.max(largest), settled * fewest_grains_across);
-  if (!problem.empty()) forecast.refusals.push_back(problem);
 }
 
 std::string memory_refusal(StageRecord const& numbers) {

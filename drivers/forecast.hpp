@@ -5,8 +5,8 @@
 
 #include "domain/biaxial/scene_cost.hpp"
 #include "domain/parallel/ranks.hpp"
+#include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene.hpp"
-#include "domain/scene/specimen.hpp"
 #include "domain/scene/stage.hpp"
 #include "io/scene/scene_file.hpp"
 #include "machine_speed.hpp"
@@ -19,12 +19,9 @@ struct Forecast {
   std::vector<std::string> refusals;  ///< what only --force overrides
 };
 
+/// @param design  of the specimen: as the scene asks for it, or as it was read
 /// @param ranks  that will share the run
-Forecast forecast(Scene const& scene, int ranks);
-
-/// Adds that a specimen from a file is too narrow, if it is: the checks of the scene know only those that are generated.
-/// @param specimen  this rank's part
-void check_size(Forecast& forecast, Specimen const& specimen, Ranks const& ranks = {});
+Forecast forecast(Scene const& scene, SampleDesign const& design, int ranks);
 
 inline constexpr double usable_memory = 0.9;  ///< of what is free
 

@@ -44,10 +44,10 @@ void require_same_everywhere(Ranks const& ranks, LoadedScene const& input) {
   require_same(ranks, "digest " + text_digest(resolved_scene(input.scene, ".")), "scene");
 }
 
-void require_enough_discs(Ranks const& ranks, std::int64_t discs) {
-  if (ranks.count() == 1 || discs >= fewest_discs * ranks.count()) return;
-  throw Refused(fmt::format("{} discs cannot be cut among {} ranks: each needs {}, so at most {} can share them", discs,
-                            ranks.count(), fewest_discs, std::max<std::int64_t>(1, discs / fewest_discs)));
+void require_enough_discs(int ranks, std::int64_t discs) {
+  if (ranks == 1 || discs >= fewest_discs * ranks) return;
+  throw Refused(fmt::format("{} discs cannot be cut among {} ranks: each needs {}, so at most {} can share them", discs, ranks,
+                            fewest_discs, std::max<std::int64_t>(1, discs / fewest_discs)));
 }
 
 }  // namespace clathra

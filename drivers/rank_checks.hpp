@@ -20,6 +20,6 @@ ExitCode guarded_on_all_ranks(Ranks const& ranks, std::function<ExitCode()> cons
 void require_same_everywhere(Ranks const& ranks, LoadedScene const& input);
 
 /// @throws Refused where the ranks are more than the discs can be cut into
-void require_enough_discs(Ranks const& ranks, std::int64_t discs);
+void require_enough_discs(int ranks, std::int64_t discs);
 
 }  // namespace clathra

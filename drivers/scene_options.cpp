@@ -27,14 +27,4 @@ LoadedScene SceneOptions::load(std::vector<std::string> more) const {
   return parse_scene(read_once(path, largest_scene_file + 1), file, path.parent_path(), all);
 }
 
-Scene sized_by(Scene scene, Specimen const& specimen, std::int64_t discs) {
-  scene.sample.generator = Generator::under_compaction;
-  scene.sample.particles = discs;
-  scene.sample.width = specimen.width();
-  scene.sample.height = specimen.height();
-  scene.sample.void_ratio = specimen.void_ratio;
-  scene.grading.d50 = 0;  // follows from the other three
-  return scene;
-}
-
 }  // namespace clathra

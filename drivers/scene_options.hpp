@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "domain/scene/specimen.hpp"
 #include "io/scene/scene_file.hpp"
 
 namespace clathra {
@@ -20,8 +19,5 @@ struct SceneOptions {
   /// @param more  overrides by options of the verb itself
   LoadedScene load(std::vector<std::string> more = {}) const;
 };
-
-/// The scene with its size taken from a specimen: what predict() needs where the specimen comes from a file.
-Scene sized_by(Scene scene, Specimen const& specimen, std::int64_t discs);
 
 }  // namespace clathra

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "domain/biaxial/scene_cost.hpp"
+#include "domain/measurement/specimen_facts.hpp"
 #include "forecast.hpp"
 #include "io/errors/problems.hpp"
 #include "io/formats/digest.hpp"
@@ -61,28 +62,18 @@ bool is_of_size(std::string const& text) {
 }
 
 /// What a specimen in a file says of the cost of testing it.
-SpecimenSize const& size_of(StudyPlan& plan, std::string const& file) {
-  auto found = plan.sizes.find(file);
-  if (found != plan.sizes.end()) return found->second;
+SampleDesign const& design_of_file(StudyPlan& plan, std::string const& file) {
+  auto const found = plan.designs.find(file);
+  if (found != plan.designs.end()) return found->second;
   Specimen const specimen = read_specimen(file);
   require_walls(file, specimen);
-  SpecimenSize size{{}, static_cast<std::int64_t>(specimen.size()), {}};
-  size.outline.left = specimen.left, size.outline.right = specimen.right;
-  size.outline.bottom = specimen.bottom, size.outline.top = specimen.top;
-  size.outline.void_ratio = specimen.void_ratio;
-  Forecast narrow;
-  check_size(narrow, specimen);
-  size.refusals = std::move(narrow.refusals);
-  return plan.sizes.emplace(file, std::move(size)).first->second;
+  return plan.designs.emplace(file, design_of(specimen)).first->second;
 }
 
 /// What a member will cost and what its guards say. @throws FileProblem where it reads a specimen that cannot be read
 Forecast forecast_of(StudyPlan& plan, Scene const& scene) {
-  if (scene.sample.generator != Generator::file) return forecast(scene, 1);
-  SpecimenSize const& size = size_of(plan, scene.sample.file);
-  Forecast result = forecast(sized_by(scene, size.outline, size.discs), 1);
-  result.refusals.insert(result.refusals.end(), size.refusals.begin(), size.refusals.end());
-  return result;
+  if (scene.sample.generator != Generator::file) return forecast(scene, design_sample(scene), 1);
+  return forecast(scene, design_of_file(plan, scene.sample.file), 1);
 }
 
 std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::string> const& overrides) {
@@ -196,7 +187,7 @@ std::string sharing_text(StudyPlan const& plan) {
     text = fmt::format("{} made, each {}", tests.size(), tested_by(*least, *most));
   }
   if (of_files > 0)
-    text += fmt::format("{}{} read, {}", text.empty() ? "" : "; ", plan.sizes.size(), tested_by(of_files, of_files));
+    text += fmt::format("{}{} read, {}", text.empty() ? "" : "; ", plan.designs.size(), tested_by(of_files, of_files));
   return text;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/scene/specimen.hpp"
+#include "domain/scene/sample_design.hpp"
 #include "io/results/study_results.hpp"
 #include "io/scene/study_members.hpp"
 
@@ -24,20 +24,13 @@ struct StudyTask {
   std::optional<std::size_t> specimen;  ///< place of the task that makes what this one reads
 };
 
-/// What the cost of a test depends on, of a specimen in a file.
-struct SpecimenSize {
-  Specimen outline;  ///< without discs
-  std::int64_t discs = 0;
-  std::vector<std::string> refusals;  ///< of guards that know the discs
-};
-
 /// Members by group and seed, and the tasks of each.
 struct StudyPlan {
   Study study;
   std::vector<MemberResult> members;
-  std::vector<StudyTask> runs;                ///< of members[i]
-  std::vector<StudyTask> specimens;           ///< each for all members of the same scene of generation and seed
-  std::map<std::string, SpecimenSize> sizes;  ///< of the specimens that scenes read from files of their own
+  std::vector<StudyTask> runs;                  ///< of members[i]
+  std::vector<StudyTask> specimens;             ///< each for all members of the same scene of generation and seed
+  std::map<std::string, SampleDesign> designs;  ///< of the specimens that scenes read from files of their own
 
   /// The scene of a run, once its specimen is there. @throws SceneProblems, FileProblem
   LoadedScene scene_of_run(std::size_t member) const;

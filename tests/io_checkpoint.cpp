@@ -215,7 +215,11 @@ TEST_F(CheckpointFile, OfAnotherVersionIsRefusedWithBothVersions) {
 
 TEST_F(CheckpointFile, WithAHistoryThatIsNotFiniteIsRefused) {
   TestState state = begun().state();
-  state.simulation.discs.numbers.back() = std::numeric_limits<double>::quiet_NaN();  // the last entry of the last row
+  DiscColumns::Column& last = state.simulation.discs.history.back();
+  last.numbers = [numbers = last.numbers()]() mutable {
+    numbers.back() = std::numeric_limits<double>::quiet_NaN();
+    return numbers;
+  };
   fs::path const path = folder / "bad.h5";
   write_checkpoint_content(path, test_scene(), state, {});
   try {
@@ -223,8 +227,7 @@ TEST_F(CheckpointFile, WithAHistoryThatIsNotFiniteIsRefused) {
     FAIL() << "a history that is not finite";
   } catch (FileProblem const& problem) {
     EXPECT_EQ(problem.code, ExitCode::bad_input);
-    EXPECT_NE(std::string(problem.what()).find("rows/" + state.simulation.history_columns.back()), std::string::npos)
-        << problem.what();
+    EXPECT_NE(std::string(problem.what()).find("rows/" + last.name), std::string::npos) << problem.what();
   }
 }
 

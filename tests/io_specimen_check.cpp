@@ -1,107 +1,11 @@
 /// Specimen files whose numbers do not agree with their discs, whose discs can be no specimen, and those that other programs
 /// make.
 #include <gtest/gtest.h>
-#include <hdf5.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <numbers>
-
-#include "command.hpp"
-#include "io/results/specimen_check.hpp"
-#include "io/results/specimen_file.hpp"
+#include "specimen_in_a_file.hpp"
 
 namespace clathra {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// 100 discs at rest under 1 MPa, taken for a specimen that was just made: without bonds, not sheared.
-Specimen resting() {
-  Specimen s = read_specimen(fs::path(CLATHRA_GOLDEN) / "specimen.h5");
-  s.axial_strain = 0;
-  s.critical_thickness = 0;
-  s.separate_bonds = false;
-  s.contacts.clear();
-  return s;
-}
-
-std::size_t place(Specimen const& s, int id) {
-  return static_cast<std::size_t>(std::find(s.id.begin(), s.id.end(), id) - s.id.begin());
-}
-
-double area_of(Specimen const& s) {
-  double area = 0;
-  for (double const r : s.radius) area += std::numbers::pi * r * r;
-  return area;
-}
-
-void scale_lengths(Specimen& s, double factor) {
-  for (double* const at : {&s.left, &s.right, &s.bottom, &s.top, &s.d50}) *at *= factor;
-  for (auto* const column : {&s.x, &s.y, &s.radius})
-    for (double& value : *column) value *= factor;
-}
-
-class SpecimenCheck : public testing::Test {
- protected:
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-
-  void write(std::function<void(Specimen&)> const& change) {
-    Specimen specimen = resting();
-    change(specimen);
-    write_specimen(file, specimen);
-  }
-  /// Takes attributes and data sets out of the file.
-  void leave_out(std::vector<std::string> const& names) {
-    hid_t const opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    for (std::string const& name : names) {
-      bool const gone = H5Aexists(opened, name.c_str()) > 0 ? H5Adelete(opened, name.c_str()) >= 0
-                                                            : H5Ldelete(opened, name.c_str(), H5P_DEFAULT) >= 0;
-      EXPECT_TRUE(gone) << name;
-    }
-    H5Fclose(opened);
-  }
-  std::string complaint() {
-    try {
-      read_specimen(file);
-    } catch (FileProblem const& problem) {
-      EXPECT_EQ(problem.code, ExitCode::bad_input);
-      return problem.what();
-    }
-    return "taken";
-  }
-  void refuses(std::string const& wanted, std::function<void(Specimen&)> const& change) {
-    write(change);
-    std::string const text = complaint();
-    EXPECT_NE(text.find(wanted), std::string::npos) << "not said: " << wanted << "\n" << text;
-  }
-  void takes(std::function<void(Specimen&)> const& change) {
-    write(change);
-    EXPECT_EQ(complaint(), "taken");
-  }
-  /// Warnings of a test of the file by a scene.
-  std::string warnings(double kn = 3e8) {
-    Scene scene;
-    scene.grains.kn = kn;
-    CheckedSpecimen const read = read_checked_specimen(file);
-    std::string text;
-    for (std::string const& warning : oddities(file, read.specimen, read.facts)) text += warning + "\n";
-    for (std::string const& warning : stress_oddities(file, read.specimen, read.facts, scene)) text += warning + "\n";
-    return text;
-  }
-  CommandResult by_scene(std::string const& verb, std::string const& more = "") {
-    std::ofstream(folder / "a.toml") << "[sample]\ngenerator = \"file\"\nfile = \"specimen.h5\"\n[hydrate]\nsaturation = 0\n";
-    return run_clathra(verb + " '" + (folder / "a.toml").string() + "' " + more);
-  }
-
-  fs::path const folder = fs::temp_directory_path() / ("clathra_specimen_check_" + std::to_string(::getpid()));
-  fs::path const file = folder / "specimen.h5";
-};
 
 TEST_F(SpecimenCheck, ASpecimenOfOursIsTakenWithoutAWord) {
   takes([](Specimen&) {});
@@ -118,23 +22,6 @@ TEST_F(SpecimenCheck, TheD50MustBeThatOfTheDiscs) {
   refuses("its attribute d50 is 169.4 mm, that of its discs is 0.168976 mm", [](Specimen& s) { s.d50 *= 1e3; });
   refuses("its attribute d50", [](Specimen& s) { s.d50 *= 0.9; });
   takes([](Specimen& s) { s.d50 *= 1.03; });
-}
-
-/// Ten discs of 0.8 mm and, of half of the sand, as many of 0.2 mm as that is.
-std::function<void(Specimen&)> two_sizes(double d50) {
-  return [d50](Specimen& s) {
-    s = Specimen();
-    auto const add = [&](double x, double y, double radius) {
-      s.id.push_back(static_cast<int>(s.id.size()));
-      s.x.push_back(x), s.y.push_back(y), s.radius.push_back(radius);
-      for (auto* const column : {&s.angle, &s.vx, &s.vy, &s.omega}) column->push_back(0);
-    };
-    for (int i = 0; i < 10; ++i) add((2 * i + 1) * 4e-4, 4e-4, 4e-4);
-    for (int i = 0; i < 165; ++i) add((2 * (i % 40) + 1) * 1e-4, 8e-4 + (2 * (i / 40) + 1) * 1e-4, 1e-4);
-    s.right = 8e-3, s.top = 1.8e-3;
-    s.d50 = d50;
-    s.void_ratio = s.width() * s.height() / area_of(s) - 1;
-  };
 }
 
 /// Either is the d50, and all between them.
@@ -173,12 +60,33 @@ TEST_F(SpecimenCheck, DiscsMustNotBeAtOnePlace) {
   refuses("disc 12 at (", onto(1e-5));
 }
 
+TEST_F(SpecimenCheck, SizesMustBeThoseOfOneSand) {
+  refuses("around it may lie more neighbours than the", [](Specimen& s) { s.radius[0] = 1e-7; });
+  refuses("around it may lie more neighbours than the", [](Specimen& s) { s.radius[0] = 1e-30; });
+}
+
 TEST_F(SpecimenCheck, LengthsMustBeMetres) {
   refuses("larger than 0.169 m: these look like mm, lengths must be in m", [](Specimen& s) { scale_lengths(s, 1e3); });
   refuses("larger than 0.169 m: these look like mm", [](Specimen& s) {
     for (double& r : s.radius) r *= 1e3;
   });
   refuses("smaller than 1.69e-10 m: lengths must be in m", [](Specimen& s) { scale_lengths(s, 1e-6); });
+}
+
+TEST_F(SpecimenCheck, UnitsThatAreStatedMustBeThoseOfTheFormat) {
+  auto const refused = [&](std::string const& object, char const* attribute, std::string const& unit, std::string const& wanted) {
+    write([](Specimen& s) { s.contacts.push_back({0, 1}); });
+    restate(object, attribute, unit);
+    EXPECT_EQ(complaint(), wanted.empty() ? "taken" : file.string() + ": " + wanted);
+  };
+  refused("particles/x", "unit", "mm", "particles/x is in 'mm' by its unit; it must be in m");
+  refused("contacts/shear", "unit", "kN/m", "contacts/shear is in 'kN/m' by its unit; it must be in N/m");
+  refused("/", "stress_unit",
+          "\xc2\xb5"
+          "Pa",
+          "stress is in '\xc2\xb5"
+          "Pa' by its unit; it must be in Pa");
+  refused("contacts/formation_overlap", "unit", "m", "");
 }
 
 TEST_F(SpecimenCheck, PlacesAndRadiiMustBeInTheSameUnit) {
@@ -257,24 +165,6 @@ TEST_F(SpecimenCheck, MotionAndForcesThatCannotBeAreRefused) {
   takes(contact(&SpecimenContact::shear, 1e4));
 }
 
-TEST_F(SpecimenCheck, ASpecimenThatIsNotAtRestIsWarnedOf) {
-  write([](Specimen& s) { s.vx[place(s, 17)] = 30; });
-  EXPECT_NE(warnings().find("disc 17 moves or spins at 30 m/s, worth 2340 kPa"), std::string::npos) << warnings();
-  write([](Specimen& s) { s.vx[place(s, 17)] = 3, s.stress = 0; });
-  EXPECT_NE(warnings().find("disc 17 moves or spins at 3 m/s"), std::string::npos) << warnings();
-  write([](Specimen& s) { s.vx[place(s, 17)] = 0.1; });
-  EXPECT_EQ(warnings(), "");
-}
-
-TEST_F(SpecimenCheck, ABoxSmallerThanItsSandIsWarnedOf) {
-  write([](Specimen& s) { s.right -= 0.03e-3; });
-  leave_out({"void_ratio"});
-  EXPECT_NE(warnings().find("d50 into the right wall: the box is smaller than its sand"), std::string::npos) << warnings();
-  write([](Specimen& s) { s.right -= 0.03e-3, s.axial_strain = 0.05; });  // platens press discs into themselves
-  leave_out({"void_ratio"});
-  EXPECT_EQ(warnings(), "");
-}
-
 TEST_F(SpecimenCheck, PlacesMustBeExactEnoughForOverlaps) {
   auto const move = [](double by) {
     return [by](Specimen& s) {
@@ -284,54 +174,6 @@ TEST_F(SpecimenCheck, PlacesMustBeExactEnoughForOverlaps) {
   };
   refuses("it reaches to 1e+06 m from the origin, 5.92e+09 times the d50 of its discs", move(1e6));
   takes(move(1e3));
-}
-
-TEST_F(SpecimenCheck, ABoxLargerThanItsSandIsWarnedOf) {
-  write([](Specimen& s) { s.top += s.height(); });
-  leave_out({"void_ratio"});
-  EXPECT_NE(warnings().find("d50) from the nearest disc: the box is larger than its sand"), std::string::npos) << warnings();
-  EXPECT_TRUE(says(run_clathra("info '" + file.string() + "'"), "warning: " + file.string() + ": the top wall is "));
-  EXPECT_TRUE(says(by_scene("check", "--force"), "the box is larger than its sand"));
-  EXPECT_TRUE(says(by_scene("run", "--force --dry-run"), "the box is larger than its sand"));
-}
-
-TEST_F(SpecimenCheck, DiscsTooLargeForTheirPlacesAreWarnedOf) {
-  write([](Specimen& s) {
-    for (double& r : s.radius) r *= 1.15;
-  });
-  leave_out({"void_ratio", "d50"});
-  EXPECT_NE(warnings().find("% of the pairs that touch overlap by more than a tenth of the smaller radius"), std::string::npos);
-  EXPECT_NE(warnings().find("says that it rests under 1000 kPa; by the overlaps"), std::string::npos) << warnings();
-}
-
-/// As of the grading of a specimen that is made.
-TEST_F(SpecimenCheck, SizesThatMakeOddTestsAreWarnedOf) {
-  write([](Specimen& s) { scale_lengths(s, 1e-3); });
-  EXPECT_NE(warnings().find("half of the grains are finer than 0.000169 mm, clay by size"), std::string::npos) << warnings();
-  write(two_sizes(2e-4));
-  EXPECT_NE(warnings().find("hardly any grains around 50 %: 49 % are finer than 0.2 mm, 51 % finer than 0.8 mm"),
-            std::string::npos)
-      << warnings();
-  write([](Specimen& s) {
-    for (double& r : s.radius) r = 5e-5;
-  });
-  leave_out({"void_ratio", "d50"});
-  EXPECT_NE(warnings().find("the discs are as good as equal (d90 / d10 = 1)"), std::string::npos) << warnings();
-}
-
-TEST_F(SpecimenCheck, AStressThatTheOverlapsDoNotShowIsWarnedOf) {
-  std::string const wanted = "says that it rests under 1000 kPa; by the overlaps of its discs and a kn of 100 MPa it carries";
-  write([](Specimen&) {});
-  EXPECT_NE(warnings(1e8).find(wanted), std::string::npos) << warnings(1e8);
-  // The stiffness that it came to rest with is what counts, where the file says it.
-  write([](Specimen& s) { s.provenance = R"({"made_of": {"grains.kn": "0.3 GPa"}})"; });
-  EXPECT_EQ(warnings(1e8), "");
-  for (auto const& change : std::vector<std::function<void(Specimen&)>>{[](Specimen& s) { s.axial_strain = 0.01; },
-                                                                        [](Specimen& s) { s.critical_thickness = 1e-5; },
-                                                                        [](Specimen& s) { s.stress = 0; }}) {
-    write(change);
-    EXPECT_EQ(warnings(1e8), "");
-  }
 }
 
 TEST_F(SpecimenCheck, ATestTakesNoPeriodicCell) {

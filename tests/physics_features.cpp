@@ -125,8 +125,8 @@ void expect_needs(std::string const& what, Scene const& scene) {
   EXPECT_EQ(bytes_per_entry(sim), static_cast<std::size_t>(needs.bytes(FieldOf::entry))) << what;
   // Rough walls keep theirs for the discs next to them alone.
   int const of_walls = scene.test.wall_friction > 0 ? 4 * sizeof(Real) : 0;
-  SimulationState const state = sim.state();
-  std::set<std::string> kept(state.disc_columns.begin(), state.disc_columns.end()), named;
+  std::vector<std::string> const columns = sim.state().discs.names().discs;
+  std::set<std::string> kept(columns.begin(), columns.end()), named;
   kept.insert("id");
   if (for_gpu) kept.insert("disc_rows");  // copies of others, which no state has
   for (NeededField const& field : needs.fields)

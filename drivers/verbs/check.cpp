@@ -2,10 +2,11 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
+#include "domain/measurement/specimen_facts.hpp"
 #include "forecast.hpp"
 #include "print.hpp"
+#include "rank_checks.hpp"
 #include "scene_options.hpp"
 #include "specimen_source.hpp"
 #include "verbs.hpp"
@@ -21,14 +22,10 @@ struct CheckOptions {
 
 ExitCode check(CheckOptions const& options) {
   LoadedScene input = options.scene.load();
-  Scene scene = input.scene;
-  std::optional<Specimen> specimen;
-  if (scene.sample.generator == Generator::file) {
-    specimen = read_for_test(input);
-    scene = sized_by(scene, *specimen, static_cast<std::int64_t>(specimen->size()));
-  }
-  Forecast result = forecast(scene, options.ranks);
-  if (specimen) check_size(result, *specimen);
+  Scene const& scene = input.scene;
+  bool const reads = scene.sample.generator == Generator::file;
+  Forecast const result = forecast(scene, reads ? design_of(read_for_test(input)) : design_sample(scene), options.ranks);
+  require_enough_discs(options.ranks, static_cast<std::int64_t>(result.numbers.at("particles")));
   MachineSpeed const speed =
       options.rate > 0 ? MachineSpeed{options.rate, "as given"} : machine_speed(scene, options.ranks, true);
   ExitCode const printed = print_result(fmt::format("{}: the scene is right\n{}{}", options.scene.file,

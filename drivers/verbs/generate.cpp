@@ -52,7 +52,7 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) refusals.push_back(refusal);
   share_refusals(ranks, refusals);
   if (!refusals.empty()) throw Refused(refusals.front());
-  require_enough_discs(ranks, static_cast<std::int64_t>(cost.at("particles")));
+  require_enough_discs(ranks.count(), static_cast<std::int64_t>(cost.at("particles")));
   watch_for_interrupt();
   ProgressLine line;
   for (std::string const& warning : record.input.warnings) line.warn(warning);

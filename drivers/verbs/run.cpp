@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "domain/measurement/specimen_facts.hpp"
 #include "duration.hpp"
 #include "forecast.hpp"
 #include "interrupt.hpp"
@@ -31,22 +32,18 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, RunLimits const& 
   if (std::string warning = thread_warning(input.scene.run.threads); !warning.empty())
     input.warnings.push_back(std::move(warning));
   std::optional<Specimen> specimen;
-  Scene sized = input.scene;
-  if (input.scene.sample.generator == Generator::file) {
-    specimen = read_for_test(input, ranks);
-    sized = sized_by(sized, *specimen, ranks.sum(static_cast<std::int64_t>(specimen->size())));
-  }
-  Forecast cost = forecast(sized, launched_ranks());
-  if (specimen) check_size(cost, *specimen, ranks);
+  Scene const& scene = input.scene;
+  if (scene.sample.generator == Generator::file) specimen = read_for_test(input, ranks);
+  Forecast cost = forecast(scene, specimen ? design_of(*specimen, ranks) : design_sample(scene), launched_ranks());
   share_refusals(ranks, cost.refusals);
   if (options.dry_run) {
-    MachineSpeed const speed = machine_speed(sized, ranks.count(), ranks.alone());
-    ExitCode const printed = print_result(forecast_text(sized, cost, speed) + warnings_text(input, cost));
-    refuse_if_needed(sized, cost);
+    MachineSpeed const speed = machine_speed(scene, ranks.count(), ranks.alone());
+    ExitCode const printed = print_result(forecast_text(scene, cost, speed) + warnings_text(input, cost));
+    refuse_if_needed(scene, cost);
     return printed;
   }
-  refuse_if_needed(sized, cost);
-  require_enough_discs(ranks, static_cast<std::int64_t>(cost.numbers.at("particles")));
+  refuse_if_needed(scene, cost);
+  require_enough_discs(ranks.count(), static_cast<std::int64_t>(cost.numbers.at("particles")));
   watch_for_interrupt();
   std::vector<std::string> const warnings = warnings_of(input, cost);
   KokkosSession const kokkos;

@@ -91,8 +91,9 @@ double disk_of_run(Scene const& scene, bool bonded, double discs) {
 
 }  // namespace
 
-StageRecord predict(Scene const& scene, int ranks) {
-  SampleDesign const design = design_sample(scene);
+StageRecord predict(Scene const& scene, int ranks) { return predict(scene, design_sample(scene), ranks); }
+
+StageRecord predict(Scene const& scene, SampleDesign const& design, int ranks) {
   bool const bonded = has_bonds(scene);
   RateNumbers const rate = rate_numbers(scene, design.grading.d50(), design.height, design.void_ratio);
   auto const discs = static_cast<double>(design.particles);

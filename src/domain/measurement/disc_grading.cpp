@@ -65,6 +65,17 @@ CurveSizes sizes_of(std::vector<double> const& radii, Ranks const& ranks) {
   return {d10, d49, d50, d51, d90};
 }
 
+Grading grading_of(std::vector<double> const& radii, Ranks const& ranks) {
+  std::array<double, 101> fractions;
+  for (std::size_t k = 0; k < fractions.size(); ++k) fractions[k] = static_cast<double>(k) / 100;
+  std::array<double, 101> const sizes = diameters_finer<101>(radii, fractions, ranks);
+  if (sizes.front() == sizes.back()) return Grading::uniform(sizes[0]);
+  constexpr double step = 1 + 1e-6;  // of a curve where many discs have one size
+  std::vector<double> diameters{sizes[0]};
+  for (std::size_t k = 1; k < sizes.size(); ++k) diameters.push_back(std::max(sizes[k], step * diameters.back()));
+  return {diameters, {fractions.begin(), fractions.end()}};
+}
+
 double solid_area(std::vector<double> const& radii, Ranks const& ranks) {
   return std::numbers::pi * total_area(ranks.sorted_part(radii), ranks);
 }

@@ -14,6 +14,9 @@ double grading_distance(Grading const& grading, std::vector<double> const& radii
 double diameter_finer(std::vector<double> const& radii, double fraction, Ranks const& ranks = {});
 CurveSizes sizes_of(std::vector<double> const& radii, Ranks const& ranks = {});
 
+/// The curve of given discs, to 1 % of the mass. Collective.
+Grading grading_of(std::vector<double> const& radii, Ranks const& ranks = {});
+
 /// Area of all discs [m^2], overlaps counted twice. Collective.
 double solid_area(std::vector<double> const& radii, Ranks const& ranks = {});
 

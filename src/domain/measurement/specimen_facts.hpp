@@ -6,6 +6,7 @@
 
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/grading.hpp"
+#include "domain/scene/sample_design.hpp"
 #include "domain/scene/specimen.hpp"
 
 namespace clathra {
@@ -36,6 +37,10 @@ inline constexpr char const* wall_names[] = {"left", "right", "bottom", "top"};
 
 /// @param part  this rank's discs, numbers finite, radii above 0
 SpecimenOutline outline_of(Specimen const& part, Ranks const& ranks = {});
+
+/// A specimen as a scene would have described it: box, number of discs, void ratio and the grading that they have, with the d50
+/// that the specimen states, if it does.
+SampleDesign design_of(Specimen const& part, Ranks const& ranks = {});
 
 /// Two discs that overlap; `share` is the overlap over the smaller radius.
 struct OverlappingPair {

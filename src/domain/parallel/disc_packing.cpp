@@ -89,6 +89,61 @@ struct UnpackCompanion {
   KOKKOS_FUNCTION void operator()(int k) const { set(field, static_cast<std::size_t>(first + k), numbers(begin(k) + offset)); }
 };
 
+template <class T>
+Field<T> on_device(char const* label, std::vector<T> const& values) {
+  Field<T> const field = uninitialised<T>(label, values.size());
+  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), field);
+  std::copy(values.begin(), values.end(), host.data());
+  Kokkos::deep_copy(field, host);
+  return field;
+}
+
+/// The numbers of a field, whatever it holds.
+template <class AField>
+struct NumbersOf {
+  AField field;
+  Field<double> numbers;
+  KOKKOS_FUNCTION void operator()(int i) const { numbers(i) = field(static_cast<std::size_t>(i)); }
+};
+
+template <class AField>
+std::vector<double> numbers_of(AField const& field, int discs) {
+  Field<double> const numbers = uninitialised<double>("column", static_cast<std::size_t>(discs));
+  Kokkos::parallel_for("column", Kokkos::RangePolicy<ExecutionSpace>(0, discs), NumbersOf<AField>{field, numbers});
+  return on_host(numbers, numbers.extent(0));
+}
+
+/// The entries of all rows, one row behind the other.
+template <class AField, class Number>
+struct NumbersOfEntries {
+  ContactRows rows;
+  Offsets begin;
+  AField field;
+  Field<Number> numbers;
+  KOKKOS_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < rows.length(i); ++k) numbers(begin(i) + k) = static_cast<Number>(field(rows.entry(i, k)));
+  }
+};
+
+template <class Number, class AField>
+std::vector<Number> numbers_of_entries(ContactRows const& rows, AField const& field, int discs) {
+  std::vector<std::int64_t> begin{0};
+  for (RowLength const length : on_host(rows.length, static_cast<std::size_t>(discs))) begin.push_back(begin.back() + length);
+  Field<Number> const numbers = uninitialised<Number>("column", static_cast<std::size_t>(begin.back()));
+  Kokkos::parallel_for("column_of_entries", Kokkos::RangePolicy<ExecutionSpace>(0, discs),
+                       NumbersOfEntries<AField, Number>{rows, on_device("column_offsets", begin), field, numbers});
+  return on_host(numbers, numbers.extent(0));
+}
+
+/// [entries] the ids of the neighbours.
+Field<int> ids_of_neighbours(ParticleSoA const& particles, ContactRows rows) {
+  Field<int> const neighbour = uninitialised<int>("named", rows.neighbour.extent(0));
+  Kokkos::deep_copy(neighbour, rows.neighbour);
+  rows.neighbour = neighbour;
+  name_neighbours(particles, rows);
+  return neighbour;
+}
+
 /// How many numbers a record has for the state of its disc, the id among them.
 int state_columns(Precision precision) {
   ParticleSoA none;
@@ -104,15 +159,6 @@ int history_columns(ContactFeatures const& features) {
   int count = 0;
   for_each_history(none, [&](HistoryField const&, auto const&) { ++count; });
   return count;
-}
-
-template <class T>
-Field<T> on_device(char const* label, std::vector<T> const& values) {
-  Field<T> const field = uninitialised<T>(label, values.size());
-  auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), field);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(field, host);
-  return field;
 }
 
 std::vector<std::int64_t> signed_offsets(std::vector<std::size_t> const& begin) { return {begin.begin(), begin.end()}; }
@@ -158,6 +204,31 @@ DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxi
   Kokkos::fence();
   Kokkos::deep_copy(home, numbers);
   return records;
+}
+
+DiscColumns disc_columns(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows) {
+  int const owned = particles.owned;
+  auto const column = [owned](char const* name, auto const& field) {
+    return DiscColumns::Column{name, [field, owned] { return numbers_of(field, owned); }};
+  };
+  DiscColumns columns;
+  columns.id = [id = particles.id, owned] { return on_host(id, static_cast<std::size_t>(owned)); };
+  for_each_field(particles,
+                 [&](DiscField const& about, auto const& field) { columns.discs.push_back(column(about.name, field)); });
+  columns.discs.erase(columns.discs.begin());  // the id stands for itself
+  for (AuxiliaryField const& one : auxiliary)
+    std::visit([&](auto* field) { columns.discs.push_back(column(one.name, *field)); }, one.field);
+  columns.row_length = [length = rows.length, owned] {
+    auto const lengths = on_host(length, static_cast<std::size_t>(owned));
+    return std::vector<std::int32_t>(lengths.begin(), lengths.end());
+  };
+  columns.neighbour = [particles, rows, owned] {
+    return numbers_of_entries<std::int32_t>(rows, ids_of_neighbours(particles, rows), owned);
+  };
+  for_each_history(rows, [&](HistoryField const& about, RealField const& field) {
+    columns.history.push_back({about.name, [rows, field, owned] { return numbers_of_entries<double>(rows, field, owned); }});
+  });
+  return columns;
 }
 
 ContactRows unpack_discs(std::vector<double> const& numbers, ContactFeatures const& features, ParticleSoA& particles,

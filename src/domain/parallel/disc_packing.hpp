@@ -30,6 +30,9 @@ void for_each_auxiliary_field(AuxiliaryFields const& auxiliary, Visit&& visit) {
 DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows,
                        std::vector<int> const& which);
 
+/// All owned discs by column; the columns share the fields.
+DiscColumns disc_columns(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows);
+
 /// Those of discs with these auxiliary fields and rows.
 RecordColumns record_columns(AuxiliaryFields const& auxiliary, ContactFeatures const& features);
 

@@ -4,6 +4,9 @@
 ///
 /// One form for both, so that a field that travels is also a field that is saved: what a migration forgot a restart would forget
 /// too, and the test of ranks finds it. A row goes with its disc because history belongs to it, not to a place in memory.
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,5 +26,27 @@ struct RecordColumns {
   std::vector<std::string> history;  ///< behind each neighbour's id
   bool operator==(RecordColumns const&) const = default;
 };
+
+/// The same discs by column, as files hold them. Those of a simulation are made one at a time, when they are asked for: a sample
+/// that fills the memory does not fit into it twice. They are those of the simulation until it goes on.
+struct DiscColumns {
+  struct Column {
+    std::string name;
+    std::function<std::vector<double>()> numbers;
+  };
+  using Integers = std::function<std::vector<std::int32_t>()>;
+  Integers id, row_length;               ///< [discs]
+  Integers neighbour;                    ///< [entries of all rows] its id
+  std::vector<Column> discs;             ///< [discs]
+  std::vector<Column> history;           ///< [entries of all rows]
+  std::shared_ptr<DiscRecords> records;  ///< which they are taken from, if so
+
+  RecordColumns names() const;
+};
+
+/// Columns over records, which they keep.
+DiscColumns columns_of(DiscRecords records, RecordColumns const& names);
+/// The records of columns, which are then empty if they were taken from records.
+DiscRecords records_of(DiscColumns&& columns);
 
 }  // namespace clathra

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "domain/scene/hydrate.hpp"
 #include "kernels/countable.hpp"
 
 namespace clathra {
@@ -54,6 +55,12 @@ int compaction_layers(Scene const& scene, SampleDesign const& design) {
   std::int64_t const by_height = static_cast<std::int64_t>(design.height / design.grading.largest());
   std::int64_t const most = std::min(design.particles / fewest_discs, by_height);
   return static_cast<int>(std::clamp<std::int64_t>(most, 1, scene.sample.layers));
+}
+
+double reach_of_bonds(Scene const& scene, double d50) {
+  if (!has_bonds(scene)) return 0;
+  return scene.bond.mode == BondingMode::given_thickness ? scene.bond.critical_thickness
+                                                         : critical_thickness_ratio(scene.hydrate.saturation) * d50;
 }
 
 namespace {

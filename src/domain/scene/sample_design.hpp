@@ -24,6 +24,9 @@ SampleDesign design_sample(Scene const& scene);
 /// largest grain.
 int compaction_layers(Scene const& scene, SampleDesign const& design);
 
+/// How far the bonds of a scene reach beyond touching [m], at the most.
+double reach_of_bonds(Scene const& scene, double d50);
+
 /// How many discs may lie around the largest of a grading, no farther than `reach` [m]: the smallest ones, side by side, and
 /// where they lie within reach those of a second ring.
 double most_neighbours(Grading const& grading, double reach);

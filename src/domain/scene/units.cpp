@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "domain/scene/utf8.hpp"
+
 namespace clathra {
 namespace {
 
@@ -220,10 +222,17 @@ std::string comma_hint(std::string_view number, std::string_view rest) {
 }  // namespace
 
 std::string quoted(std::string_view text) {
-  std::string shown(text.substr(0, 40));
-  for (char& c : shown)
-    if (c < ' ' || c > '~') c = '?';
-  return "'" + shown + (text.size() > 40 ? "...'" : "'");
+  constexpr std::size_t longest = 40;
+  std::string shown;
+  std::size_t at = 0;
+  for (std::size_t bytes = 1; at < text.size() && at + bytes <= longest; at += bytes) {
+    std::size_t const length = utf8_length(text, at);
+    bool const printable = length > 1 || (text[at] >= ' ' && text[at] <= '~');
+    bytes = length > 0 ? length : 1;
+    if (at + bytes > longest) break;
+    shown += printable ? text.substr(at, bytes) : "?";
+  }
+  return "'" + shown + (at < text.size() ? "...'" : "'");
 }
 
 std::string in_ascii(std::string_view text) {

@@ -1,5 +1,6 @@
 #include "domain/simulation/assembly_records.hpp"
 
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -29,15 +30,24 @@ std::vector<double> records_of_own_discs(Assembly& a, DiscRecords discs) {
     y.push_back(discs.numbers[discs.begin[k] + 2]);
   }
   a.ghosts.set_decomposition(Decomposition::bisect(ranks, x, y, 1));
-  std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
+  std::vector<std::size_t> owner, room(static_cast<std::size_t>(ranks.count()));
   for (std::size_t k = 0; k < discs.size(); ++k) {
-    auto& part = to[static_cast<std::size_t>(a.ghosts.decomposition().owner(x[k], y[k]))];
+    owner.push_back(static_cast<std::size_t>(a.ghosts.decomposition().owner(x[k], y[k])));
+    room[owner[k]] += discs.begin[k + 1] - discs.begin[k];
+  }
+  std::vector<std::vector<double>> to(room.size());
+  for (std::size_t r = 0; r < room.size(); ++r) to[r].reserve(room[r]);
+  for (std::size_t k = 0; k < discs.size(); ++k) {
+    auto& part = to[owner[k]];
     part.insert(part.end(), discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k]),
                 discs.numbers.begin() + static_cast<std::ptrdiff_t>(discs.begin[k + 1]));
   }
   discs = {};
+  std::vector<std::vector<double>> came = ranks.exchange(std::move(to));
   std::vector<double> home;
-  for (auto& part : ranks.exchange(std::move(to))) {
+  home.reserve(
+      std::transform_reduce(came.begin(), came.end(), std::size_t{0}, std::plus(), [](auto const& part) { return part.size(); }));
+  for (auto& part : came) {
     home.insert(home.end(), part.begin(), part.end());
     part = {};
   }
@@ -73,16 +83,7 @@ void pack_assembly(Assembly& a, AuxiliaryFields const& beside, SimulationState& 
   s.numbers["marked_start"] = a.start_x.extent(0) > 0 ? 1 : 0;
   std::vector<BoundaryHistory> histories = boundary_histories(a);
   AuxiliaryFields const with_discs = with(with(auxiliary_fields(a, histories), beside), derived_fields(a));
-  ContactRows named = a.rows;
-  named.neighbour = uninitialised<int>("named", a.rows.neighbour.extent(0));
-  Kokkos::deep_copy(named.neighbour, a.rows.neighbour);
-  name_neighbours(a.particles, named);
-  std::vector<int> all(static_cast<std::size_t>(a.particles.owned));
-  std::iota(all.begin(), all.end(), 0);
-  s.discs = pack_discs(a.particles, with_discs, named, all);
-  RecordColumns const columns = record_columns(with_discs, a.rows.features);
-  s.disc_columns = columns.discs;
-  s.history_columns = columns.history;
+  s.discs = disc_columns(a.particles, with_discs, a.rows);
   a.broken.collect();
   a.broken.write(s, a.ranks());
 }
@@ -95,9 +96,9 @@ void unpack_assembly(Assembly& a, AuxiliaryFields const& beside, SimulationState
   if (state.numbers.at("marked_start") != 0) a.mark_start();
   std::vector<BoundaryHistory> histories = boundary_histories(a);
   AuxiliaryFields const with_discs = with(with(auxiliary_fields(a, histories), beside), derived_fields(a));
-  if (record_columns(with_discs, a.rows.features) != RecordColumns{state.disc_columns, state.history_columns})
+  if (record_columns(with_discs, a.rows.features) != state.discs.names())
     throw std::runtime_error("a checkpoint's discs have other numbers than its laws ask for");
-  a.rows = unpack_discs(records_of_own_discs(a, std::move(state.discs)), a.rows.features, a.particles, with_discs);
+  a.rows = unpack_discs(records_of_own_discs(a, records_of(std::move(state.discs))), a.rows.features, a.particles, with_discs);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their skins.
   Real const reach = a.upkeep.reach();
   a.ghosts.rebuild(a.particles, a.now.box(), reach + 2 * (reach - 2 * a.facts.largest_radius));

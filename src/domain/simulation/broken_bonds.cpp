@@ -69,12 +69,8 @@ void BrokenBonds::write(SimulationState& state, Ranks const& ranks) const {
 void BrokenBonds::read(SimulationState& state, Ranks const& ranks) {
   events_ = std::move(state.broken);
   for (int mode = 0; mode < break_mode_count; ++mode) {
-    auto const counted = state.numbers.find(name_of_count(mode));
-    auto const is_of_mode = [&](BreakEvent const& e) { return e.mode == mode; };
-    if (counted != state.numbers.end())
-      counts_.number[mode] = ranks.root() ? std::llround(counted->second) : 0;
-    else  // the first checkpoints have no counts, and all events
-      counts_.number[mode] = std::count_if(events_.rows.begin(), events_.rows.end(), is_of_mode);
+    auto const counted = static_cast<std::int64_t>(state.numbers.at(name_of_count(mode)));
+    counts_.number[mode] = ranks.root() ? counted : 0;
   }
 }
 

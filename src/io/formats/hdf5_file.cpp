@@ -116,6 +116,14 @@ std::optional<std::string> read_string(hid_t type, hid_t space, hsize_t longest,
   return text;
 }
 
+std::optional<std::string> read_text_attribute(hid_t object, char const* name) {
+  if (object < 0 || H5Aexists(object, name) <= 0) return {};
+  Id const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
+  Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
+  return read_string(type, space, 4096, [&](void* value) { return H5Aread(attribute, type, value); });
+}
+
 #ifdef H5_HAVE_PARALLEL
 void share_among_ranks(hid_t access) {
   H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
@@ -341,12 +349,18 @@ std::int64_t Hdf5File::integer_attribute(std::string const& name) const {
   return value;
 }
 std::string Hdf5File::text_attribute(std::string const& name) const {
-  Id const attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose);
-  Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
-  Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
-  std::optional<std::string> text = read_string(type, space, 4096, [&](void* value) { return H5Aread(attribute, type, value); });
+  std::optional<std::string> text = read_text_attribute(file_, name.c_str());
   if (!text) fail(ExitCode::bad_input, fmt::format("attribute {} is missing or unreadable", name));
   return *text;
+}
+
+std::optional<std::string> Hdf5File::unit_of_column(std::string const& name) const {
+  if (!has(name)) return {};
+  Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  return read_text_attribute(column, "unit");
+}
+std::optional<std::string> Hdf5File::unit_of_attribute(std::string const& name) const {
+  return read_text_attribute(file_, (name + "_unit").c_str());
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,11 @@ class Hdf5File {
   static constexpr std::size_t any_size = static_cast<std::size_t>(-1);
   template <class T>
   std::vector<T> read(std::string const& name, std::size_t size, std::size_t width = 1) const;
-  bool has(std::string const& name) const;             ///< whether there is a column of this name, in a group that there is
-  bool has_attribute(std::string const& name) const;   ///< of the file
+  bool has(std::string const& name) const;            ///< whether there is a column of this name, in a group that there is
+  bool has_attribute(std::string const& name) const;  ///< of the file
+  /// The unit that a column or a number of the file states, if it states one.
+  std::optional<std::string> unit_of_column(std::string const& name) const;
+  std::optional<std::string> unit_of_attribute(std::string const& name) const;
   std::size_t rows_of(std::string const& name) const;  ///< of a column; @throws FileProblem bad_input
   /// Some rows of a column.
   template <class T>

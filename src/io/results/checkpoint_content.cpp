@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "io/results/checkpoint.hpp"
 #include "io/results/event_columns.hpp"
@@ -22,53 +23,12 @@ constexpr char format_name[] = "clathra checkpoint";
 /// Of a checkpoint RUN/ckpt/0.h5.
 std::filesystem::path run_folder_of(std::filesystem::path const& checkpoint) { return checkpoint.parent_path().parent_path(); }
 
-/// Where the numbers stand in the records of a state: id, the disc's columns, the length of its row, and then entry by entry the
-/// neighbour's id and the history. A file holds them as columns, one at a time in memory.
-struct RecordLayout {
-  std::size_t length, entries, entry_width;
-  explicit RecordLayout(SimulationState const& s)
-      : length(1 + s.disc_columns.size()), entries(length + 1), entry_width(1 + s.history_columns.size()) {}
-
-  /// Visits the number at a place of every disc's record.
-  template <class Records, class Visit>
-  static void for_each_disc(Records& records, std::size_t place, Visit&& visit) {
-    for (std::size_t k = 0; k < records.size(); ++k) visit(records.numbers[records.begin[k] + place]);
-  }
-  /// Visits the number at a place of every entry of every disc's row.
-  template <class Records, class Visit>
-  void for_each_entry(Records& records, std::size_t place, Visit&& visit) const {
-    for (std::size_t k = 0; k < records.size(); ++k) {
-      for (std::size_t at = records.begin[k] + entries + place; at < records.begin[k + 1]; at += entry_width)
-        visit(records.numbers[at]);
-    }
-  }
-};
-
-void write_records(Hdf5File& file, SimulationState const& s) {
-  RecordLayout const layout(s);
-  auto const write = [&]<class T>(std::string const& name, std::vector<T> column, char const* unit, auto&& visit_all) {
-    visit_all([&](double number) { column.push_back(static_cast<T>(number)); });
-    file.write(name, column, unit);
-  };
-  auto const of_discs = [&](std::size_t place) {
-    return [&, place](auto&& visit) { layout.for_each_disc(s.discs, place, visit); };
-  };
-  auto const of_entries = [&](std::size_t place) {
-    return [&, place](auto&& visit) { layout.for_each_entry(s.discs, place, visit); };
-  };
-  using Integers = std::vector<std::int32_t>;
-  using Numbers = std::vector<double>;
-  write("particles/id", Integers(), "", of_discs(0));
-  for (std::size_t c = 0; c < s.disc_columns.size(); ++c) write("particles/" + s.disc_columns[c], Numbers(), "", of_discs(1 + c));
-  write("rows/length", Integers(), "", of_discs(layout.length));
-  write("rows/neighbour", Integers(), "id", of_entries(0));
-  for (std::size_t c = 0; c < s.history_columns.size(); ++c)
-    write("rows/" + s.history_columns[c], Numbers(), "", of_entries(1 + c));
-}
-
-std::size_t entries_of(SimulationState const& s) {
-  std::size_t const discs = s.discs.size() * RecordLayout(s).entries;
-  return (s.discs.numbers.size() - discs) / RecordLayout(s).entry_width;
+void write_discs(Hdf5File& file, DiscColumns const& discs) {
+  file.write("particles/id", discs.id(), "");
+  for (DiscColumns::Column const& column : discs.discs) file.write("particles/" + column.name, column.numbers(), "");
+  file.write("rows/length", discs.row_length(), "");
+  file.write("rows/neighbour", discs.neighbour(), "id");
+  for (DiscColumns::Column const& column : discs.history) file.write("rows/" + column.name, column.numbers(), "");
 }
 
 void write_events(Hdf5File& file, TestState const& state) {
@@ -129,55 +89,54 @@ std::vector<double> read_finite(Hdf5File const& file, std::string const& name, R
   return column;
 }
 
-void read_records(Hdf5File const& file, SimulationState& s, Ranks const& ranks) {
+/// This rank's part of the discs, as records: every number has been looked at before any is used.
+void read_discs(Hdf5File const& file, RecordColumns const& names, SimulationState& s, Ranks const& ranks) {
   std::int64_t const discs = file.integer_attribute("particles"), entries = file.integer_attribute("entries");
   if (discs < 1 || discs > 1'000'000'000 || entries < 0 || entries > discs * longest_row)
     file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} neighbours", discs, entries));
-  RecordLayout const layout(s);
   RowRange const rows = rows_of_rank(discs, ranks);
   std::vector<std::int32_t> lengths;
   RowRange const row_entries = read_lengths(file, rows, entries, lengths);
-  for (int const n : lengths)
-    s.discs.begin.push_back(s.discs.begin.back() + layout.entries + static_cast<std::size_t>(n) * layout.entry_width);
-  s.discs.numbers.resize(s.discs.begin.back());
-  // Takes the numbers of a column one by one.
-  auto const next_of = [](auto const& column) { return [at = column.begin()](double& number) mutable { number = *at++; }; };
-  auto const ids = file.read<std::int32_t>("particles/id", rows);
-  for (int const id : ids) {
-    if (id < 0 || id >= discs) file.fail(ExitCode::bad_input, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
-  }
-  layout.for_each_disc(s.discs, 0, next_of(ids));
-  layout.for_each_disc(s.discs, layout.length, next_of(lengths));
-  for (std::size_t c = 0; c < s.disc_columns.size(); ++c) {
-    layout.for_each_disc(s.discs, 1 + c, next_of(read_finite(file, "particles/" + s.disc_columns[c], rows)));
-  }
-  layout.for_each_entry(s.discs, 0, next_of(file.read<std::int32_t>("rows/neighbour", row_entries)));
-  for (std::size_t c = 0; c < s.history_columns.size(); ++c)
-    layout.for_each_entry(s.discs, 1 + c, next_of(read_finite(file, "rows/" + s.history_columns[c], row_entries)));
+  DiscColumns columns;
+  columns.id = [&] {
+    auto ids = file.read<std::int32_t>("particles/id", rows);
+    for (int const id : ids)
+      if (id < 0 || id >= discs) file.fail(ExitCode::bad_input, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
+    return ids;
+  };
+  columns.row_length = [&] { return lengths; };
+  columns.neighbour = [&] { return file.read<std::int32_t>("rows/neighbour", row_entries); };
+  for (std::string const& name : names.discs)
+    columns.discs.push_back({name, [&] { return read_finite(file, "particles/" + name, rows); }});
+  for (std::string const& name : names.history)
+    columns.history.push_back({name, [&] { return read_finite(file, "rows/" + name, row_entries); }});
+  s.discs = columns_of(records_of(std::move(columns)), names);
 }
 
 }  // namespace
 
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks) {
   SimulationState const& s = state.simulation;
+  RecordColumns const names = s.discs.names();
+  std::vector<std::int32_t> const lengths = s.discs.row_length();
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
   Json const about = {{"scene", scene_texts(scene, run_folder_of(path))},
                       {"test", state.numbers},
                       {"preparation", state.preparation},
                       {"warnings", state.warnings},
                       {"simulation", s.numbers},
-                      {"disc_columns", s.disc_columns},
-                      {"history_columns", s.history_columns}};
+                      {"disc_columns", names.discs},
+                      {"history_columns", names.history}};
   auto const write_content = [&](Hdf5File& file) {
     file.set_attribute("format", std::string(format_name));
     file.set_attribute("version", checkpoint_version);
     file.set_attribute("precision", std::string("double"));
-    file.set_attribute("particles", total(s.discs.size()));
-    file.set_attribute("entries", total(entries_of(s)));
+    file.set_attribute("particles", total(lengths.size()));
+    file.set_attribute("entries", total(std::accumulate(lengths.begin(), lengths.end(), std::size_t{0})));
     file.set_attribute("events", total(s.broken.rows.size()));
     file.set_attribute("state_hash", hash_text(state.hash));
     file.write_text("about", about.dump());
-    write_records(file, s);
+    write_discs(file, s.discs);
     write_events(file, state);
   };
   replace_hdf5_file(path, write_content, ranks);
@@ -192,6 +151,7 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
     file.fail(ExitCode::refused, fmt::format("has precision {}, this program computes in double", precision));
   Json const about = Json::parse(file.read_text("about"), nullptr, false);
   TestState state;
+  RecordColumns names;
   try {
     std::string const different =
         scene_differences(about.at("scene").get<SceneTexts>(), scene, run_folder_of(path), Agreement::further);
@@ -200,12 +160,12 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
     about.at("preparation").get_to(state.preparation);
     about.at("warnings").get_to(state.warnings);
     about.at("simulation").get_to(state.simulation.numbers);
-    about.at("disc_columns").get_to(state.simulation.disc_columns);
-    about.at("history_columns").get_to(state.simulation.history_columns);
+    about.at("disc_columns").get_to(names.discs);
+    about.at("history_columns").get_to(names.history);
   } catch (Json::exception const& problem) {
     file.fail(ExitCode::bad_input, fmt::format("about: {}", problem.what()));
   }
-  read_records(file, state.simulation, ranks);
+  read_discs(file, names, state.simulation, ranks);
   read_events(file, state, ranks);
   return state;
 }

@@ -57,6 +57,10 @@ void require_metres(fs::path const& path, SpecimenOutline const& outline) {
                        outline.farthest * std::numeric_limits<double>::epsilon() / outline.sizes.d50, farthest_place));
 }
 
+void require_sizes_of_one_sand(fs::path const& path, std::vector<double> const& radii, Ranks const& ranks) {
+  if (std::string const problem = crowding(grading_of(radii, ranks), 0); !problem.empty()) refuse(path, problem);
+}
+
 void require_discs_inside(fs::path const& path, SpecimenOutline const& outline) {
   std::size_t worst = 0;
   for (std::size_t wall = 1; wall < outline.at_wall.size(); ++wall)
@@ -152,6 +156,7 @@ SpecimenFacts require_sound(fs::path const& path, Specimen& part, Ranks const& r
   SpecimenFacts facts;
   facts.outline = outline_of(part, ranks);
   require_metres(path, facts.outline);
+  require_sizes_of_one_sand(path, part.radius, ranks);
   if (!part.periodic) require_discs_inside(path, facts.outline);
   require_motion_that_can_be(path, facts.outline);
   on_each(ranks, [&] { require_contacts_that_can_be(path, part, facts.outline.sizes.d50); });

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "domain/parallel/redistribution.hpp"
+#include "domain/scene/units.hpp"
 #include "io/errors/rank_errors.hpp"
 #include "io/formats/hdf5_file.hpp"
 #include "io/results/specimen_check.hpp"
@@ -148,6 +149,24 @@ std::vector<int> read_ids(Hdf5File const& file, std::string const& name, RowRang
   return ids;
 }
 
+/// A file may state units, but those of docs/specimen-file.md, whose further words stand in parentheses.
+void require_unit(Hdf5File const& file, std::string const& name, std::optional<std::string> const& stated, std::string unit) {
+  unit = unit.substr(0, unit.find(" ("));
+  if (!stated || stated->empty() || unit.empty() || stated->substr(0, stated->find(" (")) == unit) return;
+  file.fail(ExitCode::bad_input, fmt::format("{} is in {} by its unit; it must be in {}", name, clathra::quoted(*stated), unit));
+}
+
+void require_units(Hdf5File const& file) {
+  for (SpecimenNumber const& number : specimen_numbers)
+    require_unit(file, number.name, file.unit_of_attribute(number.name), number.unit);
+  for (ParticleColumn const& column : particle_columns)
+    require_unit(file, path_of(column), file.unit_of_column(path_of(column)), column.unit);
+  for (ContactNumber const& number : contact_numbers) {
+    std::string const name = std::string("contacts/") + number.name;
+    require_unit(file, name, file.unit_of_column(name), number.unit);
+  }
+}
+
 void read_discs(Hdf5File const& file, Specimen& part, RowRange const& rows) {
   if (file.has("particles/id")) {
     part.id = read_ids(file, "particles/id", rows);
@@ -225,6 +244,7 @@ Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std
   if (file.has_attribute("format") && file.text_attribute("format") != format_name)
     file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
   require_complete(file);
+  require_units(file);
   if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
     file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
   Specimen part;

@@ -80,13 +80,6 @@ void check_size(Check& check) {
                 "sample.width, sample.height and sample.aspect_ratio contradict each other");
 }
 
-/// How far bonds reach beyond touching [m], at the most.
-double reach_of_bonds(Scene const& scene, double d50) {
-  if (!has_bonds(scene)) return 0;
-  return scene.bond.mode == BondingMode::given_thickness ? scene.bond.critical_thickness
-                                                         : critical_thickness_ratio(scene.hydrate.saturation) * d50;
-}
-
 /// Reads the grading and completes the specimen; nothing where that is not possible, which is then reported.
 std::optional<SampleDesign> check_design(Check& check) {
   Scene const& scene = check.scene;
