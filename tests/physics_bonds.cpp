@@ -214,7 +214,7 @@ TEST(RigidTurn, HundredsOfTimesLeaveTheForcesOfALoadedPairUnchanged) {
     int const steps = mixed ? 1000 : 100, turns = 100000 / steps;
     double const turn = 2 * pi / steps;
     Disc const before = disc(pair.sim, 1);
-    // Rigid for a sum of steps on the chord: the discs turn by sin(turn) a step. For the way since an anchor: by as much as the
+    // Rigid for a sum of steps on the chord: the discs turn by sin(turn) a step. For the way since a reference: by as much as the
     // branch.
     double const of_discs = within(std::sin(turn), turn);
     for (int n = 0; n < turns * steps; ++n)
@@ -244,7 +244,7 @@ TEST(RigidTurn, CarriesShearRoundToSecondOrder) {
       EXPECT_NEAR(now.bond_moment, pair.history.bond_moment, within(0, 1e-4) * std::abs(pair.history.bond_moment));
       drift[level] = now.shear + now.bond_shear - pair.history.shear - pair.history.bond_shear;
     }
-    EXPECT_TRUE(shrinks(drift[0], drift[1], 2, 0.1, 0.05));  // the way since an anchor has no error of the step
+    EXPECT_TRUE(shrinks(drift[0], drift[1], 2, 0.1, 0.05));  // the way since a reference has no error of the step
     EXPECT_TRUE(shrinks(drift[1], drift[2], 2, 0.1, 0.05));
   }
 }

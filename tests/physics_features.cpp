@@ -82,15 +82,16 @@ TEST(Features, ASceneWithoutHydrateHasNoBondField) {
 }
 
 /// What entries with a shear force have beside reals.
-std::size_t index_and_anchor() { return sizeof(int) + (tested_precision() == Precision::full ? 0 : sizeof(std::int32_t)); }
+std::size_t index_and_reference() { return sizeof(int) + (tested_precision() == Precision::full ? 0 : sizeof(std::int32_t)); }
 
 TEST(Features, CostBytesOnlyWhereTheyAreOn) {
   std::size_t const real = tested_precision() == Precision::full ? sizeof(double) : sizeof(float);
-  EXPECT_EQ(bytes_per_entry(packing(sand_laws(0.5, 0), false)), index_and_anchor() + real);
-  EXPECT_EQ(bytes_per_entry(packing(sand_laws(), false)), index_and_anchor() + 2 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::replace), true, Composite::replace)), index_and_anchor() + 4 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::memory), true, Composite::memory)), index_and_anchor() + 4 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::parallel), true)), index_and_anchor() + 6 * real);
+  EXPECT_EQ(bytes_per_entry(packing(sand_laws(0.5, 0), false)), index_and_reference() + real);
+  EXPECT_EQ(bytes_per_entry(packing(sand_laws(), false)), index_and_reference() + 2 * real);
+  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::replace), true, Composite::replace)),
+            index_and_reference() + 4 * real);
+  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::memory), true, Composite::memory)), index_and_reference() + 4 * real);
+  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::parallel), true)), index_and_reference() + 6 * real);
 }
 
 TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
@@ -202,14 +203,15 @@ TEST(Features, GrainsWithoutFrictionKeepNoShear) {
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 2), false)), index + real);
   SimulationLaws smooth = hydrate_laws(Composite::parallel);
   smooth.contact.grain.friction = 0;
-  EXPECT_EQ(bytes_per_entry(packing(smooth, true)), index_and_anchor() + 5 * real);
+  EXPECT_EQ(bytes_per_entry(packing(smooth, true)), index_and_reference() + 5 * real);
   smooth = hydrate_laws(Composite::replace);
   smooth.contact.grain.friction = 0;
-  EXPECT_EQ(bytes_per_entry(packing(smooth, true, Composite::replace)), index_and_anchor() + 4 * real);  // the shear of the bonds
+  EXPECT_EQ(bytes_per_entry(packing(smooth, true, Composite::replace)),
+            index_and_reference() + 4 * real);  // the shear of the bonds
 }
 
 /// Sheared packings without friction, and with one that clamps every shear to zero. In double precision they agree to the bit. In
-/// mixed precision those that keep no shear have no anchors either, and know overlaps to 15 pm instead of 0.9.
+/// mixed precision those that keep no shear have no references either, and know overlaps to 15 pm instead of 0.9.
 TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
   auto const shear = [](Simulation& sim, int steps) {
     sim.time_step = 1e-7;

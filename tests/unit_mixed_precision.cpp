@@ -120,7 +120,7 @@ TEST(RoundingSlack, ListsEveryPairThatTheKernelTakesForTouching) {
   EXPECT_GT(apart_but_touching, 20);  // rounding does bring some to touch
 }
 
-/// Anchors are others then, forces the same but for their rounding.
+/// References are others then, forces the same but for their rounding.
 TEST(MixedPrecision, SurvivesTheWayThroughASpecimen) {
   Specimen s = disordered_patch(10, 10);
   enclose(s);

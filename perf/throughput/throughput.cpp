@@ -45,7 +45,7 @@ double moved_bytes(Simulation const& simulation) {
   bool const mixed = rows.features.format.precision == Precision::mixed;
   double read = rows.features.bonds ? 1 : 0, written = 0;  // histories, and the width of bonds
   for_each_history(rows, [&](HistoryField const&, auto const& field) {
-    bool const kept = &field == &rows.formation_overlap || &field == &rows.anchor;
+    bool const kept = &field == &rows.formation_overlap || &field == &rows.reference_branch;
     bool const slips = &field == &rows.shear || &field == &rows.moment;  // in mixed precision nothing else changes
     read += 1;
     written += !kept && (slips || !mixed) ? 1 : 0;

@@ -3,10 +3,10 @@
 /// forces_full.cpp and forces_mixed.cpp only.
 #include <type_traits>
 
-#include "kernels/anchoring.hpp"
 #include "kernels/bond_failures.hpp"
 #include "kernels/contact_constants.hpp"
 #include "kernels/pair_motion.hpp"
+#include "kernels/re_reference.hpp"
 #include "kernels/row_history.hpp"
 
 namespace clathra {
@@ -26,15 +26,15 @@ struct ContactKernel {
   static constexpr bool mixed = P::precision == Precision::mixed;
   using Discs = DiscReader<P, !mixed || Losses, Losses>;
   using Failures = BondFailures<P>;
-  using StepWay = WayOfStep<V>;
+  using StepIncrement = IncrementOfStep<V>;
   static constexpr int lanes = lane_count_of<R>, slice_width = slice_width_of<R>;
   static constexpr bool bonded_code = Bond != BondKind::none;
   static constexpr bool shears = Friction || Bond == BondKind::replace;  // has a history of `shear`
   static constexpr bool moments = Rolling || bonded_code;
   static constexpr bool separate = Bond == BondKind::parallel;
   static constexpr bool slips = shears || separate,
-                        turns = moments && (Rolling || !separate);  // of `shear` or `bond_shear`; of `moment`
-  using Anchorings = Anchoring<shears, turns, separate>;
+                        rolls = moments && (Rolling || !separate);  // of `shear` or `bond_shear`; of `moment`
+  using ReReferenceOfPairs = ReReference<shears, rolls, separate>;
   using History = RowHistory<P, shears, moments, bonded_code, separate>;
 
   ParticleSoA p;
@@ -52,8 +52,8 @@ struct ContactKernel {
   struct Own {
     typename Discs::Own disc;
     V force_x, force_y, torque;
-    V most_overlap;   ///< mixed precision: of each disc
-    bool turned_far;  ///< likewise: whether any of them has
+    V most_overlap;    ///< mixed precision: of each disc
+    bool rotated_far;  ///< likewise: whether any of them has
     V sliding, rolling, dashpot, breakage;
   };
 
@@ -103,7 +103,7 @@ struct ContactKernel {
   ///     carrying = touching || intact           has a history after the step; all others' forces are exact zeros
   ///     changes  = broken || none == carrying   its history begins or ends or gets another stiffness: a new reference
   ///                (separate bonds: none == touching, of the grain contact)
-  ///     far      = carrying && turned too far since its reference: the same
+  ///     far      = carrying && rotated too far since its reference: the same
   ///
   /// In double precision a history that has ended is zero instead of none, and begins, changes and far are false.
   /// @param active  false if none of them holds a history;  @return whether one does afterwards
@@ -130,22 +130,23 @@ struct ContactKernel {
     motion.overlap = Discs::overlap_at(distance, reach, law.tick);
     V const half = constant<V>(0.5), arm = negative_multiply_add(half, motion.overlap, disc.radius),
             other_arm = negative_multiply_add(half, motion.overlap, other_radius);  // arm + other_arm = distance
-    StepWay in_step{V(0), V(0)};
+    StepIncrement in_step{V(0), V(0)};
     if constexpr (Discs::moves) {
       motion.closing_velocity = -((moving.vx - disc.motion.vx) * nx + (moving.vy - disc.motion.vy) * ny);
-      in_step = way_of_step(law.dt, disc.motion, moving, nx, ny, arm, other_arm);
+      in_step = increment_of_step(law.dt, disc.motion, moving, nx, ny, arm, other_arm);
     }
     motion.shear_increment = in_step.slip, motion.relative_rotation = in_step.rotation;
-    V turned2(0);
+    V sine2(0);
     if constexpr (mixed) {
       motion.common_radius = V(2) * disc.radius * other_radius * inverse.of_reach;  // common_radius() of radii that are not zero
       own.most_overlap = lane_max(motion.overlap, own.most_overlap);
-      motion.relative_rotation = other.turn - disc.turn;
+      motion.relative_rotation = other.rotation_increment - disc.rotation_increment;
       if constexpr (slips) {
-        IntLanes const anchor = load_ints(rows.anchor.data<std::int32_t>() + e);
-        auto const branch = branch_since(anchor, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2);
-        motion.shear_increment = way_since(branch, arm, other_arm, disc.turn, other.turn).slip, turned2 = branch.turned2;
-        motion.overlap = overlap_since(anchor, branch, distance, inverse.of_distance2, reach, law.tick,
+        IntLanes const reference = load_ints(rows.reference_branch.data<std::int32_t>() + e);
+        auto const branch = branch_since(reference, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2);
+        motion.shear_increment = motion_since(branch, arm, other_arm, disc.rotation_increment, other.rotation_increment).slip,
+        sine2 = branch.sine2;
+        motion.overlap = overlap_since(reference, branch, distance, inverse.of_distance2, reach, law.tick,
                                        separate ? none && !is_bonded(h.formation_overlap) : none);
       }
     } else {
@@ -158,13 +159,13 @@ struct ContactKernel {
     if constexpr (Losses) dashpot = viscosity(law, disc.motion.inverse_mass, moving.inverse_mass);
     Forces now;
     ContactMotion<V> of_grains = motion;
-    if constexpr (mixed && (shears || turns)) {
+    if constexpr (mixed && (shears || rolls)) {
       if (any(begins)) {  // with the slip of this step
-        StepWay const way = first_way<Discs>(p, {law.dt, first, j, nx, ny, arm, other_arm});
+        StepIncrement const way = first_increment<Discs>(p, {law.dt, first, j, nx, ny, arm, other_arm});
         of_grains.shear_increment = select(begins, way.slip, motion.shear_increment);
         of_grains.relative_rotation = select(begins, way.rotation, motion.relative_rotation);
         if constexpr (shears) h.shear = select(begins, V(0), h.shear);
-        if constexpr (turns) h.moment = select(begins, V(0), h.moment);
+        if constexpr (rolls) h.moment = select(begins, V(0), h.moment);
       }
     }
     ContactForce<V> force = grain_force(law, of_grains, dashpot, h, none && !begins, now);
@@ -188,19 +189,20 @@ struct ContactKernel {
     auto carrying = touching;
     if constexpr (bonded_code) carrying = touching || intact;
     write(e, h, now);
-    if constexpr (mixed && (slips || turns)) {
-      auto const far = carrying && lane_max(other.turn * other.turn, turned2) > V(furthest_turn * furthest_turn);
+    if constexpr (mixed && (slips || rolls)) {
+      auto const far = carrying && lane_max(other.rotation_increment * other.rotation_increment, sine2) >
+                                       V(largest_rotation * largest_rotation);
       auto changes = broken;
-      if constexpr (shears || turns) changes = changes || none == (separate ? touching : carrying);  // begins or ends
-      if (any(far || changes) || own.turned_far) {
+      if constexpr (shears || rolls) changes = changes || none == (separate ? touching : carrying);  // begins or ends
+      if (any(far || changes) || own.rotated_far) {
         if constexpr (Bond == BondKind::replace) {
           now.shear.stiffness = select(broken, V(law.grain.shear_stiffness), now.shear.stiffness);
           if constexpr (Rolling)
             now.moment.stiffness = select(broken, rolling_stiffness(law.grain, motion.common_radius), now.moment.stiffness);
         }
-        Anchorings{rows}.anchor({e, changes, touching, intact, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2, arm,
-                                 other_arm, disc.turn, other.turn, turned2},
-                                Forces(now));
+        ReReferenceOfPairs{rows}.apply({e, changes, touching, intact, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2,
+                                        arm, other_arm, disc.rotation_increment, other.rotation_increment, sine2},
+                                       Forces(now));
       }
     }
     // Entries out of touch and without a bond got exact zeros from the laws; nothing needs masking here.
@@ -238,7 +240,7 @@ struct ContactKernel {
     Own own;  // each number of which is set here: as a whole it would be set to zero by a function
     own.disc = Discs::own(p, first);
     own.most_overlap = constant<V>(-1e30);
-    own.turned_far = mixed && any(has_turned_far(own.disc.turn));
+    own.rotated_far = mixed && any(has_rotated_far(own.disc.rotation_increment));
     own.force_x = own.force_y = own.torque = own.sliding = own.rolling = own.dashpot = own.breakage = V(0);
     return own;
   }
@@ -251,7 +253,7 @@ struct ContactKernel {
   /// Pairs without a history of the grain contact (or of the bond in its place), in mixed precision.
   KOKKOS_FORCEINLINE_FUNCTION static VMask remembers_nothing(History const& h) {
     if constexpr (mixed && shears) return Kept::is_none(h.shear);
-    if constexpr (mixed && turns) return Kept::is_none(h.moment);
+    if constexpr (mixed && rolls) return Kept::is_none(h.moment);
     return VMask(false);
   }
   /// In mixed precision separate bonds keep what they have: they do not slip.
@@ -260,7 +262,7 @@ struct ContactKernel {
       store(field.data<R>() + e, Kept::after(kept, force));
     };
     if constexpr (shears) keep(rows.shear, h.shear, now.shear);
-    if constexpr (turns) keep(rows.moment, h.moment, now.moment);
+    if constexpr (rolls) keep(rows.moment, h.moment, now.moment);
     if constexpr (separate && !mixed) {
       keep(rows.bond_shear, h.bond_shear, now.bond_shear);
       keep(rows.bond_moment, h.bond_moment, now.bond_moment);
@@ -327,7 +329,7 @@ struct ContactKernel {
   KOKKOS_FORCEINLINE_FUNCTION ContactForce<V> with_bond(Constants const& law, ContactForce<V> const& grain_part,
                                                         ContactMotion<V> const& motion, Viscosity const& dashpot,
                                                         BondForce<V> const& bond, VMask const& bonded, VMask const& intact,
-                                                        VMask const& broken, StepWay const& in_step, History const& h,
+                                                        VMask const& broken, StepIncrement const& in_step, History const& h,
                                                         Forces& now, Own& own) const {
     V const zero(0);
     if constexpr (Bond == BondKind::parallel) {
@@ -354,7 +356,7 @@ struct ContactKernel {
   }
 
   /// The forces at the beginning of the step.
-  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> before(History const& h, Forces const& now, StepWay const& in_step) {
+  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> before(History const& h, Forces const& now, StepIncrement const& in_step) {
     if constexpr (!mixed) return {V(0), h.shear, h.moment};
     ContactForce<V> force{V(0), V(0), V(0)};
     if constexpr (shears) force.shear = negative_multiply_add(now.shear.stiffness, in_step.slip, now.shear.trial);

@@ -14,7 +14,8 @@
 
 namespace clathra {
 
-/// How the history of rows is kept: in mixed precision in single precision, and forces as those at the anchor (anchor.hpp).
+/// How the history of rows is kept: in mixed precision in single precision, and forces as those at the reference
+/// (reference_configuration.hpp).
 struct HistoryFormat {
   Precision precision = Precision::full;
   bool operator==(HistoryFormat const&) const = default;
@@ -71,7 +72,7 @@ static_assert(longest_row <= 255);
 /// Full rows (each pair stands in both rows) in sliced ELLPACK: slice_width() discs form a slice, entry k of its discs lies side
 /// by side. Rows are sorted: entries in touch or bonded first, each part by neighbour id, so that sums do not depend on where
 /// discs are stored. Both sides of a pair hold equal `shear` and `formation_overlap` and exactly opposite `moment`. In mixed
-/// precision forces and moments are those at the anchor, no_bond where there is none: see history_forces().
+/// precision forces and moments are those at the reference, no_bond where there is none: see history_forces().
 struct ContactRows {
   ContactFeatures features;
   int entries = 0;              ///< of all slices; the fields below may have room for more
@@ -83,7 +84,8 @@ struct ContactRows {
   RealField formation_overlap;  ///< [entries] u_0 of the bond [m], no_bond without one
   RealField bond_shear;         ///< [entries] F_s of a separate bond [N/m]
   RealField bond_moment;        ///< [entries] M of a separate bond [N m/m]
-  RealField anchor;             ///< [entries] mixed precision: the branch that shear forces count from (anchor.hpp)
+  RealField
+      reference_branch;  ///< [entries] mixed precision: the branch that shear forces count from (reference_configuration.hpp)
   // Derived, not part of the state: set by prepare_rows().
   RealField width;              ///< [entries] B of the bond [m], 0 without one
   Field<std::uint64_t> active;  ///< [groups of lanes] bit k: entries k of the group may carry a history and must be evaluated
@@ -115,14 +117,14 @@ CLATHRA_OF_THE_CALLERS_SIDE
 template <class Visit, class... Rows>
 KOKKOS_INLINE_FUNCTION void for_each_possible_history(ContactFeatures const& f, Visit&& visit, Rows&... rows) {
   using enum HistoryField::Quantity;
-  bool const anchored = f.format.precision == Precision::mixed;
+  bool const references = f.format.precision == Precision::mixed;
   Real const none = no_force(f.format);
   visit(HistoryField{"shear", force, none}, f.shear, rows.shear...);
   visit(HistoryField{"moment", moment, none, true}, f.rolling || f.bonds, rows.moment...);
   visit(HistoryField{"formation_overlap", length, no_bond}, f.bonds, rows.formation_overlap...);
   visit(HistoryField{"bond_shear", force, none}, f.separate_bond, rows.bond_shear...);
   visit(HistoryField{"bond_moment", moment, none, true}, f.separate_bond, rows.bond_moment...);
-  visit(HistoryField{"anchor", branch}, anchored && (f.shear || f.bonds), rows.anchor...);
+  visit(HistoryField{"reference_branch", branch}, references && (f.shear || f.bonds), rows.reference_branch...);
 }
 
 /// Visits what is needed.

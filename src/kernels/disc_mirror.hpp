@@ -1,6 +1,6 @@
 #pragma once
 /// What the contact kernel reads of discs in mixed precision, gathered by whole rows: 16 bytes a disc of its place and, where
-/// somebody asks how discs move, as many of its motion. Velocities, masses and turns have their only place here; that of the
+/// somebody asks how discs move, as many of its motion. Velocities, masses and rotations have their only place here; that of the
 /// centre is derived from x and y in double precision.
 ///
 /// Places are in ticks: multiples of a power of two near 2^-28 of the largest diameter, of which the low 32 bits are kept. The
@@ -15,7 +15,7 @@ namespace clathra {
 /// The rows of as many discs as FloatLanes hold. Named, not arrays: GCC keeps those in memory.
 struct PlacesOfDiscs {
   FloatLanes x, y;  ///< in ticks, their bits
-  FloatLanes radius, turn;
+  FloatLanes radius, rotation_increment;
 };
 struct MotionOfDiscs {
   FloatLanes vx, vy, omega, inverse_mass;
@@ -24,7 +24,7 @@ struct MotionOfDiscs {
 struct DiscMirror {
   static constexpr std::size_t row = 4;  ///< numbers a disc has in each table
   // Columns, in SI units but for the ticks, those of `motion` behind those of `places`.
-  static constexpr int turn_at = 3, vx_at = 4, vy_at = 5, omega_at = 6, inverse_mass_at = 7;
+  static constexpr int rotation_increment_at = 3, vx_at = 4, vy_at = 5, omega_at = 6, inverse_mass_at = 7;
 
   Real tick = 1;                        ///< [m]; 0.9 pm where the largest disc has 0.3 mm
   float padding_radius = 0;             ///< negative, so large that nothing touches a padding disc wherever it seems to be [m]

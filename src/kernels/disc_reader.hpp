@@ -26,14 +26,14 @@ struct DiscReader {
   /// The discs of a group.
   struct Own {
     Places x, y;
-    V radius, turn;
+    V radius, rotation_increment;
     MotionOf motion;  ///< where it is read
   };
   KOKKOS_FORCEINLINE_FUNCTION static Own own(ParticleSoA const& p, std::size_t first) {
     if constexpr (mixed) {
       PlacesOfDiscs const at = p.mirror.load_places(first);
-      if constexpr (Motion) return {bits_of(at.x), bits_of(at.y), at.radius, at.turn, own_motion(p, first)};
-      return {bits_of(at.x), bits_of(at.y), at.radius, at.turn, {}};
+      if constexpr (Motion) return {bits_of(at.x), bits_of(at.y), at.radius, at.rotation_increment, own_motion(p, first)};
+      return {bits_of(at.x), bits_of(at.y), at.radius, at.rotation_increment, {}};
     } else if constexpr (for_gpu) {
       DiscRow const& row = p.disc_rows.of(static_cast<int>(first));
       V const inverse_mass = Masses ? load(p.inverse_mass.data<R>() + first) : V(0);
@@ -57,13 +57,13 @@ struct DiscReader {
   struct Other {
     V dx, dy, radius;
     Places ticks_x, ticks_y;  ///< mixed precision: branches before they are rounded
-    V turn;                   ///< likewise: ParticleSoA::turn
+    V rotation_increment;     ///< likewise: ParticleSoA::rotation_increment
   };
   KOKKOS_FORCEINLINE_FUNCTION static Other other(ParticleSoA const& p, int const* j, Own const& own) {
     if constexpr (mixed) {
       PlacesOfDiscs const at = p.mirror.gather_places(j);
       Places const dx = difference(bits_of(at.x), own.x), dy = difference(bits_of(at.y), own.y);
-      return {to_float(dx), to_float(dy), at.radius, dx, dy, at.turn};
+      return {to_float(dx), to_float(dy), at.radius, dx, dy, at.rotation_increment};
     } else if constexpr (for_gpu) {
       DiscRow const& row = p.disc_rows.of(*j);
       return {row.x - own.x, row.y - own.y, row.radius, {}, {}, V(0)};

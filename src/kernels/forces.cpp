@@ -13,13 +13,13 @@ struct SetBondWidths {
   ParticleSoA p;
   ContactRows rows;
   BondLaw law;
-  KOKKOS_FUNCTION void operator()(int slot) const {
-    int const slice = slot >> rows.features.format.slice_shift(), used = slot < p.owned ? rows.length(slot) : 0;
+  KOKKOS_FUNCTION void operator()(int place) const {
+    int const slice = place >> rows.features.format.slice_shift(), used = place < p.owned ? rows.length(place) : 0;
     for (int k = 0; k < rows.slice_start(slice + 1) - rows.slice_start(slice); ++k) {
-      std::size_t const e = rows.entry(slot, k);
+      std::size_t const e = rows.entry(place, k);
       bool const bonded = k < used && is_bonded(rows.formation_overlap(e));
       Real const formed_at = bonded ? rows.formation_overlap(e) : no_bond;
-      rows.width.set(e, bonded ? law.width_formed_at(common_radius(p.radius(slot), p.radius(rows.neighbour(e))), formed_at) : 0);
+      rows.width.set(e, bonded ? law.width_formed_at(common_radius(p.radius(place), p.radius(rows.neighbour(e))), formed_at) : 0);
     }
   }
 };
@@ -39,8 +39,8 @@ void prepare_rows(ParticleSoA const& particles, ContactRows& rows, BondLaw const
     rows.width = RealField();
     rows.width = like(rows.formation_overlap, "width", rows.formation_overlap.extent(0), false);
   }
-  int const slots = format.slice_count(particles.owned) * format.slice_width();
-  Kokkos::parallel_for("set_bond_widths", Kokkos::RangePolicy<ExecutionSpace>(0, slots), SetBondWidths{particles, rows, law});
+  int const places = format.slice_count(particles.owned) * format.slice_width();
+  Kokkos::parallel_for("set_bond_widths", Kokkos::RangePolicy<ExecutionSpace>(0, places), SetBondWidths{particles, rows, law});
 }
 
 void compute_forces(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, Real dt, std::int64_t step,

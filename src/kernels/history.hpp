@@ -1,10 +1,10 @@
 #pragma once
 /// What rows keep of a history, shear force or moment, and what it comes to in a step.
 ///
-/// Double precision keeps the force itself, a sum of what steps add. Mixed precision keeps the force at the anchor (anchor.hpp),
-/// and a mark where a pair has none: it does not touch.
-#include "kernels/anchor.hpp"
+/// Double precision keeps the force itself, a sum of what steps add. Mixed precision keeps the force at the reference
+/// (reference_configuration.hpp), and a mark where a pair has none: it does not touch.
 #include "kernels/particles.hpp"
+#include "kernels/reference_configuration.hpp"
 
 namespace clathra {
 
@@ -29,8 +29,8 @@ struct HistoryOf {
   KOKKOS_FORCEINLINE_FUNCTION static V read(RealField const& field, std::size_t e) { return load(field.data<R>() + e); }
 
   /// The force if nothing slips.
-  /// @param way  during the step; in mixed precision since the anchor;  @param none  pairs that remember nothing, where there may
-  /// be
+  /// @param way  during the step; in mixed precision since the reference;  @param none  pairs that remember nothing, where there
+  /// may be
   template <class Stiffness, class... None>
   KOKKOS_FORCEINLINE_FUNCTION static V trial(V const& kept, Stiffness const& stiffness, V const& way, None const&... none) {
     if constexpr (!mixed)

@@ -23,29 +23,29 @@ struct WriteForces {
   }
 };
 
-struct AnchorRows {
+struct ReReferenceRows {
   ParticleSoA p;
   ContactRows rows;
   ContactLaws laws;
 
-  KOKKOS_FUNCTION void operator()(int slot) const {
-    int const slice = slot >> rows.features.format.slice_shift(), used = slot < p.owned ? rows.length(slot) : 0;
+  KOKKOS_FUNCTION void operator()(int place) const {
+    int const slice = place >> rows.features.format.slice_shift(), used = place < p.owned ? rows.length(place) : 0;
     for (int k = 0; k < rows.slice_start(slice + 1) - rows.slice_start(slice); ++k) {
-      std::size_t const e = rows.entry(slot, k);
+      std::size_t const e = rows.entry(place, k);
       if (k < used)
-        anchor(slot, e);
+        re_reference(place, e);
       else
         forget(e);
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void anchor(int i, std::size_t e) const {
-    AnchoredPair const pair = anchored_pair(p, rows, laws, i, e, /*anew=*/true);
+  KOKKOS_INLINE_FUNCTION void re_reference(int i, std::size_t e) const {
+    ReferencedPair const pair = referenced_pair(p, rows, laws, i, e, /*from_now=*/true);
     if (!(pair.overlap > 0 || pair.bond.normal > 0)) {
       forget(e);
       return;
     }
-    if (rows.anchor.extent(0) > 0) rows.anchor.data<std::int32_t>()[e] = pair.anchor;
+    if (rows.reference_branch.extent(0) > 0) rows.reference_branch.data<std::int32_t>()[e] = pair.reference;
     auto const count = [e](RealField const& field, float stiffness, float way) {
       if (field.extent(0) == 0) return;
       float& force = field.data<float>()[e];
@@ -63,7 +63,7 @@ struct AnchorRows {
 };
 
 /// M = M_0 + k_m (phi_j - phi_i) stays when k_m changes. One group of discs a call.
-struct KeepMomentsSinceAnchor {
+struct KeepMomentsSinceReference {
   ParticleSoA p;
   ContactRows rows;
   float less;  ///< k_m / common_radius^2 before, less that of now
@@ -80,11 +80,14 @@ struct KeepMomentsSinceAnchor {
       std::size_t const e = static_cast<std::size_t>(k) * slice_width + first % slice_width;
       PlacesOfDiscs const other = p.mirror.gather_places(&rows.neighbour(e));
       float* const moments = rows.moment.data<float>() + e;
-      FloatLanes const common = common_radius(own.radius, other.radius), at_anchor = load(moments),
-                       kept = multiply_add(less * common * common, counted_on(other.turn) - counted_on(own.turn), at_anchor);
-      auto stays = at_anchor == FloatLanes(no_bond_single);
+      FloatLanes const common = common_radius(own.radius, other.radius), at_reference = load(moments),
+                       kept = multiply_add(
+                           less * common * common,
+                           rotation_from_now_on(other.rotation_increment) - rotation_from_now_on(own.rotation_increment),
+                           at_reference);
+      auto stays = at_reference == FloatLanes(no_bond_single);
       if (not_of_bonds) stays = stays || is_bonded(load(rows.formation_overlap.data<float>() + e));
-      store(moments, select(stays, at_anchor, kept));
+      store(moments, select(stays, at_reference, kept));
     }
   }
 };
@@ -104,18 +107,19 @@ ContactRows with_forces(ParticleSoA const& particles, ContactRows const& rows, C
   return with;
 }
 
-void anchor_rows(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws) {
+void re_reference_rows(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws) {
   if (particles.precision == Precision::full) return;
   HistoryFormat const& format = rows.features.format;
-  int const slots = format.slice_count(particles.owned) * format.slice_width();
-  Kokkos::parallel_for("anchor_rows", Kokkos::RangePolicy<ExecutionSpace>(0, slots), AnchorRows{particles, rows, laws});
+  int const places = format.slice_count(particles.owned) * format.slice_width();
+  Kokkos::parallel_for("re_reference_rows", Kokkos::RangePolicy<ExecutionSpace>(0, places),
+                       ReReferenceRows{particles, rows, laws});
 }
 
 void keep_moments(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& before, ContactLaws const& now) {
   if (particles.precision == Precision::full || !rows.features.rolling) return;
   float const less = cast<float>(before.grain).rolling_factor() - cast<float>(now.grain).rolling_factor();
   Kokkos::parallel_for("keep_moments", Kokkos::RangePolicy<ExecutionSpace>(0, group_count(particles.owned, lane_count_of<float>)),
-                       KeepMomentsSinceAnchor{particles, rows, less, now.bond_kind == BondKind::replace});
+                       KeepMomentsSinceReference{particles, rows, less, now.bond_kind == BondKind::replace});
 }
 
 }  // namespace clathra

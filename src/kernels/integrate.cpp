@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "kernels/anchor.hpp"
+#include "kernels/reference_configuration.hpp"
 #include "kernels/verlet_skin.hpp"
 
 namespace clathra {
@@ -110,9 +110,9 @@ struct KickAndDriftMixed : Moving {
     fetch_ahead(i);
     V &vx = motion.vx, &vy = motion.vy, &omega = motion.omega;
     V const inverse_mass = motion.inverse_mass, inverse_inertia = load(p.inverse_inertia.data<float>() + i);
-    if (auto const far = has_turned_far(places.turn); any(far)) {
+    if (auto const far = has_rotated_far(places.rotation_increment); any(far)) {
       count_on(far, i);
-      places.turn = counted_on(places.turn);
+      places.rotation_increment = rotation_from_now_on(places.rotation_increment);
     }
     LanesOfHalves x = load_halves(&p.x(i)), y = load_halves(&p.y(i));
     AffineFrame const& frame = by.frame;
@@ -131,7 +131,7 @@ struct KickAndDriftMixed : Moving {
       vx += select(free, V(by.pull_x), V(0));
       vy += select(free, V(by.pull_y), V(0));
     }
-    places.turn = multiply_add(omega, V(static_cast<R>(by.drift)), places.turn);
+    places.rotation_increment = multiply_add(omega, V(static_cast<R>(by.drift)), places.rotation_increment);
     x = move(&p.x(i), x, vx, by.drift);
     y = move(&p.y(i), y, vy, by.drift);
     places.x = ticks_of(x, by.per_tick);
@@ -162,9 +162,9 @@ struct KickAndDriftMixed : Moving {
   }
   KOKKOS_FORCEINLINE_FUNCTION static V single(Real number) { return V(static_cast<R>(number)); }
 
-  /// Their pairs have been anchored anew: the discs count their turns from now on.
+  /// Their pairs have been re-referenced: the discs count their rotation from now on.
   CLATHRA_COLD_FUNCTION void count_on(MaskOf<V> const& far, std::size_t i) const {
-    for_each_set(far, [&](int l) { p.angle(i + static_cast<std::size_t>(l)) += p.turn(static_cast<int>(i) + l); });
+    for_each_set(far, [&](int l) { p.angle(i + static_cast<std::size_t>(l)) += p.rotation_increment(static_cast<int>(i) + l); });
   }
 
   /// Rows of discs that come later, backwards (docs/performance.md).

@@ -148,10 +148,10 @@ struct HashDisc {
       std::uint64_t pair = chain(chain(2, p.id(i)), p.id(rows.neighbour(e)));
       bool empty = true;
       auto const add = [&](HistoryField const& about, bool needed, auto const& field) {
-        bool const is_anchor = about.quantity == HistoryField::Quantity::branch;
-        if (is_anchor && !needed) return;
+        bool const is_reference = about.quantity == HistoryField::Quantity::branch;
+        if (is_reference && !needed) return;
         Real const value = field.extent(0) > 0 ? Real(field(e)) : about.empty;
-        empty = empty && (is_anchor || value == about.empty);
+        empty = empty && (is_reference || value == about.empty);
         pair = chain(pair, value);
       };
       for_each_possible_history(rows.features, add, rows);

@@ -137,7 +137,7 @@ KOKKOS_FORCEINLINE_FUNCTION MotionOfDiscs DiscMirror::load_motion(std::size_t fi
   return mirror_rows::load<MotionOfDiscs>(numbers(motion) + row * first);
 }
 KOKKOS_FORCEINLINE_FUNCTION void DiscMirror::store(std::size_t first, PlacesOfDiscs const& p) const {
-  mirror_rows::store(numbers(places) + row * first, p.x, p.y, p.radius, p.turn);
+  mirror_rows::store(numbers(places) + row * first, p.x, p.y, p.radius, p.rotation_increment);
 }
 KOKKOS_FORCEINLINE_FUNCTION void DiscMirror::store(std::size_t first, MotionOfDiscs const& m) const {
   mirror_rows::store(numbers(motion) + row * first, m.vx, m.vy, m.omega, m.inverse_mass);

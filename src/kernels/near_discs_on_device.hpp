@@ -8,12 +8,13 @@ namespace clathra {
 /// The row that a disc had before the search, its neighbours by id; found when first asked for.
 class OldRow {
  public:
-  KOKKOS_INLINE_FUNCTION OldRow(OldRows const& old, Field<int> const& slot, int disc) : old_(old), slot_(slot), disc_(disc) {}
+  KOKKOS_INLINE_FUNCTION OldRow(OldRows const& old, Field<int> const& old_row, int disc)
+      : old_(old), old_row_(old_row), disc_(disc) {}
 
   /// The old entry of disc `other`, or -1.
   KOKKOS_INLINE_FUNCTION int entry(int other) {
     if (length_ < 0) {
-      at_ = slot_(disc_);
+      at_ = old_row_(disc_);
       length_ = old_.length(at_);
     }
     for (int k = 0; k < length_; ++k) {
@@ -29,7 +30,7 @@ class OldRow {
 
  private:
   OldRows const& old_;
-  Field<int> const& slot_;
+  Field<int> const& old_row_;
   int disc_, at_ = 0, length_ = -1;
 };
 

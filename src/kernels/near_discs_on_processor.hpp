@@ -8,7 +8,7 @@ namespace clathra {
 /// The row that a disc had before the search, its neighbours by id; read when first asked for.
 class OldRow {
  public:
-  OldRow(OldRows const& old, Field<int> const& slot, int disc) : old_(old), slot_(slot), disc_(disc) {}
+  OldRow(OldRows const& old, Field<int> const& old_row, int disc) : old_(old), old_row_(old_row), disc_(disc) {}
 
   /// The old entry of disc `other`, or -1.
   int entry(int other) {
@@ -28,13 +28,13 @@ class OldRow {
 
  private:
   void read() {
-    at_ = slot_(disc_);
+    at_ = old_row_(disc_);
     length_ = old_.length(at_);
     for (int k = 0; k < length_; ++k) id_[k] = old_.neighbour_id(old_.entry(at_, k));
   }
 
   OldRows const& old_;
-  Field<int> const& slot_;
+  Field<int> const& old_row_;
   int disc_, at_ = 0, length_ = -1;
   int id_[longest_row];
 };

@@ -14,10 +14,10 @@ namespace clathra {
 
 namespace {
 
-struct FirstSlots {
-  Field<int> slot;
-  int slots;
-  KOKKOS_FUNCTION void operator()(int i) const { slot(i) = i < slots ? i : -1; }
+struct FirstOldRows {
+  Field<int> old_row;
+  int old_rows;
+  KOKKOS_FUNCTION void operator()(int i) const { old_row(i) = i < old_rows ? i : -1; }
 };
 
 struct NameNeighbours {
@@ -52,7 +52,7 @@ struct CountNeighbours {
   Field<RowLength> length;
   Faults faults;
   KOKKOS_FUNCTION void operator()(int i) const {
-    OldRow before(search.old, search.slot, i);
+    OldRow before(search.old, search.old_row, i);
     int count = 0;
     search.for_each_near(i, before, [&](int j, bool in_touch) {
       if (count < Found::most) found.neighbour(i, count) = 2 * j + (in_touch ? 1 : 0);
@@ -90,20 +90,20 @@ struct FillRows {
   ContactRows rows;
   Field<int> source;  // [entries] the old entry with the history of each new one, -1 for none
 
-  KOKKOS_FUNCTION void operator()(int slot) const {
-    int const slice = slot >> rows.features.format.slice_shift();
+  KOKKOS_FUNCTION void operator()(int place) const {
+    int const slice = place >> rows.features.format.slice_shift();
     int const width = rows.slice_start(slice + 1) - rows.slice_start(slice);
-    bool const real = slot < search.p.owned;
-    int const used = real ? fill(slot) : 0;
+    bool const real = place < search.p.owned;
+    int const used = real ? fill(place) : 0;
     for (int k = used; k < width; ++k) {
-      std::size_t const e = rows.entry(slot, k);
+      std::size_t const e = rows.entry(place, k);
       rows.neighbour(e) = search.p.padding();
       source(e) = -1;
     }
   }
 
   KOKKOS_INLINE_FUNCTION int fill(int i) const {
-    OldRow before(search.old, search.slot, i);
+    OldRow before(search.old, search.old_row, i);
     RowInOrder row(rows, source, i);
     auto const insert = [&](int j, bool in_touch) {
       int const id = search.p.id(j);
@@ -192,12 +192,12 @@ class Lists {
 
 /// A search whose candidates stand in their cells.
 Search prepared(ParticleSoA const& particles, SearchReach const& reach, Candidates const& candidates, OldRows const& old,
-                Field<int> const& slot, Scratch& scratch) {
+                Field<int> const& old_row, Scratch& scratch) {
   Real const bonded_reach = reach.bonded_gap * (1 + 1e-9), slack = rounding_slack(particles, reach.largest_radius);
   Real const cell = 2 * reach.largest_radius + lane_max(2 * reach.largest_skin + slack, bonded_reach);
   CellGrid const grid = bin_particles(particles, particles.all(), cell, reach.bounds, scratch);
   Kokkos::parallel_for("line_up", light_launch(particles.all() + lane_count), LineUp{particles, grid.disc, candidates});
-  return {{particles, grid, candidates, bonded_reach, slack, old, slot}};
+  return {{particles, grid, candidates, bonded_reach, slack, old, old_row}};
 }
 
 /// Room for so many entries: a little more than needed, so that the next search finds fields of the right size; never nothing.
@@ -215,7 +215,7 @@ void name_neighbours(ParticleSoA const& particles, ContactRows const& rows) {
 OldRows take_as_old(ParticleSoA const& particles, ContactRows& rows) {
   name_neighbours(particles, rows);
   OldRows old;
-  old.slots_here = static_cast<int>(rows.length.extent(0));
+  old.rows_here = static_cast<int>(rows.length.extent(0));
   old.entries_here = rows.entries;
   old.here = rows;
   old.arrived.features = rows.features;
@@ -224,14 +224,15 @@ OldRows take_as_old(ParticleSoA const& particles, ContactRows& rows) {
   return old;
 }
 
-Field<int> slots_of_discs(ParticleSoA const& particles, OldRows const& old, Scratch& scratch) {
-  Field<int> const slot = scratch.take<int>("slot", static_cast<std::size_t>(particles.owned));
-  Kokkos::parallel_for("first_slots", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned), FirstSlots{slot, old.slots_here});
-  return slot;
+Field<int> old_rows_of_discs(ParticleSoA const& particles, OldRows const& old, Scratch& scratch) {
+  Field<int> const old_row = scratch.take<int>("old_row", static_cast<std::size_t>(particles.owned));
+  Kokkos::parallel_for("first_old_rows", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned),
+                       FirstOldRows{old_row, old.rows_here});
+  return old_row;
 }
 
 std::vector<std::int64_t> find_neighbours(ParticleSoA const& particles, SearchReach const& reach, OldRows& old,
-                                          Field<int> const& slot, ContactRows& rows, Faults const& faults,
+                                          Field<int> const& old_row, ContactRows& rows, Faults const& faults,
                                           Field<std::int64_t> const& sizes, Scratch& scratch) {
   auto const owned = static_cast<std::size_t>(particles.owned);
   HistoryFormat const& format = old.here.features.format;
@@ -246,7 +247,7 @@ std::vector<std::int64_t> find_neighbours(ParticleSoA const& particles, SearchRe
   Field<int> source;
   {
     Lists const lists(particles, old.here, scratch);
-    Search const search = prepared(particles, reach, lists.candidates, old, slot, scratch);
+    Search const search = prepared(particles, reach, lists.candidates, old, old_row, scratch);
     Kokkos::parallel_for("count_neighbours", light_launch(particles.owned),
                          CountNeighbours{search, lists.found, found.length, faults});
     Kokkos::parallel_scan("scan_slices", Kokkos::RangePolicy<ExecutionSpace>(0, slices + 1),

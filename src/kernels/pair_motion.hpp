@@ -25,13 +25,13 @@ KOKKOS_FORCEINLINE_FUNCTION Inverses<V> inverses(V const& distance, [[maybe_unus
 
 /// The slip [m] and relative rotation [rad] of a step.
 template <class V>
-struct WayOfStep {
+struct IncrementOfStep {
   V slip, rotation;
 };
 /// By the velocities: Delta u_s = (dv . t - omega_i a_i - omega_j a_j) dt.
 template <class Motion, class V>
-KOKKOS_FORCEINLINE_FUNCTION WayOfStep<V> way_of_step(scalar_of<V> dt, Motion const& disc, Motion const& other, V const& nx,
-                                                     V const& ny, V const& arm, V const& other_arm) {
+KOKKOS_FORCEINLINE_FUNCTION IncrementOfStep<V> increment_of_step(scalar_of<V> dt, Motion const& disc, Motion const& other,
+                                                                 V const& nx, V const& ny, V const& arm, V const& other_arm) {
   V const dvx = other.vx - disc.vx, dvy = other.vy - disc.vy;
   return {((dvy * nx - dvx * ny) - (disc.omega * arm + other.omega * other_arm)) * dt, (other.omega - disc.omega) * dt};
 }
@@ -46,9 +46,10 @@ struct BeginningPairs {
 };
 /// @tparam Discs  DiscReader
 template <class Discs>
-CLATHRA_COLD_FUNCTION inline WayOfStep<typename Discs::V> first_way(ParticleSoA const& p,
-                                                                    BeginningPairs<typename Discs::V> const& at) {
-  return way_of_step(at.dt, Discs::own_motion(p, at.first), Discs::other_motion(p, at.other), at.nx, at.ny, at.arm, at.other_arm);
+CLATHRA_COLD_FUNCTION inline IncrementOfStep<typename Discs::V> first_increment(ParticleSoA const& p,
+                                                                                BeginningPairs<typename Discs::V> const& at) {
+  return increment_of_step(at.dt, Discs::own_motion(p, at.first), Discs::other_motion(p, at.other), at.nx, at.ny, at.arm,
+                           at.other_arm);
 }
 
 }  // namespace clathra

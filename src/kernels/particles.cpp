@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "kernels/anchor.hpp"
+#include "kernels/reference_configuration.hpp"
 
 namespace clathra {
 
@@ -68,9 +68,9 @@ struct AddAffineVelocity {
 struct CountTurnsOn {
   ParticleSoA p;
   KOKKOS_FUNCTION void operator()(int i) const {
-    auto const turn = static_cast<float>(p.turn(i));
-    p.angle(i) += turn - counted_on(turn);
-    p.turn.set(i, counted_on(turn));
+    auto const increment = static_cast<float>(p.rotation_increment(i));
+    p.angle(i) += increment - rotation_from_now_on(increment);
+    p.rotation_increment.set(i, rotation_from_now_on(increment));
   }
 };
 
@@ -225,8 +225,8 @@ std::vector<double> rotations(ParticleSoA const& particles) {
   auto const size = static_cast<std::size_t>(particles.owned);
   std::vector<double> angle = on_host(particles.angle, size);
   if (particles.precision == Precision::full) return angle;
-  std::vector<double> const turn = on_host(particles.turn, size);
-  for (std::size_t i = 0; i < size; ++i) angle[i] += turn[i];
+  std::vector<double> const increment = on_host(particles.rotation_increment, size);
+  for (std::size_t i = 0; i < size; ++i) angle[i] += increment[i];
   return angle;
 }
 

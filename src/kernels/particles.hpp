@@ -20,14 +20,15 @@ struct ParticleSoA {
   int owned = 0;
   int ghosts = 0;
   Field<int> id;
-  Field<Coord> x, y;          ///< centre [m]
-  Field<Coord> angle;         ///< accumulated rotation [rad], never wrapped; in mixed precision without `turn`
-  RealField vx, vy;           ///< velocity half a step behind the position [m/s]
-  RealField omega;            ///< angular velocity, likewise [rad/s]
-  Field<Real> radius;         ///< [m]
-  RealField inverse_mass;     ///< 1 / (pi r^2 rho) [m/kg]
-  RealField inverse_inertia;  ///< 2 / (m r^2) [1/(kg m)]
-  RealField turn;             ///< mixed precision: the rotation since its pairs were last anchored anew for it [rad] (anchor.hpp)
+  Field<Coord> x, y;             ///< centre [m]
+  Field<Coord> angle;            ///< accumulated rotation [rad], never wrapped; in mixed precision without `rotation_increment`
+  RealField vx, vy;              ///< velocity half a step behind the position [m/s]
+  RealField omega;               ///< angular velocity, likewise [rad/s]
+  Field<Real> radius;            ///< [m]
+  RealField inverse_mass;        ///< 1 / (pi r^2 rho) [m/kg]
+  RealField inverse_inertia;     ///< 2 / (m r^2) [1/(kg m)]
+  RealField rotation_increment;  ///< mixed precision: the rotation since its pairs were last re-referenced for it [rad]
+                                 ///< (reference_configuration.hpp)
   // Derived, not part of the state:
   RealField force_x, force_y;                ///< [N/m]
   RealField torque;                          ///< [N m/m]
@@ -71,7 +72,7 @@ KOKKOS_INLINE_FUNCTION void for_each_field(Particles&& p, Visit&& visit) {
   visit(DiscField{"inverse_mass", 0, false, DiscMirror::inverse_mass_at}, p.inverse_mass);
   visit(DiscField{"inverse_inertia"}, p.inverse_inertia);
   if (p.precision == Precision::full) return;
-  visit(DiscField{"turn", 0, true, DiscMirror::turn_at}, p.turn);
+  visit(DiscField{"rotation_increment", 0, true, DiscMirror::rotation_increment_at}, p.rotation_increment);
 }
 
 /// Likewise what is computed from the state: the forces
@@ -157,8 +158,8 @@ AField permuted(AField const& field, Field<int> const& order, std::size_t size, 
   return to;
 }
 
-/// In mixed precision: discs that have turned far count on from zero. Their pairs have been anchored for that by the forces; a
-/// step does it by itself.
+/// In mixed precision: discs that have rotated far count on from zero. Their pairs have been re-referenced for that by the
+/// forces; a step does it by itself.
 void count_turns_on(ParticleSoA const& particles);
 
 /// Accumulated rotations of the owned discs [rad], on the host.

@@ -25,16 +25,16 @@ struct BreakLog {
                                      DetailsOfIt const& details_of_it) const {
     Kokkos::atomic_fetch_add(&by_mode(static_cast<std::size_t>(how)), std::int64_t(1));
     if (step.extent(0) == 0) return;
-    auto const slot = static_cast<std::size_t>(Kokkos::atomic_fetch_add(&count(0), 1));
-    step(slot) = at_step;
-    id_a(slot) = a;
-    id_b(slot) = b;
-    mode(slot) = static_cast<std::int8_t>(how);
-    x(slot) = at_x;
-    y(slot) = at_y;
+    auto const place = static_cast<std::size_t>(Kokkos::atomic_fetch_add(&count(0), 1));
+    step(place) = at_step;
+    id_a(place) = a;
+    id_b(place) = b;
+    mode(place) = static_cast<std::int8_t>(how);
+    x(place) = at_x;
+    y(place) = at_y;
     if (details.extent(0) == 0) return;
-    details(slot) = details_of_it();
-    height(slot) = steps(0).box().height();
+    details(place) = details_of_it();
+    height(place) = steps(0).box().height();
   }
 };
 

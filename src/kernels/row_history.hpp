@@ -13,7 +13,7 @@ struct RowHistory {
   using R = typename P::Real;
   using V = LanesOf<R>;
   using Kept = HistoryOf<P>;
-  static constexpr bool anchored = P::precision == Precision::mixed && (Shears || Separate);
+  static constexpr bool references = P::precision == Precision::mixed && (Shears || Separate);
 
   V shear, moment, formation_overlap, width, bond_shear, bond_moment;
 
@@ -51,7 +51,7 @@ struct RowHistory {
       prefetch(rows.bond_shear.data<R>() + at);
       prefetch(rows.bond_moment.data<R>() + at);
     }
-    if constexpr (anchored) prefetch(rows.anchor.data<std::int32_t>() + at);
+    if constexpr (references) prefetch(rows.reference_branch.data<std::int32_t>() + at);
   }
   KOKKOS_FORCEINLINE_FUNCTION static int const* neighbours(ContactRows const& rows, std::size_t e) {
     int const* const j = rows.neighbour.data() + e;

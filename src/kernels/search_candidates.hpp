@@ -20,7 +20,7 @@ struct SearchInputs {
   Real bonded_reach;  // beyond touching, of any bond [m]
   Real slack;         // rounding_slack()
   OldRows old;
-  Field<int> slot;
+  Field<int> old_row;
 
   /// Calls visit(k, end) for the candidates from k on that lie before `end`, lane_count at a time, until it is false.
   template <class Visit>

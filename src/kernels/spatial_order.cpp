@@ -6,12 +6,12 @@ namespace clathra {
 
 namespace {
 
-/// The work on the row of each slot of one slice: the entries that carry a history, which the contact kernel evaluates, and among
-/// equals the length of the row.
-struct WorkOfSlots {
+/// The work on the row of each place of one slice: the entries that carry a history, which the contact kernel evaluates, and
+/// among equals the length of the row.
+struct WorkOfRows {
   ContactRows rows;
   int first;
-  Field<int> work;  ///< [slots] first + slot is set
+  Field<int> work;  ///< [places] first + place is set
 
   KOKKOS_FUNCTION void operator()(int group) const {
     int const shift = rows.features.format.slice_shift(), begin = group * lane_count, slice = begin >> shift;
@@ -25,9 +25,9 @@ struct WorkOfSlots {
       carrying += select(marked, Lanes(1), Lanes(0));
     }
     for (int l = 0; l < lane_count; ++l) {
-      int const slot = begin + l;
-      if (slot < static_cast<int>(rows.length.extent(0)))
-        work(first + slot) = static_cast<int>(lane(carrying, l)) * (longest_row + 1) + rows.length(slot);
+      int const place = begin + l;
+      if (place < static_cast<int>(rows.length.extent(0)))
+        work(first + place) = static_cast<int>(lane(carrying, l)) * (longest_row + 1) + rows.length(place);
     }
   }
 };
@@ -41,9 +41,9 @@ struct Window {
 };
 struct SetKeys {
   Window window;
-  Field<int> slot, work;
+  Field<int> old_row, work;
   KOKKOS_FUNCTION void operator()(int i) const {
-    int const at = slot(window.disc(i)), behind = (window.size - 1) & ~i;
+    int const at = old_row(window.disc(i)), behind = (window.size - 1) & ~i;
     window.key(i) = (at < 0 ? 0 : work(at)) * window.size + behind;
   }
 };
@@ -64,28 +64,28 @@ struct RankByWork {
   }
 };
 
-Field<int> work_of_slots(OldRows const& old, Scratch& scratch) {
+Field<int> work_of_rows(OldRows const& old, Scratch& scratch) {
   auto const arrived = static_cast<int>(old.arrived.length.extent(0));
-  Field<int> const work = scratch.take<int>("work_of_slots", static_cast<std::size_t>(old.slots_here + arrived));
-  Kokkos::parallel_for("work_of_slots", light_launch(group_count(old.slots_here)), WorkOfSlots{old.here, 0, work});
+  Field<int> const work = scratch.take<int>("work_of_rows", static_cast<std::size_t>(old.rows_here + arrived));
+  Kokkos::parallel_for("work_of_rows", light_launch(group_count(old.rows_here)), WorkOfRows{old.here, 0, work});
   if (arrived > 0)
-    Kokkos::parallel_for("work_of_slots", light_launch(group_count(arrived)), WorkOfSlots{old.arrived, old.slots_here, work});
+    Kokkos::parallel_for("work_of_rows", light_launch(group_count(arrived)), WorkOfRows{old.arrived, old.rows_here, work});
   return work;
 }
 
 }  // namespace
 
-Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, std::optional<CellsOfOrder> const& cells,
-                         Scratch& scratch) {
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& old_row,
+                         std::optional<CellsOfOrder> const& cells, Scratch& scratch) {
   auto const discs = static_cast<std::size_t>(particles.owned);
   Field<int> const order = scratch.take<int>("order", discs);
   Window window{{}, scratch.take<int>("keys", discs), slices_a_window * old.here.features.format.slice_width()};
   if (cells) window.order = bin_particles(particles, particles.owned, cells->size, cells->bounds, scratch).disc;
   Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
-  Kokkos::parallel_for("set_keys", each, SetKeys{window, slot, work_of_slots(old, scratch)});
+  Kokkos::parallel_for("set_keys", each, SetKeys{window, old_row, work_of_rows(old, scratch)});
   Kokkos::parallel_for("rank_by_work", each, RankByWork{window, order});
   permute(particles, order, scratch);
-  slot = permuted(slot, order, discs, scratch);
+  old_row = permuted(old_row, order, discs, scratch);
   return order;
 }
 

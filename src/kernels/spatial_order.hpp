@@ -19,10 +19,10 @@ struct CellsOfOrder {
 
 /// Puts the discs in spatial order (by cell; within windows of a few slices by the work on their rows, which evens out the
 /// slices: first those with the most entries that carry a history, then those with the longest rows) and drops the ghosts.
-/// @param slot  [owned] where the old row of each disc is; reordered with them
+/// @param old_row  [owned] where the old row of each disc is; reordered with them
 /// @param cells  none: each disc stays in the window where it is, and only the work is sorted by
 /// @return [owned] the place that each disc had before
-Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& slot, std::optional<CellsOfOrder> const& cells,
-                         Scratch& scratch);
+Field<int> sort_in_space(ParticleSoA& particles, OldRows const& old, Field<int>& old_row,
+                         std::optional<CellsOfOrder> const& cells, Scratch& scratch);
 
 }  // namespace clathra

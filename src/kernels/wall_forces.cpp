@@ -190,17 +190,17 @@ struct FindNearWalls {
   Walls walls;
   Field<int> disc;
   Field<std::int64_t> number;
-  KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
+  KOKKOS_FUNCTION void operator()(int i, int& place, bool const final) const {
     if (i == p.owned) {
-      if (final) number(0) = slot;
+      if (final) number(0) = place;
       return;
     }
     Real nearest = -1e300;
     for (int wall = 0; wall < wall_count; ++wall)
       nearest = lane_max(nearest, p.radius(i) - wall_face(walls, wall, p.x(i), p.y(i)).distance);
     if (nearest < -2 * p.verlet_skin(i)) return;
-    if (final) disc(slot) = i;
-    ++slot;
+    if (final) disc(place) = i;
+    ++place;
   }
 };
 

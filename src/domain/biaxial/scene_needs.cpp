@@ -56,7 +56,7 @@ void add_entries(SimulationLaws const& laws, std::vector<NeededField>& fields) {
                                                 {"formation_overlap", hydrate},
                                                 {"bond_shear", "bond.composite"},
                                                 {"bond_moment", "bond.composite"},
-                                                {"anchor", "run.precision"}};
+                                                {"reference_branch", "run.precision"}};
   ContactRows rows;
   HistoryFormat format;
   format.precision = laws.precision;

@@ -26,7 +26,7 @@ void for_each_auxiliary_field(AuxiliaryFields const& auxiliary, Visit&& visit) {
 }
 
 /// Records of the discs `which`, in this order.
-/// @param rows  neighbours by id, slots = indices
+/// @param rows  neighbours by id, by the index of their disc
 DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows,
                        std::vector<int> const& which);
 

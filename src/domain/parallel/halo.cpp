@@ -14,16 +14,16 @@ struct ListNear {
   Field<int> list;
   Field<std::int64_t> end;  ///< where the discs for each rank end
   int which;
-  KOKKOS_FUNCTION void operator()(int i, std::int64_t& slot, bool const final) const {
+  KOKKOS_FUNCTION void operator()(int i, std::int64_t& place, bool const final) const {
     std::int64_t const begin = which > 0 ? end(which - 1) : 0;
     if (i == p.owned) {
-      if (final) end(which) = begin + slot;
+      if (final) end(which) = begin + place;
       return;
     }
     Coord const x = p.x(i), y = p.y(i);
     if (x < r.left - reach || x >= r.right + reach || y < r.bottom - reach || y >= r.top + reach) return;
-    if (final && begin + slot < static_cast<std::int64_t>(list.extent(0))) list(begin + slot) = i;
-    ++slot;
+    if (final && begin + place < static_cast<std::int64_t>(list.extent(0))) list(begin + place) = i;
+    ++place;
   }
 };
 

@@ -29,15 +29,15 @@ struct PartDiscs {
 };
 
 struct NumberArrivals {
-  Field<int> slot;
-  int first, first_slot;
-  KOKKOS_FUNCTION void operator()(int k) const { slot(first + k) = first_slot + k; }
+  Field<int> old_row;
+  int first, first_row;
+  KOKKOS_FUNCTION void operator()(int k) const { old_row(first + k) = first_row + k; }
 };
 
-void keep_only(Field<int> const& staying, ParticleSoA& particles, AuxiliaryFields const& auxiliary, Field<int>& slot,
+void keep_only(Field<int> const& staying, ParticleSoA& particles, AuxiliaryFields const& auxiliary, Field<int>& old_row,
                Scratch& scratch) {
   permute(particles, staying, scratch);
-  slot = permuted(slot, staying, staying.extent(0), scratch);
+  old_row = permuted(old_row, staying, staying.extent(0), scratch);
   for_each_auxiliary_field(auxiliary, [&](auto& field) { field = permuted(field, staying, particles.x.extent(0), scratch); });
 }
 
@@ -54,7 +54,7 @@ std::vector<std::vector<double>> pack_leaving(std::vector<int> const& leaving, i
   std::vector<int> which;
   for (std::size_t const k : order) which.push_back(leaving[2 * k]);
   ContactRows rows = old.here;
-  if (old.slots_here == 0)
+  if (old.rows_here == 0)
     rows.length = Field<RowLength>("no_rows", static_cast<std::size_t>(particles.owned));  // before the first search
   DiscRecords const records = pack_discs(particles, auxiliary, rows, which);
   auto const at = [&](std::size_t k) { return records.numbers.begin() + static_cast<std::ptrdiff_t>(records.begin[k]); };
@@ -69,7 +69,7 @@ std::vector<std::vector<double>> pack_leaving(std::vector<int> const& leaving, i
 }  // namespace
 
 void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA& particles, AuxiliaryFields const& auxiliary,
-             OldRows& old, Field<int>& slot, Scratch& scratch) {
+             OldRows& old, Field<int>& old_row, Scratch& scratch) {
   auto const discs = static_cast<std::size_t>(particles.owned);
   PartDiscs const parts{particles, decomposition.owner_of(), ranks.rank(), scratch.take<int>("leaving", 2 * discs),
                         scratch.take<int>("staying", discs)};
@@ -79,18 +79,18 @@ void migrate(Ranks const& ranks, Decomposition const& decomposition, ParticleSoA
   std::vector<std::vector<double>> to =
       pack_leaving(on_host(parts.leaving, 2 * leaving), ranks.count(), particles, auxiliary, old);
   if (left > 0)
-    keep_only(Kokkos::subview(parts.staying, std::pair<std::size_t, std::size_t>(0, discs - leaving)), particles, auxiliary, slot,
-              scratch);
+    keep_only(Kokkos::subview(parts.staying, std::pair<std::size_t, std::size_t>(0, discs - leaving)), particles, auxiliary,
+              old_row, scratch);
   std::vector<double> came;
   for (std::vector<double> const& part : ranks.exchange(std::move(to))) came.insert(came.end(), part.begin(), part.end());
   int const first = particles.owned;
   old.arrived = unpack_discs(came, old.here.features, particles, auxiliary);
   if (particles.owned == first) return;
-  Field<int> const all = scratch.take<int>("slot", static_cast<std::size_t>(particles.owned));
-  copy_first(slot, all, static_cast<std::size_t>(first));
-  slot = all;
+  Field<int> const all = scratch.take<int>("old_row", static_cast<std::size_t>(particles.owned));
+  copy_first(old_row, all, static_cast<std::size_t>(first));
+  old_row = all;
   Kokkos::parallel_for("number_arrivals", Kokkos::RangePolicy<ExecutionSpace>(0, particles.owned - first),
-                       NumberArrivals{slot, first, old.slots_here});
+                       NumberArrivals{old_row, first, old.rows_here});
 }
 
 }  // namespace clathra

@@ -18,11 +18,11 @@ void Ghosts::refresh(ParticleSoA const& particles, Box const& box, AnyField cons
 }
 
 void Ghosts::migrate_discs(AffineFrame const& motion, double seconds_of_a_search, ParticleSoA& particles,
-                           AuxiliaryFields const& with_discs, OldRows& old, Field<int>& slot, Scratch& scratch) {
+                           AuxiliaryFields const& with_discs, OldRows& old, Field<int>& old_row, Scratch& scratch) {
   if (ranks_.alone()) return;
   decomposition_.follow(motion);
   rebalance_if_it_pays(particles, seconds_of_a_search);
-  migrate(ranks_, decomposition_, particles, with_discs, old, slot, scratch);
+  migrate(ranks_, decomposition_, particles, with_discs, old, old_row, scratch);
 }
 
 Bounds Ghosts::own_bounds(Bounds const& all, Box const& box) const {

@@ -28,7 +28,7 @@ class Ghosts {
   /// rectangles are cut anew when the time that ranks have waited for the slowest is well above what that costs.
   /// @param motion  of the box since the last search;  @param seconds_of_a_search  on this rank
   void migrate_discs(AffineFrame const& motion, double seconds_of_a_search, ParticleSoA& particles,
-                     AuxiliaryFields const& with_discs, OldRows& old, Field<int>& slot, Scratch& scratch);
+                     AuxiliaryFields const& with_discs, OldRows& old, Field<int>& old_row, Scratch& scratch);
   /// Where this rank's discs are when each has its owner. @param all  of the discs of all ranks
   Bounds own_bounds(Bounds const& all, Box const& box) const;
   /// Replaces the ghosts by copies of all discs within `reach` [m] of this rank's rectangle or of the edge of the cell; those of

@@ -20,13 +20,13 @@ void require_places_told_apart(Assembly const& a, Real reach) {
                 (a.upkeep.skin() > a.facts.largest_radius ? "give a smaller run.skin" : "take run.precision = \"double\""));
 }
 
-void find_rows_and_boundaries(Assembly& a, SearchReach const& reach, OldRows& old, Field<int> const& slot,
+void find_rows_and_boundaries(Assembly& a, SearchReach const& reach, OldRows& old, Field<int> const& old_row,
                               std::vector<BoundaryHistory> const& histories) {
   std::size_t const boundaries = a.boundaries.size();
   Field<std::int64_t> const sizes = a.scratch.take<std::int64_t>("sizes_of_search", 1 + boundaries);
   for (std::size_t b = 0; b < boundaries; ++b)
     a.boundaries[b]->list_near(a.particles, a.now, Kokkos::subview(sizes, std::pair(1 + b, 2 + b)), a.scratch);
-  auto const read = find_neighbours(a.particles, reach, old, slot, a.rows, a.faults, sizes, a.scratch);
+  auto const read = find_neighbours(a.particles, reach, old, old_row, a.rows, a.faults, sizes, a.scratch);
   for (std::size_t b = 0; b < boundaries; ++b)
     a.boundaries[b]->make_contacts(static_cast<int>(read[1 + b]), a.laws, histories[b], a.scratch);
 }
@@ -80,12 +80,12 @@ void search_neighbours(Assembly& a, RebuildInputs const& all, bool skin_by_speed
   AuxiliaryFields const with_discs = with(auxiliary_fields(a, histories), also);
   for (auto const& boundary : a.boundaries) boundary->drop_contacts();
   OldRows old = take_as_old(particles, a.rows);
-  Field<int> slot = slots_of_discs(particles, old, a.scratch);
-  a.ghosts.migrate_discs(a.frame(), a.upkeep.seconds_of_a_search(), particles, with_discs, old, slot, a.scratch);
+  Field<int> old_row = old_rows_of_discs(particles, old, a.scratch);
+  a.ghosts.migrate_discs(a.frame(), a.upkeep.seconds_of_a_search(), particles, with_discs, old, old_row, a.scratch);
   Bounds const bounds = a.ghosts.own_bounds(all.bounds(), a.now.box());
   std::optional<CellsOfOrder> cells;
   if (a.upkeep.sorting_is_due(a.ranks().alone())) cells = {2 * largest_radius + a.upkeep.skin(), bounds};
-  Field<int> const order = sort_in_space(particles, old, slot, cells, a.scratch);
+  Field<int> const order = sort_in_space(particles, old, old_row, cells, a.scratch);
   for_each_auxiliary_field(with_discs, [&](auto& field) { field = permuted(field, order, particles.x.extent(0), a.scratch); });
   SearchReach search{largest_radius, largest_skin, all.largest[RebuildInputs::bonded_gap], bounds};
   Real const reach =
@@ -95,7 +95,7 @@ void search_neighbours(Assembly& a, RebuildInputs const& all, bool skin_by_speed
   assign_verlet_skins(particles, a.frame(), range, all.mean_speed);
   a.refresh_ghosts(particles.verlet_skin);
   if (particles.ghosts > 0) search.bounds = bounds.grown(reach);
-  find_rows_and_boundaries(a, search, old, slot, histories);
+  find_rows_and_boundaries(a, search, old, old_row, histories);
   prepare_rows(particles, a.rows, a.laws.contact.bond);
   update_mirror(particles, 0, particles.all());
   a.make_room_for_breaks();

@@ -30,21 +30,21 @@ struct ListImages {
   Real reach;           ///< to the lower and upper edges
   Real reach_sideways;  ///< along x, to the left and right ones, which may lean
   Field<int> source, shift_x, shift_y;
-  KOKKOS_FUNCTION void operator()(int i, int& slot, bool const final) const {
+  KOKKOS_FUNCTION void operator()(int i, int& place, bool const final) const {
     Coord const across = from_left_edge(cell, p.x(i), p.y(i)), up = p.y(i) - cell.y;
     int const sx = across < reach_sideways ? 1 : across >= cell.edges.xx - reach_sideways ? -1 : 0;
     int const sy = up < reach ? 1 : up >= cell.edges.yy - reach ? -1 : 0;
-    if (sx != 0) add(i, sx, 0, slot, final);
-    if (sy != 0) add(i, 0, sy, slot, final);
-    if (sx != 0 && sy != 0) add(i, sx, sy, slot, final);
+    if (sx != 0) add(i, sx, 0, place, final);
+    if (sy != 0) add(i, 0, sy, place, final);
+    if (sx != 0 && sy != 0) add(i, sx, sy, place, final);
   }
-  KOKKOS_INLINE_FUNCTION void add(int i, int sx, int sy, int& slot, bool final) const {
-    if (final && slot < static_cast<int>(source.extent(0))) {
-      source(slot) = i;
-      shift_x(slot) = sx;
-      shift_y(slot) = sy;
+  KOKKOS_INLINE_FUNCTION void add(int i, int sx, int sy, int& place, bool final) const {
+    if (final && place < static_cast<int>(source.extent(0))) {
+      source(place) = i;
+      shift_x(place) = sx;
+      shift_y(place) = sy;
     }
-    ++slot;
+    ++place;
   }
 };
 

@@ -72,12 +72,12 @@ void Simulation::set_laws(SimulationLaws const& laws) {
   a.laws.contact.ledger = ledger;
   ContactLaws const& now = a.laws.contact;
   ContactFeatures const features = a.laws.features_of_rows();
-  bool const same_history = features == a.rows.features, anchors = !same_history || !same_stiffness(before, now);
-  if (anchors) a.rows = with_forces(a.particles, a.rows, before);
+  bool const same_history = features == a.rows.features, re_references = !same_history || !same_stiffness(before, now);
+  if (re_references) a.rows = with_forces(a.particles, a.rows, before);
   if (!same_history) change_features(a.rows, features);
   if (!same_history || a.rows.features.bonds) prepare_rows(a.particles, a.rows, now.bond);
-  if (anchors)
-    anchor_rows(a.particles, a.rows, now);
+  if (re_references)
+    re_reference_rows(a.particles, a.rows, now);
   else if (before.grain.shape_factor != now.grain.shape_factor)
     keep_moments(a.particles, a.rows, before, now);
   if (ledger) allocate_dissipation(a.dissipation, a.laws.losses(), a.particles.x.extent(0));

@@ -222,7 +222,7 @@ void restore_history(Assembly& a, Specimen const& s) {
   std::for_each(others.begin(), others.end(), write);
   history.upload_to(rows);
   prepare_rows(a.particles, a.rows, a.laws.contact.bond);
-  anchor_rows(a.particles, rows, a.laws.contact);
+  re_reference_rows(a.particles, rows, a.laws.contact);
   a.broken.drop_log();  // that of the search before it has room for no bond
   a.make_room_for_breaks();
 }

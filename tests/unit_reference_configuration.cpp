@@ -1,11 +1,11 @@
-/// What histories of mixed precision are made of: anchors, the way since them, and forces that follow from it
-/// (kernels/anchor.hpp).
+/// What histories of mixed precision are made of: references, the motion since them, and forces that follow from it
+/// (kernels/reference_configuration.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/anchor.hpp"
+#include "kernels/reference_configuration.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -28,72 +28,72 @@ struct InTicks {
     back.x = -x, back.y = -y, back.dx = -dx, back.dy = -dy;
     return back;
   }
-  std::int32_t anchor() const { return anchor_at(dx, dy); }
+  std::int32_t packed() const { return packed_branch(dx, dy); }
 };
-BranchSinceAnchor<float> branch(std::int32_t anchor, InTicks const& at) {
-  return branch_since(anchor, at.x, at.y, at.dx, at.dy, 1 / (at.dx * at.dx + at.dy * at.dy));
+BranchSinceReference<float> branch(std::int32_t reference, InTicks const& at) {
+  return branch_since(reference, at.x, at.y, at.dx, at.dy, 1 / (at.dx * at.dx + at.dy * at.dy));
 }
-WaySinceAnchor<float> way(std::int32_t anchor, Posture const& p) {
+MotionSinceReference<float> way(std::int32_t reference, Posture const& p) {
   InTicks const at(p);
   auto const distance = static_cast<float>(std::hypot(p.x, p.y)), u = static_cast<float>(r1 + r2) - distance;
-  return way_since(branch(anchor, at), static_cast<float>(r1) - u / 2, static_cast<float>(r2) - u / 2,
-                   static_cast<float>(p.turn1), static_cast<float>(p.turn2));
+  return motion_since(branch(reference, at), static_cast<float>(r1) - u / 2, static_cast<float>(r2) - u / 2,
+                      static_cast<float>(p.turn1), static_cast<float>(p.turn2));
 }
-/// The slip between two postures, from the anchor of the first.
+/// The slip between two postures, from the reference of the first.
 double slip_between(Posture const& from, Posture const& to) {
-  std::int32_t const anchor = InTicks(from).anchor();
-  return static_cast<double>(way(anchor, to).slip) - static_cast<double>(way(anchor, from).slip);
+  std::int32_t const reference = InTicks(from).packed();
+  return static_cast<double>(way(reference, to).slip) - static_cast<double>(way(reference, from).slip);
 }
 
-/// The overlap by the anchor, and what it is short of the exact one of the same ticks [ticks].
-float overlap_by(std::int32_t anchor, InTicks const& at) {
+/// The overlap by the reference, and what it is short of the exact one of the same ticks [ticks].
+float overlap_by(std::int32_t reference, InTicks const& at) {
   float const distance2 = at.dx * at.dx + at.dy * at.dy;
-  return overlap_since(anchor, branch(anchor, at), std::sqrt(distance2), 1 / distance2,
+  return overlap_since(reference, branch(reference, at), std::sqrt(distance2), 1 / distance2,
                        static_cast<float>(r1) + static_cast<float>(r2), static_cast<float>(tick()), /*none=*/false);
 }
-double missing(std::int32_t anchor, Posture const& p) {
+double missing(std::int32_t reference, Posture const& p) {
   InTicks const at(p);
   double const exact = static_cast<double>(static_cast<float>(r1) + static_cast<float>(r2)) / tick() -
                        std::hypot(static_cast<double>(at.x), static_cast<double>(at.y));
-  return exact - static_cast<double>(overlap_by(anchor, at)) / tick();
+  return exact - static_cast<double>(overlap_by(reference, at)) / tick();
 }
 
-TEST(Anchor, IsOddAndWithinHalfAUnitOfTheBranch) {
+TEST(ReferenceBranch, IsOddAndWithinHalfAUnitOfTheBranch) {
   for (double angle = 0; angle < 6.2832; angle += 0.037) {
     InTicks const there({touch * std::cos(angle), touch * std::sin(angle)}),
         back({-touch * std::cos(angle), -touch * std::sin(angle)});
-    EXPECT_LE(std::abs(difference(there.x, anchor_x(there.anchor()))), 1 << 15);
-    EXPECT_LE(std::abs(difference(there.y, anchor_y(there.anchor()))), 1 << 15);
-    EXPECT_EQ(anchor_x(back.anchor()), -anchor_x(there.anchor()));
-    EXPECT_EQ(anchor_y(back.anchor()), -anchor_y(there.anchor()));
+    EXPECT_LE(std::abs(difference(there.x, unpacked_x(there.packed()))), 1 << 15);
+    EXPECT_LE(std::abs(difference(there.y, unpacked_y(there.packed()))), 1 << 15);
+    EXPECT_EQ(unpacked_x(back.packed()), -unpacked_x(there.packed()));
+    EXPECT_EQ(unpacked_y(back.packed()), -unpacked_y(there.packed()));
   }
 }
 
-TEST(WaySinceAnchor, OfARigidTurnIsNothing) {
+TEST(MotionSinceReference, OfARigidTurnIsNothing) {
   for (double const alpha : {1e-5, 1e-3, -7e-3, 1.0 / 64}) {
     for (double const angle : {0.0, 0.7, 2.2, 4.0}) {
       auto const at = [&](double turned) {
         return Posture{touch * std::cos(angle + turned), touch * std::sin(angle + turned), turned, turned};
       };
       EXPECT_NEAR(slip_between(at(0), at(alpha)), 0, 1.5 * tick()) << alpha << ", " << angle;
-      EXPECT_EQ(way(InTicks(at(0)).anchor(), at(alpha)).rotation, 0);
+      EXPECT_EQ(way(InTicks(at(0)).packed(), at(alpha)).rotation, 0);
     }
   }
 }
 
-TEST(WaySinceAnchor, IsTheArcOfTheBranchLessThoseOfTheDiscs) {
+TEST(MotionSinceReference, IsTheArcOfTheBranchLessThoseOfTheDiscs) {
   double const a1 = r1 - overlap / 2, a2 = r2 - overlap / 2;
   for (double const alpha : {1e-4, -1.0 / 64}) {
     Posture const before{touch, 0, 0, 0}, round{touch * std::cos(alpha), touch * std::sin(alpha), 0, 0};
     EXPECT_NEAR(slip_between(before, round), touch * alpha, 1.5 * tick() + 1e-5 * std::abs(touch * alpha)) << alpha;
     EXPECT_NEAR(slip_between(before, {touch, 0, alpha, 0}), -a1 * alpha, 1e-4 * std::abs(a1 * alpha)) << alpha;
     EXPECT_NEAR(slip_between(before, {touch, 0, 0, alpha}), -a2 * alpha, 1e-4 * std::abs(a2 * alpha)) << alpha;
-    EXPECT_NEAR(way(InTicks(before).anchor(), {touch, 0, alpha, 3 * alpha}).rotation, 2 * alpha, 1e-9);
+    EXPECT_NEAR(way(InTicks(before).packed(), {touch, 0, alpha, 3 * alpha}).rotation, 2 * alpha, 1e-9);
   }
 }
 
 /// While the distance changes along: d and the arms count with their means, so what is left is of third order.
-TEST(WaySinceAnchor, OfAStraightWayIsItsIntegralToThirdOrder) {
+TEST(MotionSinceReference, OfAStraightWayIsItsIntegralToThirdOrder) {
   auto const at = [](double t) { return Posture{touch + t * touch / 128, t * touch / 80, t / 150, -t / 90}; };
   auto const exact = [&](double end) {
     constexpr int steps = 4000;
@@ -108,10 +108,10 @@ TEST(WaySinceAnchor, OfAStraightWayIsItsIntegralToThirdOrder) {
   };
   double const whole = slip_between(at(0), at(1)) - exact(1), half = slip_between(at(0), at(0.5)) - exact(0.5);
   EXPECT_LT(std::abs(whole), 3e-4 * std::abs(exact(1)));
-  EXPECT_LT(std::abs(half), 0.4 * std::abs(whole));  // of second order at most by what the anchor is off
+  EXPECT_LT(std::abs(half), 0.4 * std::abs(whole));  // of second order at most by what the reference is off
 }
 
-TEST(WaySinceAnchor, IsTheSameFromBothSides) {
+TEST(MotionSinceReference, IsTheSameFromBothSides) {
   for (int n = 0; n < 2000; ++n) {
     auto const draw = [&](std::uint64_t k) { return uniform_random(11, k, static_cast<std::uint64_t>(n)) - 0.5; };
     double const angle = 6.2832 * draw(1);
@@ -120,41 +120,41 @@ TEST(WaySinceAnchor, IsTheSameFromBothSides) {
     auto const turn1 = static_cast<float>(0.03 * draw(4)), turn2 = static_cast<float>(0.03 * draw(5));
     auto const a1 = static_cast<float>(r1), a2 = static_cast<float>(r2);
     InTicks const back = now.from_the_other_side();
-    std::int32_t const back_anchor = start.from_the_other_side().anchor();
-    auto const branch_here = branch(start.anchor(), now), branch_there = branch(back_anchor, back);
-    auto const here = way_since(branch_here, a1, a2, turn1, turn2), there = way_since(branch_there, a2, a1, turn2, turn1);
+    std::int32_t const back_reference = start.from_the_other_side().packed();
+    auto const branch_here = branch(start.packed(), now), branch_there = branch(back_reference, back);
+    auto const here = motion_since(branch_here, a1, a2, turn1, turn2), there = motion_since(branch_there, a2, a1, turn2, turn1);
     ASSERT_EQ(here.slip, there.slip) << n;
     ASSERT_EQ(here.rotation, -there.rotation) << n;
-    ASSERT_EQ(branch_here.turned2, branch_there.turned2) << n;
-    ASSERT_EQ(overlap_by(start.anchor(), now), overlap_by(back_anchor, back)) << n;
+    ASSERT_EQ(branch_here.sine2, branch_there.sine2) << n;
+    ASSERT_EQ(overlap_by(start.packed(), now), overlap_by(back_reference, back)) << n;
   }
 }
 
-TEST(OverlapSinceAnchor, IsOffByTheSameAmountWhereverDiscsGoFromThere) {
+TEST(OverlapSinceReference, IsOffByTheSameAmountWhereverDiscsGoFromThere) {
   for (double angle = 0.01; angle < 6.2832; angle += 0.37) {
     auto const at = [&](double along, double across) {
       double const d = touch + along;
       return Posture{d * std::cos(angle) - across * std::sin(angle), d * std::sin(angle) + across * std::cos(angle)};
     };
-    std::int32_t const anchor = InTicks(at(0, 0)).anchor();
-    double const off = missing(anchor, at(0, 0));
+    std::int32_t const reference = InTicks(at(0, 0)).packed();
+    double const off = missing(reference, at(0, 0));
     EXPECT_LE(std::abs(off), 16);
     for (double const way : {tick(), 1e-9, -1e-9, 1e-8, 1e-7}) {
-      EXPECT_NEAR(missing(anchor, at(way, 0)), off, 0.2) << angle << ", " << way;
-      EXPECT_NEAR(missing(anchor, at(0, way)), off, 0.2) << angle << ", " << way;
-      EXPECT_NEAR(missing(anchor, at(way, way)), off, 0.2) << angle << ", " << way;
+      EXPECT_NEAR(missing(reference, at(way, 0)), off, 0.2) << angle << ", " << way;
+      EXPECT_NEAR(missing(reference, at(0, way)), off, 0.2) << angle << ", " << way;
+      EXPECT_NEAR(missing(reference, at(way, way)), off, 0.2) << angle << ", " << way;
     }
-    for (double const across : {touch / 64, -touch / 64}) EXPECT_NEAR(missing(anchor, at(1e-6, across)), off, 1) << angle;
+    for (double const across : {touch / 64, -touch / 64}) EXPECT_NEAR(missing(reference, at(1e-6, across)), off, 1) << angle;
   }
 }
 
-TEST(OverlapSinceAnchor, IsThatOfTheBranchHoweverFarItHasTurnedOrGrown) {
-  std::int32_t const anchor = InTicks({touch, 0}).anchor();
-  double const off = missing(anchor, {touch, 0}), in_ticks = touch / tick();
+TEST(OverlapSinceReference, IsThatOfTheBranchHoweverFarItHasTurnedOrGrown) {
+  std::int32_t const reference = InTicks({touch, 0}).packed();
+  double const off = missing(reference, {touch, 0}), in_ticks = touch / tick();
   for (double const share : {1e-3, 1e-2, -1e-2, 0.1})
     for (double const alpha : {0.0, 1e-3, 1.0 / 64, -1.0 / 64}) {
       double const d = touch * (1 + share);
-      EXPECT_NEAR(missing(anchor, {d * std::cos(alpha), d * std::sin(alpha)}), off, 1 + 3e-7 * std::abs(share) * in_ticks)
+      EXPECT_NEAR(missing(reference, {d * std::cos(alpha), d * std::sin(alpha)}), off, 1 + 3e-7 * std::abs(share) * in_ticks)
           << share << ", " << alpha;
     }
 }
@@ -170,7 +170,7 @@ Simulation driven_discs() {
 }
 
 /// A sum of rounded parts would have walked away.
-TEST(HistoryAtTheAnchor, IsTheSameToTheBitHoweverOftenDiscsTremble) {
+TEST(HistoryAtTheReference, IsTheSameToTheBitHoweverOftenDiscsTremble) {
   Simulation sim = driven_discs();
   drive(sim, 0, 0, 1e-3, 3);
   drive(sim, 1, 0, -2e-3, 7);
@@ -193,7 +193,7 @@ TEST(HistoryAtTheAnchor, IsTheSameToTheBitHoweverOftenDiscsTremble) {
 }
 
 /// The distance of discs in single precision would be rounded to some sixteen ticks.
-TEST(HistoryAtTheAnchor, ForcesTellSingleTicksApart) {
+TEST(HistoryAtTheReference, ForcesTellSingleTicksApart) {
   Simulation sim = driven_discs();
   double const tick = sim.assembly().particles.mirror.tick;
   sim.step();
@@ -209,7 +209,7 @@ TEST(HistoryAtTheAnchor, ForcesTellSingleTicksApart) {
 }
 
 /// A sum in single precision stands still at a thousandth of its ulp a step.
-TEST(HistoryAtTheAnchor, FollowsHoweverSlowlyDiscsMove) {
+TEST(HistoryAtTheReference, FollowsHoweverSlowlyDiscsMove) {
   Simulation sim = driven_discs();
   double const tick = sim.assembly().particles.mirror.tick;
   drive(sim, 1, 0, 0.1 / sim.time_step * 1e-6, 0);
@@ -218,15 +218,15 @@ TEST(HistoryAtTheAnchor, FollowsHoweverSlowlyDiscsMove) {
   double const before = pair_history(sim).shear;
   ASSERT_GT(std::abs(before), 10);
   constexpr int steps = 100000;
-  double const way_of_step = 1e-3 * tick;
-  ASSERT_LT(sand_ks * way_of_step, 0.5 * before * 0x1p-24);
-  drive(sim, 1, 0, way_of_step / sim.time_step, 0);
+  double const increment_of_step = 1e-3 * tick;
+  ASSERT_LT(sand_ks * increment_of_step, 0.5 * before * 0x1p-24);
+  drive(sim, 1, 0, increment_of_step / sim.time_step, 0);
   sim.step(steps);
-  EXPECT_NEAR(pair_history(sim).shear - before, sand_ks * way_of_step * steps, sand_ks * 1.5 * tick);
+  EXPECT_NEAR(pair_history(sim).shear - before, sand_ks * increment_of_step * steps, sand_ks * 1.5 * tick);
 }
 
 /// What slides keeps its force at the limit, and what then sticks starts from there.
-TEST(HistoryAtTheAnchor, StartsFromTheLimitAfterSliding) {
+TEST(HistoryAtTheReference, StartsFromTheLimitAfterSliding) {
   Simulation sim = driven_discs();
   double const limit = 0.5 * sand_kn * 2e-6;
   drive(sim, 1, 0, 1, 0);  // 0.1 um a step
@@ -239,7 +239,7 @@ TEST(HistoryAtTheAnchor, StartsFromTheLimitAfterSliding) {
 }
 
 /// As in a generation, which changes friction and shape every ten steps.
-TEST(HistoryAtTheAnchor, ForcesStayWhereTheRollingStiffnessChanges) {
+TEST(HistoryAtTheReference, ForcesStayWhereTheRollingStiffnessChanges) {
   Simulation sim = driven_discs();
   drive(sim, 1, 0, 1e-3, 2);
   sim.step(100);
@@ -258,7 +258,7 @@ TEST(HistoryAtTheAnchor, ForcesStayWhereTheRollingStiffnessChanges) {
 }
 
 /// A disc that turns for long begins to count anew, again and again, and its rotation is their sum.
-TEST(HistoryAtTheAnchor, ADiscThatTurnsForLongKeepsItsRotation) {
+TEST(HistoryAtTheReference, ADiscThatTurnsForLongKeepsItsRotation) {
   Simulation sim = driven_discs();
   drive(sim, 1, 0, 0, 1e4);  // 1 mrad a step
   sim.step(5000);
@@ -266,7 +266,8 @@ TEST(HistoryAtTheAnchor, ADiscThatTurnsForLongKeepsItsRotation) {
   std::size_t const one = s.id[0] == 1 ? 0 : 1;
   EXPECT_NEAR(s.angle[one], 5, 1e-6);
   EXPECT_EQ(s.angle[1 - one], 0);
-  EXPECT_LE(std::abs(on_host(sim.assembly().particles.turn, 2)[0]) + std::abs(on_host(sim.assembly().particles.turn, 2)[1]),
+  EXPECT_LE(std::abs(on_host(sim.assembly().particles.rotation_increment, 2)[0]) +
+                std::abs(on_host(sim.assembly().particles.rotation_increment, 2)[1]),
             1.2 / 64);
   EXPECT_NEAR(std::abs(pair_history(sim).shear) / (0.5 * sand_kn * 2e-6), 1, 1e-4);  // it slides
 }
