@@ -117,7 +117,23 @@ constexpr ModelKey model[] = {
 std::vector<std::string> other_keys_of_specimen(Scene const& scene) {
   constexpr double void_ratio = 0.24, d50 = 0.1694e-3;
   if (scene.sample.generator == Generator::file) return {"sample.file"};
+  constexpr double fewest = 1000, most = 30000;  // discs: 2,000 were measured, and the default with 20,000
+  constexpr double past_the_peak = 0.05;         // axial strain
+  Scene const usual;
+  SampleScene const& sample = scene.sample;
   std::vector<std::string> keys;
+  auto const note = [&](bool differs, char const* key) {
+    if (differs) keys.emplace_back(key);
+  };
+  note(sample.particles > 0 && (sample.particles < fewest || sample.particles > most), "sample.particles");
+  note(sample.width > 0, "sample.width");
+  note(sample.height > 0, "sample.height");
+  note(!is_near(sample.aspect_ratio, usual.sample.aspect_ratio), "sample.aspect_ratio");
+  note(sample.generator != usual.sample.generator, "sample.generator");
+  note(sample.layers != usual.sample.layers, "sample.layers");
+  note(sample.void_ratio_at != usual.sample.void_ratio_at, "sample.void_ratio_at");
+  note(scene.test.consolidation_steps != usual.test.consolidation_steps, "test.consolidation_steps");
+  note(scene.test.axial_strain < past_the_peak, "test.axial_strain");
   bool const box = scene.sample.width > 0 && scene.sample.height > 0 && scene.sample.particles > 0;  // the fourth follows
   if (scene.sample.void_ratio > 0 ? !is_near(scene.sample.void_ratio, void_ratio) : box) keys.emplace_back("sample.void_ratio");
   if (scene.grading.d50 > 0 ? !is_near(scene.grading.d50, d50) : box && scene.sample.void_ratio > 0)

@@ -27,7 +27,7 @@ Specimen read_for_test(LoadedScene& input, Ranks const& ranks) {
   CheckedSpecimen read = read_checked_specimen(file, ranks);
   require_walls(file, read.specimen);
   for (auto const& found : {compare_with_scene(file, read.specimen, input.scene), oddities(file, read.specimen, read.facts),
-                            stress_oddities(file, read.specimen, read.facts, input.scene)})
+                            stress_oddities(file, read.specimen, read.facts, input.scene.grains.kn)})
     input.warnings.insert(input.warnings.end(), found.begin(), found.end());
   return std::move(read.specimen);
 }

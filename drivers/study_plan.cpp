@@ -98,6 +98,24 @@ std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::
   return plan.specimens.size() - 1;
 }
 
+/// The scene of a member. Where guards refuse it, and nothing else is wrong with it, it is the forced one, and the plan has what
+/// they say of its group. @throws SceneProblems
+Scene scene_of_member(StudyPlan& plan, StudyGroup const& group, std::uint64_t seed) {
+  try {
+    return member_scene(plan.study, group, seed).scene;
+  } catch (SceneProblems const& found) {
+    std::vector<std::string> why;
+    for (Problem const& problem : found.problems) {
+      if (problem.severity != Severity::refusal) throw;
+      why.push_back(problem.text.substr(0, problem.text.find(" (run.force = true")));
+    }
+    plan.refused[group.name] = std::move(why);
+    StudyGroup forced = group;
+    forced.settings.emplace_back("run.force", "true");
+    return member_scene(plan.study, forced, seed).scene;
+  }
+}
+
 }  // namespace
 
 LoadedScene StudyPlan::scene_of_run(std::size_t member) const {
@@ -109,14 +127,14 @@ LoadedScene StudyPlan::scene_of_run(std::size_t member) const {
 }
 
 StudyPlan plan_study(Study study) {
-  StudyPlan plan{std::move(study), {}, {}, {}, {}};
+  StudyPlan plan{std::move(study), {}, {}, {}, {}, {}};
   std::map<SceneTexts, std::string> seen;
   std::vector<Problem> problems;
   std::set<std::string> said;
   std::vector<std::string> read_files;
   for (StudyGroup const& group : plan.study.groups) {
     try {
-      Scene const scene = member_scene(plan.study, group, plan.study.seeds.front()).scene;
+      Scene const scene = scene_of_member(plan, group, plan.study.seeds.front());
       SceneTexts texts = scene_texts(scene, ".");
       texts["sample.file"] = scene.sample.file;
       if (scene.sample.generator == Generator::file) read_files.push_back(group.name);
@@ -144,7 +162,7 @@ StudyPlan plan_study(Study study) {
 
 void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   StudyGroup const& of = plan.study.groups[group];
-  Scene const scene = member_scene(plan.study, of, seed).scene;
+  Scene const scene = scene_of_member(plan, of, seed);
   std::vector<std::string> overrides = member_overrides(of, seed);
   StudyTask task;
   task.name = member_name(of, seed);
@@ -154,7 +172,10 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   task.disc_steps = cost.numbers.at("disc_steps");
   task.memory = cost.numbers.at("memory_bytes");
   task.disk = cost.numbers.at("disk_bytes");
-  if (!scene.run.force) task.refusals = cost.refusals;
+  auto const refused = plan.refused.find(of.name);
+  if (refused != plan.refused.end()) task.refusals = refused->second;
+  if (refused != plan.refused.end() || !scene.run.force)
+    task.refusals.insert(task.refusals.end(), cost.refusals.begin(), cost.refusals.end());
   if (scene.sample.generator != Generator::file) {
     task.specimen = specimen_task(plan, scene, overrides);
     std::erase_if(overrides, is_of_size);

@@ -28,9 +28,10 @@ struct StudyTask {
 struct StudyPlan {
   Study study;
   std::vector<MemberResult> members;
-  std::vector<StudyTask> runs;                  ///< of members[i]
-  std::vector<StudyTask> specimens;             ///< each for all members of the same scene of generation and seed
-  std::map<std::string, SampleDesign> designs;  ///< of the specimens that scenes read from files of their own
+  std::vector<StudyTask> runs;                              ///< of members[i]
+  std::vector<StudyTask> specimens;                         ///< each for all members of the same scene of generation and seed
+  std::map<std::string, std::vector<std::string>> refused;  ///< by group: what the guards of its scene say
+  std::map<std::string, SampleDesign> designs;              ///< of the specimens that scenes read from files of their own
 
   /// The scene of a run, once its specimen is there. @throws SceneProblems, FileProblem
   LoadedScene scene_of_run(std::size_t member) const;

@@ -73,6 +73,7 @@ class TestRun::Running {
     replaces_ = ranks_.any(replaces_);
     checkpoints_.emplace(folder_, ranks_, std::nullopt);
     if (limits_.resume) line_.note("clathra: there is no checkpoint yet, so the run starts from the beginning");
+    for (FileProblem const& problem : found_.damaged) warn(std::string("a checkpoint is not used: ") + problem.what());
   }
 
   void warn(std::string const& text) { line_.warn(text); }
@@ -198,8 +199,7 @@ class TestRun::Running {
     bool const generated = !resumed_ && record_.wall_seconds.contains("generate");
     record_.wall_seconds["prepare"] += preparing.seconds() - (generated ? record_.wall_seconds.at("generate") : 0);
     record_.stages["prepare"] = test->preparation();
-    bool const same_plan = !earlier_.plan.empty() && earlier_.axial_strain == scene_.test.axial_strain;
-    record_.stages["plan"] = same_plan ? earlier_.plan : test->plan();
+    record_.stages["plan"] = plan_of(*test);
     for (std::string const& warning : test->warnings()) warn(warning);
     try {
       write_curves(*test, preparing.seconds());
@@ -220,6 +220,13 @@ class TestRun::Running {
     record_.stages["prepare"] = test.preparation();
     record_.stages["shear"] = summary_->numbers();
     record_.stages["shear"].merge(test.shear_checks());
+  }
+
+  /// That of the whole test, however often it was stopped or extended.
+  StageRecord plan_of(BiaxialTest const& test) const {
+    StageRecord plan = earlier_.plan.empty() ? test.plan() : earlier_.plan;
+    plan["steps"] = std::ceil(scene_.test.axial_strain / (plan.at("strain_rate_per_s") * plan.at("time_step_s")));
+    return plan;
   }
 
   Specimen sheared_specimen(BiaxialTest const& test) const {

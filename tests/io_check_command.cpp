@@ -79,14 +79,17 @@ TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
 }
 
 TEST_F(CheckCommand, SaysWhichErrorOfThePeakToExpectOrThatItWasNotMeasured) {
-  std::string const row = "  error of peak q    ";
-  CommandResult const usual = clathra("check", "--disc-steps-per-second 1e6");
+  std::string const row = "  error of peak q    ",
+                    measured = "--set sample.particles=2000 --set test.axial_strain=0.1 --disc-steps-per-second 1e6";
+  CommandResult const usual = clathra("check", measured);
   EXPECT_TRUE(holds(usual.output, row + "+") || holds(usual.output, row + "-")) << usual.output;
   EXPECT_TRUE(holds(usual.output, " % against slow shear in double precision (2000 discs at 1 MPa)\n")) << usual.output;
-  CommandResult const damped = clathra("check", "--disc-steps-per-second 1e6 --set run.damping=0.7");
+  CommandResult const damped = clathra("check", measured + " --set run.damping=0.7");
   EXPECT_TRUE(holds(damped.output, row + "not measured: run.damping\n")) << damped.output;
-  CommandResult const fast = clathra("check", "--disc-steps-per-second 1e6 --set test.inertial_number=0.05 --force");
+  CommandResult const fast = clathra("check", measured + " --set test.inertial_number=0.05 --force");
   EXPECT_TRUE(holds(fast.output, row + "not measured: only up to I = ")) << fast.output;
+  CommandResult const small = clathra("check", "--disc-steps-per-second 1e6");
+  EXPECT_TRUE(holds(small.output, row + "not measured: sample.particles, test.axial_strain\n")) << small.output;
 }
 
 TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {

@@ -111,6 +111,15 @@ constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
     {"run.damping", [](Scene& s) { s.run.damping = 0.7; }},
     {"run.mass_scaling", [](Scene& s) { s.run.mass_scaling = 0.1; }},
     {"sample.file", [](Scene& s) { s.sample.generator = Generator::file; }},
+    {"sample.particles", [](Scene& s) { s.sample.particles = 300; }},
+    {"sample.width", [](Scene& s) { s.sample.width = 0.026; }},
+    {"sample.height", [](Scene& s) { s.sample.height = 1e-3; }},
+    {"sample.aspect_ratio", [](Scene& s) { s.sample.aspect_ratio = 0.1; }},
+    {"sample.generator", [](Scene& s) { s.sample.generator = Generator::compression; }},
+    {"sample.layers", [](Scene& s) { s.sample.layers = 1; }},
+    {"sample.void_ratio_at", [](Scene& s) { s.sample.void_ratio_at = VoidRatioAt::test; }},
+    {"test.consolidation_steps", [](Scene& s) { s.test.consolidation_steps = 10; }},
+    {"test.axial_strain", [](Scene& s) { s.test.axial_strain = 0.003; }},
 };
 
 TEST(ExpectedError, IsNotGivenForWhatWasNotMeasured) {

@@ -119,6 +119,7 @@ TEST_F(ExtendedRun, EndsInTheStateOfATestThatWentThatFarAtOnce) {
   ASSERT_EQ(extended.code, 0) << extended.output;
   ASSERT_EQ(run("direct", two + "--set output.records=14").code, 0);
   EXPECT_EQ(record("out")["state_hash"], record("direct")["state_hash"]);
+  EXPECT_EQ(record("out")["stages"]["plan"], record("direct")["stages"]["plan"]);
   EXPECT_EQ(text("out", "events.csv"), text("direct", "events.csv"));
   EXPECT_NEAR(HistoryTable(folder / "out" / "history.csv")["eps1"].back(), 0.02, 4e-6);
   EXPECT_EQ(record("out")["exit"]["reason"], "finished");

@@ -141,6 +141,21 @@ TEST_F(RunFolder, NamesTheNewestManifestWhereItIsMissing) {
   expect_as_left_alone();
 }
 
+TEST_F(RunFolder, NamesManifestsWhereAllAreMissing) {
+  fs::path const folder = copy_of("stopped");
+  std::string const history = content(folder / "history.csv");
+  for (char const* const name : {"0.json", "1.json"}) fs::remove(folder / "ckpt" / name);
+  CommandResult const refused = run("copy", "--resume");
+  EXPECT_EQ(refused.code, 66) << refused.output;
+  EXPECT_TRUE(says(refused, "1.json: is missing"));
+  EXPECT_EQ(content(folder / "history.csv"), history);
+  fs::remove(folder / "ckpt" / "1.h5");  // as where a kill came before the first manifest
+  CommandResult const anew = run("copy", "--resume");
+  EXPECT_EQ(anew.code, 0) << anew.output;
+  EXPECT_TRUE(says(anew, "warning: a checkpoint is not used: " + (folder / "ckpt" / "0.json").string() + ": is missing"));
+  expect_as_left_alone();
+}
+
 TEST_F(RunFolder, IsRidOfWhatAKillLeftHalfWritten) {
   fs::path const folder = copy_of("stopped");
   for (char const* const name : {"run.json.tmp-17", "ckpt/0.h5.tmp-17", "snap/000000000003.h5.tmp-17"})

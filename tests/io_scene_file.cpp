@@ -69,7 +69,8 @@ TEST(SceneFile, NamesPlaceCauseAndRemedyOfAProblem) {
 }
 
 TEST(SceneFile, AHintIsGivenOnlyWhereItHelps) {
-  expect_problem("[hydrate]\nsaturation = \"110 %\"\n", "'saturation' must lie between 0 and 1, got 1.1");
+  expect_problem("[hydrate]\nsaturation = \"110 %\"\n",
+                 "'saturation' must lie between 0 and 1, got 1.1, which is 110 %; 100 % is the most");
   EXPECT_EQ(problems_of("[hydrate]\nsaturation = \"110 %\"\n").find("looks like percent"), std::string::npos);
   expect_problem("[output]\nsnapshots_at = [\"0,5 %\"]\n", "with a decimal point, got '0,5 %'");
 }

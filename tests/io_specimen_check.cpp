@@ -60,6 +60,10 @@ TEST_F(SpecimenCheck, DiscsMustNotBeAtOnePlace) {
   refuses("disc 12 at (", onto(1e-5));
 }
 
+TEST_F(SpecimenCheck, TheDensityMustBeThatOfGrains) {
+  refuses("its attribute density is 2.6; grains have 100 to 30000 kg/m^3", [](Specimen& s) { s.density = 2.6; });
+}
+
 TEST_F(SpecimenCheck, SizesMustBeThoseOfOneSand) {
   refuses("around it may lie more neighbours than the", [](Specimen& s) { s.radius[0] = 1e-7; });
   refuses("around it may lie more neighbours than the", [](Specimen& s) { s.radius[0] = 1e-30; });

@@ -45,6 +45,8 @@ TEST_F(SpecimenCheck, DiscsTooLargeForTheirPlacesAreWarnedOf) {
 TEST_F(SpecimenCheck, SizesThatMakeOddTestsAreWarnedOf) {
   write([](Specimen& s) { scale_lengths(s, 1e-3); });
   EXPECT_NE(warnings().find("half of the grains are finer than 0.000169 mm, clay by size"), std::string::npos) << warnings();
+  write([](Specimen& s) { scale_lengths(s, 100); });
+  EXPECT_NE(warnings().find("half of the grains are coarser than 16.9 mm, gravel by size"), std::string::npos) << warnings();
   write(two_sizes(2e-4));
   EXPECT_NE(warnings().find("hardly any grains around 50 %: 49 % are finer than 0.2 mm, 51 % finer than 0.8 mm"),
             std::string::npos)
@@ -63,6 +65,9 @@ TEST_F(SpecimenCheck, AStressThatTheOverlapsDoNotShowIsWarnedOf) {
   // The stiffness that it came to rest with is what counts, where the file says it.
   write([](Specimen& s) { s.provenance = R"({"made_of": {"grains.kn": "0.3 GPa"}})"; });
   EXPECT_EQ(warnings(1e8), "");
+  EXPECT_FALSE(says(run_clathra("info '" + file.string() + "'"), "says that it rests"));
+  write([](Specimen& s) { s.provenance = R"({"made_of": {"grains.kn": "3 MPa"}})"; });
+  EXPECT_TRUE(says(run_clathra("info '" + file.string() + "'"), "says that it rests under 1000 kPa"));
   for (auto const& change : std::vector<std::function<void(Specimen&)>>{[](Specimen& s) { s.axial_strain = 0.01; },
                                                                         [](Specimen& s) { s.critical_thickness = 1e-5; },
                                                                         [](Specimen& s) { s.stress = 0; }}) {

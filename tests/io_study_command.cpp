@@ -78,7 +78,7 @@ TEST_F(StudyCommand, NamesAMemberThatFailsAndGoesOnWithTheOthers) {
   CommandResult const result = study("seeds = 1\n[matrix]\nsample.void_ratio = [0.1, 0.28, 0.29]\n");
   EXPECT_EQ(result.code, 77) << result.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished", "finished"}));
-  EXPECT_NE(cells("member", "message")[0].find(" without friction, looser than the 0.1 that was asked for"), std::string::npos)
+  EXPECT_NE(cells("member", "message")[0].find(" without friction: looser than the 0.1 that was asked for"), std::string::npos)
       << csv();
   EXPECT_NE(result.output.find("failed    void-ratio0.1-seed1: "), std::string::npos) << result.output;
   EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("Members that are missing"), std::string::npos);
@@ -105,6 +105,20 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
   EXPECT_EQ(cells("member", "state")[3], "refused");
   CommandResult const forced = study("seeds = 1\n[matrix]\ntest.inertial_number = [0.02, 1e-3]\n", "--force --allow-mixed");
   EXPECT_EQ(forced.code, 0) << forced.output;
+}
+
+/// Of the scene as of the forecast.
+TEST_F(StudyCommand, SkipsGroupsWhoseSceneIsRefused) {
+  std::string const sizes = "seeds = 1\n[matrix]\nsample.particles = [20, 100]\n";
+  CommandResult const asked = study(sizes, "--dry-run");
+  EXPECT_EQ(asked.code, 77) << asked.output;
+  for (char const* const part :
+       {"the group particles20 would be refused: sample.particles=20: the specimen is ", "1 of 2 groups would be refused"})
+    EXPECT_NE(asked.output.find(part), std::string::npos) << part << "\n" << asked.output;
+  CommandResult const skipped = study(sizes, "--skip-refused");
+  EXPECT_EQ(skipped.code, 0) << skipped.output;
+  EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"refused", "finished"}));
+  EXPECT_EQ(study("seeds = 1\n[matrix]\nsample.particles = [5, 100]\n", "--skip-refused").code, 65) << "a mistake is none";
 }
 
 TEST_F(StudyCommand, ShowsTheWarningsOfItsMembers) {
@@ -310,7 +324,7 @@ TEST_F(StudyCommand, SaysWhereAMistakeIs) {
   CommandResult const loose = study("seeds = 1\n", "--set sample.void_ratio=0.9");
   EXPECT_EQ(loose.code, 77) << loose.output;
   EXPECT_NE(cells("member", "message")[0].find("could not be made: "), std::string::npos) << csv();
-  EXPECT_NE(cells("member", "message")[0].find("looser"), std::string::npos) << csv();
+  EXPECT_NE(cells("member", "message")[0].find("denser"), std::string::npos) << csv();
 }
 
 TEST_F(StudyCommand, RefusesGroupsThatAreTheSameAndAScenesFaultsOnce) {

@@ -102,7 +102,7 @@ class SpecimenCheck : public testing::Test {
     CheckedSpecimen const read = read_checked_specimen(file);
     std::string text;
     for (std::string const& warning : oddities(file, read.specimen, read.facts)) text += warning + "\n";
-    for (std::string const& warning : stress_oddities(file, read.specimen, read.facts, scene)) text += warning + "\n";
+    for (std::string const& warning : stress_oddities(file, read.specimen, read.facts, scene.grains.kn)) text += warning + "\n";
     return text;
   }
   CommandResult by_scene(std::string const& verb, std::string const& more = "") {

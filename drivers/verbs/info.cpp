@@ -166,7 +166,8 @@ ExitCode info(InfoOptions const& options) {
   auto const [specimen, facts] = read_checked_specimen(file);
   if (options.state_hash) return print_result(hash_text(specimen_hash(specimen)) + "\n");
   std::string text = specimen_text(specimen, facts);
-  for (std::string const& warning : oddities(file, specimen, facts)) text += "warning: " + warning + "\n";
+  for (auto const& warnings : {oddities(file, specimen, facts), stress_oddities(file, specimen, facts, {})})
+    for (std::string const& warning : warnings) text += "warning: " + warning + "\n";
   return print_result(text);
 }
 

@@ -42,9 +42,10 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
       [&](auto bond, auto friction, auto rolling, auto losing) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
         using Kernel = ContactKernel<P, bond(), shears, rolling(), losing()>;
-        launches.parallel_for(
-            Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups,
-            Kernel{particles, rows, constants, laws.bond, step, steps, breaks, losses, faults, discs_ahead(particles.owned)});
+        launches.parallel_for(Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups, uncounted([&] {
+                                return Kernel{particles, rows,   constants, laws.bond, step,
+                                              steps,     breaks, losses,    faults,    discs_ahead(particles.owned)};
+                              }));
       },
       bond_axis(laws.bond_kind), on(rows.features.shear), on(rows.features.rolling),
       on(laws.grain.damping_ratio > 0 || laws.ledger));

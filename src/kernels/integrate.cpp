@@ -268,17 +268,19 @@ void integrate(ParticleSoA const& particles, MotionLaw const& law, StepLengths c
   bool const mixed = particles.precision == Precision::mixed;
   int const groups = group_count(particles.owned, mixed ? lane_count_of<float> : lane_count);
   int const threads = ExecutionSpace().concurrency(), share = std::max(1, (groups + threads - 1) / threads);
-  // Made in place: small specimens feel each copy of all these fields.
   auto const run = [&]<class Kernel>(std::type_identity<Kernel>) {
     if constexpr (for_gpu) {
       static_assert(lane_count_of<float> == 1 && lane_count == 1);
-      launches.parallel_reduce("kick_and_drift", groups,
-                               ByDiscs<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, at_update},
+      launches.parallel_reduce("kick_and_drift", groups, uncounted([&] {
+                                 return ByDiscs<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, at_update};
+                               }),
                                steps.displacements);
     } else {
-      launches.parallel_reduce("kick_and_drift", (groups + share - 1) / share,
-                               ByShares<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, groups, share},
-                               steps.displacements);
+      launches.parallel_reduce(
+          "kick_and_drift", (groups + share - 1) / share, uncounted([&] {
+            return ByShares<Kernel>{{{{particles, law, dt, steps.state, losses.damping, faults}}}, groups, share};
+          }),
+          steps.displacements);
     }
   };
   auto const run_with = [&](auto ledger) {

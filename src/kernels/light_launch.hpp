@@ -15,4 +15,15 @@ inline auto light_launch(ExecutionSpace const& space, int n) {
 }
 inline auto light_launch(int n) { return light_launch(ExecutionSpace(), n); }
 
+/// A functor whose fields do not count that it refers to them, some hundred counts a step: small specimens feel these. It must
+/// not outlive the fields. Kokkos makes its own copies of functors in the same way.
+/// @param make  returns the functor
+template <class Make>
+auto uncounted(Make const& make) {
+  Kokkos::Impl::shared_allocation_tracking_disable();
+  auto functor = make();
+  Kokkos::Impl::shared_allocation_tracking_enable();
+  return functor;
+}
+
 }  // namespace clathra

@@ -266,16 +266,18 @@ WallContacts make_wall_contacts(Field<int> const& near, int size, bool friction,
 void add_wall_forces(ParticleSoA const& particles, WallContacts const& contacts, WallLaw const& law, Real dt,
                      Dissipation const& losses, Faults const& faults, SumUnits const& unit, DeviceSteps const& steps,
                      bool ends_step, StepLaunches const& launches) {
-  WallForces const forces{ReactionSums(ReactionUnits(unit).of),
-                          particles,
-                          contacts,
-                          steps.state,
-                          law.as_grain(),
-                          dt,
-                          losses,
-                          faults,
-                          unit.force(),
-                          ends_step};
+  WallForces const forces = uncounted([&] {
+    return WallForces{ReactionSums(ReactionUnits(unit).of),
+                      particles,
+                      contacts,
+                      steps.state,
+                      law.as_grain(),
+                      dt,
+                      losses,
+                      faults,
+                      unit.force(),
+                      ends_step};
+  });
   int const groups = group_count(contacts.size);
   if constexpr (for_gpu) {
     int const threads = std::max(groups, 1);  // the step ends without discs near walls, too

@@ -71,22 +71,41 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
          (ranks > 1 ? ranks * program_with_messages : program);
 }
 
-/// What a run leaves in its folder [bytes], to 10 %: sizes of the compressed files of 2,000 to 80,000 discs.
-double disk_of_run(Scene const& scene, bool bonded, double discs) {
+/// Bonds that break until the end, a disc. Half of what a saturation below 50 % has left breaks later.
+double breaks_of_run(Scene const& scene) {
+  constexpr double first = 0.025, last = 0.15;  // axial strains
+  double const strain = scene.test.axial_strain;
+  if (strain < first) return 0.05;
+  return 0.9 * (scene.hydrate.saturation < 0.5 ? 1.3 : 1) * std::pow(std::min(1.0, strain / last), 0.7);
+}
+
+/// Snapshots, the one at the start of the shear among them.
+double snapshots_of(OutputScene const& output) {
+  return (output.snapshots > 0 ? output.snapshots + 1 : 0) + static_cast<double>(output.snapshots_at.size());
+}
+
+/// What a run leaves in its folder [bytes], to 10 %: sizes of the compressed files of 18 tests of 300 to 2,000 discs, before them
+/// of up to 80,000.
+double disk_of_run(Scene const& scene, bool bonded, double discs, double steps) {
   OutputScene const& output = scene.output;
-  constexpr double of_row = 345, of_ledger = 200, of_specimen = 50e3;
-  double bytes = (output.records + 1) * (of_row + (output.energy ? of_ledger : 0));
-  bytes += 2 * of_specimen + discs * (73 + (bonded ? 75 : 53));  // as it was made, and at the end
-  double report = 0.25e6;
-  if (output.takes_snapshots()) {
-    double const of_disc = bonded ? 34.6 : 28.5, regular = output.snapshots > 0 ? output.snapshots + 1 : 0;
-    bytes +=
-        (regular + static_cast<double>(output.snapshots_at.size())) * (70e3 + discs * (output.full_precision ? 120 : of_disc));
-    report += (bonded ? 3.05e6 : 1.55e6) * (1 - std::exp(-discs / 2000));  // its maps
-  }
-  if (bonded && output.events) bytes += discs * (output.event_details ? 130 : 40);
-  if (output.keep_checkpoint) bytes += 100e3 + discs * (bonded ? 222 : 164);
-  return bytes + report;
+  double const rows = std::min<double>(output.records, steps) + 1, snapshots = snapshots_of(output),
+               digits = scene.run.precision == Precision::mixed ? 1 : 1.3;  // of double precision, which compress less
+  double bytes = 20e3 + rows * (388 + (output.energy ? 203 : 0));
+  if (scene.sample.generator != Generator::file) bytes += 43.5e3 + discs * 75.4;
+  bytes += digits * (bonded ? 48e3 + 79 * discs : 42e3 + 56.5 * discs);  // at the end
+  if (output.keep_checkpoint) bytes += digits * (bonded ? 105e3 + 229 * discs : 78e3 + 165 * discs);
+  if (bonded && output.events) bytes += discs * breaks_of_run(scene) * (output.event_details ? 193 : 65);
+  if (snapshots == 0) return bytes + 30e3;
+  double const of_disc = (output.full_precision ? (bonded ? 120 : 73) : (bonded ? 36.5 : 26)) + (output.event_details ? 18 : 0),
+               maps = 1 - std::exp(-discs / 2000), of_report = bonded ? 0.25e6 + 3.05e6 * maps : 0.17e6 + 1.5e6 * maps;
+  return bytes + snapshots * (74e3 + discs * of_disc) + (scene.test.axial_strain < 0.025 ? 0.78 : 1) * of_report;
+}
+
+/// What the report takes at the end of a run, when its simulation has gone [bytes].
+double memory_of_report(Scene const& scene, bool bonded, double discs, double steps) {
+  double const rows = std::min<double>(scene.output.records, steps);
+  double const maps = snapshots_of(scene.output) > 0 ? (bonded ? 14e6 : 11.3e6) * (1 - std::exp(-discs / 600)) : 1.5e6;
+  return 26.4e6 + 550 * rows + maps;
 }
 
 }  // namespace
@@ -111,8 +130,8 @@ StageRecord predict(Scene const& scene, SampleDesign const& design, int ranks) {
   p["steps"] = std::ceil(scene.test.axial_strain / (rate.strain_rate * p["time_step_s"]));
   p["disc_steps"] = p["steps"] * discs;
   p["generation_disc_steps"] = generation_disc_steps(scene, design.grading, discs);
-  p["memory_bytes"] = memory_of_run(scene, bonded, discs, ranks);
-  p["disk_bytes"] = disk_of_run(scene, bonded, discs);
+  p["memory_bytes"] = std::max(memory_of_run(scene, bonded, discs, ranks), memory_of_report(scene, bonded, discs, p["steps"]));
+  p["disk_bytes"] = disk_of_run(scene, bonded, discs, p["steps"]);
   return p;
 }
 

@@ -68,7 +68,7 @@ class Compression {
     std::string const held =
         "with a friction of " + digits(friction.friction) + " and a shape factor of " + digits(friction.shape_factor);
     throw VoidRatioMissed("under " + digits(stress_ / 1e3) + " kPa these grains came to rest at a void ratio of " +
-                              digits(reached) + (denser ? " without friction, looser" : " " + held + ", denser") + " than the " +
+                              digits(reached) + (denser ? " without friction: looser" : " " + held + ": denser") + " than the " +
                               digits(wanted_) + " that was asked for",
                           reached, denser);
   }

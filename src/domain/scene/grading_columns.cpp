@@ -115,7 +115,7 @@ std::size_t find_column(ForeignRow const& header, bool (*is_kind)(Words const&),
 /// Why no column is one of sizes: a name that comes near.
 std::string no_diameter(ForeignRow const& header) {
   for (std::string const& name : header.cells)
-    if (has(words_of(name), sizes)) return quoted(name) + " says no unit of the sizes";
+    if (has(words_of(name), sizes)) return quoted(name) + " says no unit of the sizes that is understood (mm, um, m)";
   return "no column says the sizes";
 }
 

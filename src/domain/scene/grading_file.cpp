@@ -65,7 +65,7 @@ void set_points(ForeignTable& table, std::initializer_list<std::size_t> columns)
 
 double number_of(ForeignRow const& row, std::size_t column, std::string_view cell) {
   try {
-    return parse_number(cell);
+    return parse_number(in_ascii(cell));
   } catch (std::invalid_argument const&) {
     refuse_line(row.line, "column " + std::to_string(column + 1) + " needs a number, got " + quoted(row.cells[column]) + " in " +
                               quoted(row.text));

@@ -93,7 +93,7 @@ std::string crowding(Grading const& grading, double reach) {
   double const given = ratio;
   for (int n = 0; n < 60; ++n) {
     double const middle = 0.5 * (fits + ratio);
-    (most_neighbours(middle, 2 * reach / grading.smallest()) <= longest_row ? fits : ratio) = middle;
+    (most_neighbours(middle, 2 * reach * middle / grading.largest()) <= longest_row ? fits : ratio) = middle;
   }
   char text[240];
   std::snprintf(text, sizeof text,

@@ -165,15 +165,15 @@ FoundCheckpoints look_for_checkpoints(std::filesystem::path const& run_folder) {
     }
   }
   std::sort(found.usable.begin(), found.usable.end(), [](auto const& a, auto const& b) { return a.sequence > b.sequence; });
-  if (found.usable.empty() && !found.damaged.empty())
-    throw FileProblem(ExitCode::file_missing, run_folder / "ckpt", no_checkpoint_text(found.damaged));
-  // Where there is no other, a kill may have come before the first manifest.
   for (int const generation : without_manifest)
-    if (!found.usable.empty())
-      found.damaged.emplace_back(ExitCode::file_missing, file_of(run_folder, generation, "json"),
-                                 fmt::format("is missing, so {}.h5 is not used: the run was ended while it wrote that "
-                                             "checkpoint, or the file is lost",
-                                             generation));
+    found.damaged.emplace_back(ExitCode::file_missing, file_of(run_folder, generation, "json"),
+                               fmt::format("is missing, so {}.h5 is not used: the run was ended while it wrote that "
+                                           "checkpoint, or the file is lost",
+                                           generation));
+  // Where there is no other, a kill may have come before the first manifest.
+  bool const first = found.damaged.size() == 1 && without_manifest.size() == 1;
+  if (found.usable.empty() && !found.damaged.empty() && !first)
+    throw FileProblem(ExitCode::file_missing, run_folder / "ckpt", no_checkpoint_text(found.damaged));
   return found;
 }
 

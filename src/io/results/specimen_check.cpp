@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "domain/measurement/disc_grading.hpp"
@@ -139,15 +140,24 @@ void require_void_ratio(fs::path const& path, Specimen& part, SpecimenOutline co
                      part.void_ratio, outline.void_ratio, why.empty() ? "" : "; ", why));
 }
 
-/// The normal stiffness of the grains that a specimen came to rest with, as far as it says [N/m per m].
-double stiffness_of(Specimen const& specimen, Scene const& scene) {
-  Scene then = scene;
+/// The normal stiffness of the grains that a specimen came to rest with, if it says so [N/m per m].
+std::optional<double> stiffness_of(Specimen const& specimen) {
   SceneTexts const label = label_of(specimen);
+  auto const kept = label.find("grains.kn");
+  if (kept == label.end()) return {};
   try {
-    if (auto const kept = label.find("grains.kn"); kept != label.end()) set_from_text(*find_key("grains.kn"), then, kept->second);
+    Scene then;
+    set_from_text(*find_key("grains.kn"), then, kept->second);
+    return then.grains.kn;
   } catch (std::invalid_argument const&) {
+    return {};
   }
-  return then.grains.kn;
+}
+
+void require_density_of_grains(fs::path const& path, double density) {
+  Key const& key = *find_key("grains.density");
+  if (density >= key.least && density <= key.most) return;
+  refuse(path, fmt::format("its attribute density is {:g}; grains have {:g} to {:g} kg/m^3", density, key.least, key.most));
 }
 
 }  // namespace
@@ -155,6 +165,7 @@ double stiffness_of(Specimen const& specimen, Scene const& scene) {
 SpecimenFacts require_sound(fs::path const& path, Specimen& part, Ranks const& ranks) {
   SpecimenFacts facts;
   facts.outline = outline_of(part, ranks);
+  require_density_of_grains(path, part.density);
   require_metres(path, facts.outline);
   require_sizes_of_one_sand(path, part.radius, ranks);
   if (!part.periodic) require_discs_inside(path, facts.outline);
@@ -195,9 +206,11 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
 }
 
 std::vector<std::string> stress_oddities(fs::path const& path, Specimen const& part, SpecimenFacts const& facts,
-                                         Scene const& scene) {
+                                         std::optional<double> kn_of_scene) {
   if (!(part.stress > 0) || part.critical_thickness > 0 || part.axial_strain != 0) return {};
-  double const kn = stiffness_of(part, scene), found = kn * facts.overlaps.stress;
+  std::optional<double> const known = stiffness_of(part);
+  if (!known && !kn_of_scene) return {};
+  double const kn = known ? *known : *kn_of_scene, found = kn * facts.overlaps.stress;
   if (found <= stress_factor * part.stress && found >= part.stress / stress_factor) return {};
   return {fmt::format(
       "{}: says that it rests under {:.4g} kPa; by the overlaps of its discs and a kn of {:.4g} MPa it carries {:.3g} "

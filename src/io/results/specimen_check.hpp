@@ -1,6 +1,7 @@
 #pragma once
 /// Whether the numbers of a specimen file agree with its discs, and whether its discs can be a specimen.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ std::vector<std::string> oddities(std::filesystem::path const& path, Specimen co
 /// Warns of a specimen whose grains, by their overlaps and their stiffness (that of the scene where the file does not say), carry
 /// another stress than it says it rests under. Nothing where bonds or a test have a part in the stress.
 std::vector<std::string> stress_oddities(std::filesystem::path const& path, Specimen const& part, SpecimenFacts const& facts,
-                                         Scene const& scene);
+                                         std::optional<double> kn_of_scene);
 
 /// A test needs walls. @throws FileProblem bad_input where the specimen is a periodic cell
 void require_walls(std::filesystem::path const& path, Specimen const& part);

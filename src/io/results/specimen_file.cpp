@@ -202,6 +202,8 @@ void require_complete(Hdf5File const& file) {
     if (!number.left_out) note(file.has_attribute(number.name), number.name, attributes);
   for (ParticleColumn const& column : particle_columns)
     if (is_needed(column)) note(file.has(path_of(column)), path_of(column), sets);
+  if (file.has("contacts") || (file.has_attribute("contacts") && file.integer_attribute("contacts") > 0))
+    for (char const* const name : {"contacts/id_a", "contacts/id_b"}) note(file.has(name), name, sets);
   if (attributes.empty() && sets.empty()) return;
   if (!attributes.empty()) attributes = "the attributes " + attributes;
   if (!sets.empty()) sets = "the data sets " + sets;

@@ -12,6 +12,8 @@
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/sample_design.hpp"
 #include "domain/scene/units.hpp"
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
 #include "io/scene/size_warnings.hpp"
 
 namespace clathra {
@@ -31,6 +33,11 @@ struct Check {
       found.warnings.push_back("forced: " + text);
     else
       found.problems.push_back({std::move(keys), text + " (run.force = true or --force goes on)", Severity::refusal});
+  }
+  /// Whether a key is stated, and not as it is by default: what a run writes down as resolved states all keys.
+  bool changed(std::string_view name) const {
+    Key const& key = *find_key(name);
+    return given(name) && value_text(key, scene) != value_text(key, Scene{});
   }
   void warn(std::string text) { found.warnings.push_back(std::move(text)); }
 };
@@ -55,9 +62,9 @@ void check_size(Check& check) {
       check.error({"sample.generator", "sample.file"}, "generator 'file' needs 'sample.file', the specimen to read");
     else
       check_input_file(check, "sample.file", sample.file);
-    for (std::string_view const key :
-         {"sample.particles", "sample.void_ratio", "sample.void_ratio_at", "sample.width", "sample.height", "grading.d50"})
-      if (check.given(key)) check.warn(fmt::format("{} has no effect: the specimen comes from {}", key, sample.file));
+    for (std::string_view const key : {"sample.particles", "sample.void_ratio", "sample.void_ratio_at", "sample.width",
+                                       "sample.height", "grading.d50", "grading.file", "grading.table"})
+      if (check.changed(key)) check.warn(fmt::format("{} has no effect: the specimen comes from {}", key, sample.file));
     return;
   }
   if (!sample.file.empty()) check.warn("sample.file has no effect: sample.generator is not \"file\"");
@@ -179,7 +186,7 @@ void check_bonding(Check& check) {
   if (!has_bonds(check.scene)) {
     for (std::string_view const key :
          {"bond.composite", "bond.mode", "bond.moment_scale", "bond.coefficients", "bond.rod_thickness", "bond.friction_floor"})
-      if (check.given(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
+      if (check.changed(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
     return;
   }
   if (bond.plate_thickness > 0 && bond.law != BondLawKind::constant_thickness)

@@ -35,6 +35,7 @@ void check_range(Key const& key, double value, bool bare) {
                                  is_quantity(key) ? format_quantity(value, key.dimension) : format_number(value));
   if (key.takes_zero) text += fmt::format(" (0: {})", key.zero);
   if (is_quantity(key) && key.dimension == Dimension::ratio) {
+    if (!bare) text += fmt::format(", which is {} %; {} % is the most", short_number(100 * value), short_number(100 * key.most));
     if (bare && key.most <= 1 && value > 1 && value <= 100)
       text += fmt::format("; this looks like percent: write {} or \"{} %\"", short_number(value / 100), format_number(value));
   } else if (is_quantity(key) && bare) {

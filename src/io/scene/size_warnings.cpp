@@ -5,9 +5,10 @@
 namespace clathra {
 
 std::vector<std::string> size_warnings(CurveSizes const& sizes) {
-  constexpr double widest = 1.25;    // of the sizes around d50, as factors: a curve from 1 to 1000 without a step has 1.15
-  constexpr double narrowest = 1.1;  // of nearly all sizes
-  constexpr double clay = 2e-6;      // and finer [m]
+  constexpr double widest = 1.25;     // of the sizes around d50, as factors: a curve from 1 to 1000 without a step has 1.15
+  constexpr double narrowest = 1.1;   // of nearly all sizes
+  constexpr double clay = 2e-6;       // and finer [m]
+  constexpr double gravel = 4.75e-3;  // and coarser [m]
   auto const mm = [](double metres) { return fmt::format("{:.4g} mm", metres * 1e3); };
   std::vector<std::string> warnings;
   if (sizes.d51 > widest * sizes.d49)
@@ -25,6 +26,9 @@ std::vector<std::string> size_warnings(CurveSizes const& sizes) {
         fmt::format("half of the grains are finer than {}, clay by size: forces between clay particles are not modelled; are the "
                     "lengths in the right unit?",
                     mm(sizes.d50)));
+  if (sizes.d50 > gravel)
+    warnings.push_back(
+        fmt::format("half of the grains are coarser than {}, gravel by size: are the lengths in the right unit?", mm(sizes.d50)));
   return warnings;
 }
 
