@@ -70,11 +70,18 @@ bool is_same(T const& a, T const& b) {
   return a == b;
 }
 
+/// Which scenes a key has an effect in.
+enum class Of { all, bonded, made };  // made: whose specimen is not read from a file
+bool has_effect(Of which, Scene const& scene) {
+  if (which == Of::bonded) return has_bonds(scene);
+  return which == Of::all || scene.sample.generator != Generator::file;
+}
+
 /// A key of the model, and whether it says the same in two scenes.
 struct ModelKey {
   char const* name;
   bool (*same)(Scene const& a, Scene const& b);
-  bool of_bonds = false;  ///< has no effect without
+  Of which = Of::all;
 };
 template <auto Section, auto Member>
 constexpr bool same_in(Scene const& a, Scene const& b) {
@@ -87,53 +94,53 @@ constexpr ModelKey model[] = {
     {CLATHRA_MODEL(grains, density)},
     {CLATHRA_MODEL(grains, kn)},
     {CLATHRA_MODEL(grains, ks)},
-    {CLATHRA_MODEL(grains, particle_stiffness_ratio), true},
+    {CLATHRA_MODEL(grains, particle_stiffness_ratio), Of::bonded},
     {CLATHRA_MODEL(grains, friction)},
     {CLATHRA_MODEL(grains, shape_factor)},
     {CLATHRA_MODEL(grains, contact_damping)},
-    {CLATHRA_MODEL(grading, table)},
-    {CLATHRA_MODEL(grading, file)},
-    {CLATHRA_MODEL(hydrate, temperature), true},
-    {CLATHRA_MODEL(hydrate, pore_pressure), true},
-    {CLATHRA_MODEL(hydrate, density), true},
-    {CLATHRA_MODEL(bond, law), true},
-    {CLATHRA_MODEL(bond, composite), true},
-    {CLATHRA_MODEL(bond, moment_scale), true},
-    {CLATHRA_MODEL(bond, moment_ratio), true},
-    {CLATHRA_MODEL(bond, rod_thickness), true},
-    {CLATHRA_MODEL(bond, friction_floor), true},
-    {CLATHRA_MODEL(bond, coefficients), true},
-    {CLATHRA_MODEL(bond, mode), true},
-    {CLATHRA_MODEL(bond, after_consolidation), true},
+    {CLATHRA_MODEL(grading, table), Of::made},
+    {CLATHRA_MODEL(grading, file), Of::made},
+    {CLATHRA_MODEL(hydrate, temperature), Of::bonded},
+    {CLATHRA_MODEL(hydrate, pore_pressure), Of::bonded},
+    {CLATHRA_MODEL(hydrate, density), Of::bonded},
+    {CLATHRA_MODEL(bond, law), Of::bonded},
+    {CLATHRA_MODEL(bond, composite), Of::bonded},
+    {CLATHRA_MODEL(bond, moment_scale), Of::bonded},
+    {CLATHRA_MODEL(bond, moment_ratio), Of::bonded},
+    {CLATHRA_MODEL(bond, rod_thickness), Of::bonded},
+    {CLATHRA_MODEL(bond, friction_floor), Of::bonded},
+    {CLATHRA_MODEL(bond, coefficients), Of::bonded},
+    {CLATHRA_MODEL(bond, mode), Of::bonded},
+    {CLATHRA_MODEL(bond, after_consolidation), Of::bonded},
     {CLATHRA_MODEL(bond, stress)},
     {CLATHRA_MODEL(test, confining_stress)},
     {CLATHRA_MODEL(test, wall_friction)},
+    {CLATHRA_MODEL(test, consolidation_steps)},
+    {CLATHRA_MODEL(sample, width), Of::made},
+    {CLATHRA_MODEL(sample, height), Of::made},
+    {CLATHRA_MODEL(sample, aspect_ratio), Of::made},
+    {CLATHRA_MODEL(sample, generator), Of::made},
+    {CLATHRA_MODEL(sample, layers), Of::made},
+    {CLATHRA_MODEL(sample, void_ratio_at), Of::made},
     {CLATHRA_MODEL(run, damping)},
     {CLATHRA_MODEL(run, mass_scaling)},
 };
 #undef CLATHRA_MODEL
 
-/// The specimen was made, of void ratio and median diameter of the default.
-std::vector<std::string> other_keys_of_specimen(Scene const& scene) {
+/// Keys of which more than one value is as good as what was measured: size, void ratio and median diameter of a specimen that is
+/// made, and a strain beyond the peak.
+std::vector<std::string> other_keys(Scene const& scene) {
   constexpr double void_ratio = 0.24, d50 = 0.1694e-3;
-  if (scene.sample.generator == Generator::file) return {"sample.file"};
-  constexpr double fewest = 1000, most = 30000;  // discs: 2,000 were measured, and the default with 20,000
-  constexpr double past_the_peak = 0.05;         // axial strain
-  Scene const usual;
-  SampleScene const& sample = scene.sample;
+  constexpr std::int64_t fewest = 1000, most = 30000;  // discs: 2,000 were measured, and the default with 20,000
+  constexpr double past_the_peak = 0.05;
   std::vector<std::string> keys;
-  auto const note = [&](bool differs, char const* key) {
-    if (differs) keys.emplace_back(key);
-  };
-  note(sample.particles > 0 && (sample.particles < fewest || sample.particles > most), "sample.particles");
-  note(sample.width > 0, "sample.width");
-  note(sample.height > 0, "sample.height");
-  note(!is_near(sample.aspect_ratio, usual.sample.aspect_ratio), "sample.aspect_ratio");
-  note(sample.generator != usual.sample.generator, "sample.generator");
-  note(sample.layers != usual.sample.layers, "sample.layers");
-  note(sample.void_ratio_at != usual.sample.void_ratio_at, "sample.void_ratio_at");
-  note(scene.test.consolidation_steps != usual.test.consolidation_steps, "test.consolidation_steps");
-  note(scene.test.axial_strain < past_the_peak, "test.axial_strain");
+  if (scene.test.axial_strain < past_the_peak) keys.emplace_back("test.axial_strain");
+  if (scene.sample.generator == Generator::file) {
+    keys.emplace_back("sample.file");
+    return keys;
+  }
+  if (std::int64_t const discs = scene.sample.particles; discs > 0 && (discs < fewest || discs > most))
+    keys.emplace_back("sample.particles");
   bool const box = scene.sample.width > 0 && scene.sample.height > 0 && scene.sample.particles > 0;  // the fourth follows
   if (scene.sample.void_ratio > 0 ? !is_near(scene.sample.void_ratio, void_ratio) : box) keys.emplace_back("sample.void_ratio");
   if (scene.grading.d50 > 0 ? !is_near(scene.grading.d50, d50) : box && scene.sample.void_ratio > 0)
@@ -144,9 +151,9 @@ std::vector<std::string> other_keys_of_specimen(Scene const& scene) {
 /// Why the table says nothing of a scene; empty where it does.
 std::string out_of_range(Scene const& scene, RateNumbers const& n) {
   Scene const usual;
-  std::vector<std::string> keys = other_keys_of_specimen(scene);
+  std::vector<std::string> keys = other_keys(scene);
   for (ModelKey const& key : model)
-    if ((!key.of_bonds || has_bonds(scene)) && !key.same(scene, usual)) keys.emplace_back(key.name);
+    if (has_effect(key.which, scene) && !key.same(scene, usual)) keys.emplace_back(key.name);
   if (!keys.empty()) {
     std::string names;
     for (std::string const& key : keys) names += (names.empty() ? "" : ", ") + key;

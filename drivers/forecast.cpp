@@ -53,9 +53,10 @@ Forecast forecast(Scene const& scene, SampleDesign const& design, int ranks) {
   if (scene.sample.generator != Generator::file) return result;
   // The checks of the scene know only what is generated. One that was wide enough as designed is a little narrower at rest.
   constexpr double settled = 0.95;
-  for (std::string const& problem :
-       {narrowness(design.width, design.height, design.grading.largest(), settled * fewest_grains_across),
-        crowding(design.grading, reach_of_bonds(scene, design.grading.d50())), wide_skin(design.grading, scene.run.skin)})
+  Grading const& grading = design.grading;
+  for (std::string const& problem : {narrowness(design.width, design.height, grading.largest(), settled * fewest_grains_across),
+                                     crowding(grading.smallest(), grading.largest(), reach_of_bonds(scene, grading.d50())),
+                                     wide_skin(grading, scene.run.skin)})
     if (!problem.empty()) result.refusals.push_back(problem);
   return result;
 }

@@ -98,8 +98,8 @@ std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::
   return plan.specimens.size() - 1;
 }
 
-/// The scene of a member. Where guards refuse it, and nothing else is wrong with it, it is the forced one, and the plan has what
-/// they say of its group. @throws SceneProblems
+/// The scene of a member. Where guards refuse it, and nothing else is wrong with it, the plan has what they say of its group.
+/// @throws SceneProblems
 Scene scene_of_member(StudyPlan& plan, StudyGroup const& group, std::uint64_t seed) {
   try {
     return member_scene(plan.study, group, seed).scene;
@@ -107,12 +107,14 @@ Scene scene_of_member(StudyPlan& plan, StudyGroup const& group, std::uint64_t se
     std::vector<std::string> why;
     for (Problem const& problem : found.problems) {
       if (problem.severity != Severity::refusal) throw;
-      why.push_back(problem.text.substr(0, problem.text.find(" (run.force = true")));
+      why.push_back(problem.text.substr(0, problem.text.find(force_hint)));
     }
     plan.refused[group.name] = std::move(why);
     StudyGroup forced = group;
     forced.settings.emplace_back("run.force", "true");
-    return member_scene(plan.study, forced, seed).scene;
+    Scene scene = member_scene(plan.study, forced, seed).scene;
+    scene.run.force = false;
+    return scene;
   }
 }
 
@@ -172,10 +174,8 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   task.disc_steps = cost.numbers.at("disc_steps");
   task.memory = cost.numbers.at("memory_bytes");
   task.disk = cost.numbers.at("disk_bytes");
-  auto const refused = plan.refused.find(of.name);
-  if (refused != plan.refused.end()) task.refusals = refused->second;
-  if (refused != plan.refused.end() || !scene.run.force)
-    task.refusals.insert(task.refusals.end(), cost.refusals.begin(), cost.refusals.end());
+  task.refusals = plan.refused[of.name];
+  if (!scene.run.force) task.refusals.insert(task.refusals.end(), cost.refusals.begin(), cost.refusals.end());
   if (scene.sample.generator != Generator::file) {
     task.specimen = specimen_task(plan, scene, overrides);
     std::erase_if(overrides, is_of_size);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "command.hpp"
+#include "printed_number.hpp"
 
 namespace clathra {
 namespace {
@@ -89,7 +90,27 @@ TEST_F(CheckCommand, SaysWhichErrorOfThePeakToExpectOrThatItWasNotMeasured) {
   CommandResult const fast = clathra("check", measured + " --set test.inertial_number=0.05 --force");
   EXPECT_TRUE(holds(fast.output, row + "not measured: only up to I = ")) << fast.output;
   CommandResult const small = clathra("check", "--disc-steps-per-second 1e6");
-  EXPECT_TRUE(holds(small.output, row + "not measured: sample.particles, test.axial_strain\n")) << small.output;
+  EXPECT_TRUE(holds(small.output, row + "not measured: test.axial_strain, sample.particles\n")) << small.output;
+}
+
+/// As a run writes its scene down with all keys.
+TEST_F(CheckCommand, WarnsOfNoKeyThatIsAsByDefault) {
+  std::string const text = "the [bond] section has no effect";
+  EXPECT_FALSE(holds(clathra("check", "--set bond.composite=parallel").output, text));
+  EXPECT_TRUE(holds(clathra("check", "--set bond.composite=memory").output, text));
+}
+
+TEST_F(CheckCommand, SaysWhatTheRunLeavesOnTheDisk) {
+  for (std::string const more : {"", "--set output.snapshots=0 ", "--set hydrate.saturation=0.55 --set output.records=300 "}) {
+    std::string const keys = more + "--set test.axial_strain=0.03 ";
+    double const said = number_after(clathra("check", keys + "--disc-steps-per-second 1e6").output, "disk               ");
+    fs::path const out = folder / "out";
+    ASSERT_EQ(clathra("run", keys + "--overwrite --threads 1 --output '" + out.string() + "'").code, 0);
+    double left = 0;
+    for (auto const& entry : fs::recursive_directory_iterator(out))
+      if (entry.is_regular_file()) left += 1e-6 * static_cast<double>(entry.file_size());
+    EXPECT_NEAR(said / left, 1, 0.15) << keys;
+  }
 }
 
 TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {

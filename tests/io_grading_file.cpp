@@ -82,6 +82,10 @@ TEST(GradingFile, FindsItsColumnsByTheirNames) {
            Case{"sieve numbers beside",
                 "Sieve,Opening (mm),% Passing\npan,0.1,0\n100,0.15,30\n90,0.17,50\n75,0.2,80\n60,0.24,100\n"},
            Case{"cumulative retained", "d_mm,cumulative_percent_retained\n0.24,0\n0.2,20\n0.17,50\n0.15,70\n0.1,100\n"},
+           Case{"no-break spaces",
+                "d_mm;finer\n0.1;\xc2\xa0"
+                "0\n0.15; 30\n0.17;\xc2\xa0"
+                "50\n0.2;80\n0.24;100\xc2\xa0\n"},
            Case{"coarser", "d_mm,% coarser\n0.24,0\n0.2,20\n0.17,50\n0.15,70\n0.1,100\n"},
            Case{"fractions, said", "d_mm,fraction_finer\n0.1,0\n0.15,0.3\n0.17,.5\n0.2,0.8\n0.24,1\n"},
            Case{"fractions, not said to be per cent", "d_mm,finer\n0.1,0\n0.15,0.3\n0.17,.5\n0.2,0.8\n0.24,1.0\n"},

@@ -199,6 +199,9 @@ TEST_F(SpecimenCheck, EverythingThatIsMissingIsSaidAtOnce) {
                              ": lacks what a specimen file must hold: the attributes version, left, density, and the data "
                              "sets particles/x, particles/radius (docs/specimen-file.md lists all)");
   EXPECT_TRUE(says(run_clathra("info '" + file.string() + "'"), "the attributes version, left, density, and the data sets"));
+  write([](Specimen& s) { s.contacts.push_back({0, 1}); });
+  leave_out({"particles/y", "contacts/id_a", "contacts/id_b"});
+  EXPECT_NE(complaint().find("the data sets particles/y, contacts/id_a, contacts/id_b"), std::string::npos) << complaint();
 }
 
 TEST_F(SpecimenCheck, WhatNeedNotBeThereHasDefaults) {

@@ -82,6 +82,11 @@ TEST_F(SpecimenCheck, ATestIsForecastFromTheDiscsOfTheFile) {
   CommandResult const triple = by_scene("check", "--disc-steps-per-second 1e6");
   EXPECT_TRUE(says(triple, "  d50                0.5082 mm\n")) << triple.output;
   EXPECT_FALSE(says(triple, "generation"));
+  std::ofstream(folder / "sand.csv") << "d_mm,percent_finer\n1,0\n2,100\n";
+  CommandResult const curve = by_scene("check", "--set grading.file='" + (folder / "sand.csv").string() + "'");
+  EXPECT_TRUE(says(curve, "warning: grading.file has no effect: the specimen comes from ")) << curve.output;
+  EXPECT_TRUE(says(curve, "not measured: test.axial_strain, sample.file\n") || says(curve, "not measured: sample.file\n"))
+      << curve.output;
   write(two_sizes(2e-4));
   SampleDesign const design = design_of(read_specimen(file));
   EXPECT_EQ(design.particles, 175);

@@ -17,6 +17,7 @@
 #include "domain/measurement/disc_grading.hpp"
 #include "domain/parallel/near_pairs.hpp"
 #include "domain/scene/sample_design.hpp"
+#include "printed_number.hpp"
 #include "scenes.hpp"
 
 namespace clathra {
@@ -204,12 +205,18 @@ TEST(Sizes, MayDifferAsFarAsRowsOfNeighboursReach) {
   };
   EXPECT_NEAR(most_neighbours(Grading::uniform(1e-3), 0), 6, 1e-9);
   EXPECT_NEAR(most_neighbours(two_sizes(20), 0), 66, 0.1);
-  EXPECT_EQ(crowding(two_sizes(20), 0), "");
-  std::string const text = crowding(two_sizes(40), 0);
+  constexpr double largest = 2e-3, bonds = 0.15e-3;
+  auto const crowded = [](double ratio, double reach) { return crowding(largest / ratio, largest, reach); };
+  EXPECT_EQ(crowded(20, 0), "");
+  std::string const text = crowding(0.1e-3, 4e-3, 0);
   EXPECT_NE(text.find("40 times the smallest (0.1 mm)"), std::string::npos) << text;
   EXPECT_NE(text.find("may be 29.5 at most"), std::string::npos) << text;
-  EXPECT_EQ(crowding(two_sizes(29.5), 0), "");
-  EXPECT_NE(crowding(two_sizes(20), 0.15e-3), "");  // bonds reach the second ring
+  EXPECT_EQ(crowded(29.5, 0), "");
+  // Bonds reach the second ring. The ratio that is offered fits grains as large as these.
+  std::string const bonded = crowded(20, bonds);
+  double const offered = number_after(bonded, "the ratio may be ");
+  EXPECT_EQ(crowded(offered, bonds), "") << bonded;
+  EXPECT_NE(crowded(offered + 0.2, bonds), "") << bonded;
 }
 
 /// What it says fits is what a row holds.

@@ -18,6 +18,12 @@ inline double half_unit_of(std::string const& printed) {
   return 0.5 * std::pow(10.0, exponent);
 }
 
+/// The number that follows a phrase in a text; not a number where it is not there.
+inline double number_after(std::string const& text, std::string const& phrase) {
+  auto const at = text.find(phrase);
+  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + phrase.size()));
+}
+
 /// Agreement with a printed number to its last digit; "0" means exactly zero.
 inline testing::AssertionResult agrees(double value, std::string const& printed) {
   double const expected = std::stod(printed);

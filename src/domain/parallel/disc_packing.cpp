@@ -98,21 +98,6 @@ Field<T> on_device(char const* label, std::vector<T> const& values) {
   return field;
 }
 
-/// The numbers of a field, whatever it holds.
-template <class AField>
-struct NumbersOf {
-  AField field;
-  Field<double> numbers;
-  KOKKOS_FUNCTION void operator()(int i) const { numbers(i) = field(static_cast<std::size_t>(i)); }
-};
-
-template <class AField>
-std::vector<double> numbers_of(AField const& field, int discs) {
-  Field<double> const numbers = uninitialised<double>("column", static_cast<std::size_t>(discs));
-  Kokkos::parallel_for("column", Kokkos::RangePolicy<ExecutionSpace>(0, discs), NumbersOf<AField>{field, numbers});
-  return on_host(numbers, numbers.extent(0));
-}
-
 /// The entries of all rows, one row behind the other.
 template <class AField, class Number>
 struct NumbersOfEntries {
@@ -208,18 +193,19 @@ DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxi
 
 DiscColumns disc_columns(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows) {
   int const owned = particles.owned;
-  auto const column = [owned](char const* name, auto const& field) {
-    return DiscColumns::Column{name, [field, owned] { return numbers_of(field, owned); }};
+  auto const size = static_cast<std::size_t>(owned);
+  auto const column = [size](char const* name, auto const& field) {
+    return DiscColumns::Column{name, [field, size] { return numbers_on_host(field, size); }};
   };
   DiscColumns columns;
-  columns.id = [id = particles.id, owned] { return on_host(id, static_cast<std::size_t>(owned)); };
+  columns.id = [id = particles.id, size] { return on_host(id, size); };
   for_each_field(particles,
                  [&](DiscField const& about, auto const& field) { columns.discs.push_back(column(about.name, field)); });
   columns.discs.erase(columns.discs.begin());  // the id stands for itself
   for (AuxiliaryField const& one : auxiliary)
     std::visit([&](auto* field) { columns.discs.push_back(column(one.name, *field)); }, one.field);
-  columns.row_length = [length = rows.length, owned] {
-    auto const lengths = on_host(length, static_cast<std::size_t>(owned));
+  columns.row_length = [length = rows.length, size] {
+    auto const lengths = on_host(length, size);
     return std::vector<std::int32_t>(lengths.begin(), lengths.end());
   };
   columns.neighbour = [particles, rows, owned] {

@@ -25,8 +25,16 @@ void for_each_auxiliary_field(AuxiliaryFields const& auxiliary, Visit&& visit) {
   for (AuxiliaryField const& one : auxiliary) std::visit([&](auto* field) { visit(*field); }, one.field);
 }
 
+/// The first numbers of a field, whatever it holds.
+inline std::vector<double> numbers_on_host(RealField const& field, std::size_t size) { return on_host(field, size); }
+template <class T>
+std::vector<double> numbers_on_host(Field<T> const& field, std::size_t size) {
+  std::vector<T> const numbers = on_host(field, size);
+  return {numbers.begin(), numbers.end()};
+}
+
 /// Records of the discs `which`, in this order.
-/// @param rows  neighbours by id, by the index of their disc
+/// @param rows  of all discs, by their index; neighbours by id
 DiscRecords pack_discs(ParticleSoA const& particles, AuxiliaryFields const& auxiliary, ContactRows const& rows,
                        std::vector<int> const& which);
 

@@ -6,7 +6,6 @@
 /// too, and the test of ranks finds it. A row goes with its disc because history belongs to it, not to a place in memory.
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,18 +34,15 @@ struct DiscColumns {
     std::function<std::vector<double>()> numbers;
   };
   using Integers = std::function<std::vector<std::int32_t>()>;
-  Integers id, row_length;               ///< [discs]
-  Integers neighbour;                    ///< [entries of all rows] its id
-  std::vector<Column> discs;             ///< [discs]
-  std::vector<Column> history;           ///< [entries of all rows]
-  std::shared_ptr<DiscRecords> records;  ///< which they are taken from, if so
+  Integers id, row_length;      ///< [discs]
+  Integers neighbour;           ///< [entries of all rows] its id
+  std::vector<Column> discs;    ///< [discs]
+  std::vector<Column> history;  ///< [entries of all rows]
 
   RecordColumns names() const;
 };
 
-/// Columns over records, which they keep.
-DiscColumns columns_of(DiscRecords records, RecordColumns const& names);
-/// The records of columns, which are then empty if they were taken from records.
-DiscRecords records_of(DiscColumns&& columns);
+/// The records of columns, which lose theirs one after the other.
+DiscRecords records_of(DiscColumns columns);
 
 }  // namespace clathra

@@ -87,19 +87,19 @@ double reach_of_a_full_row(double ratio) {
   return std::sqrt(inner * inner + left / solid) - ratio - 1;
 }
 
-std::string crowding(Grading const& grading, double reach) {
-  if (most_neighbours(grading, reach) <= longest_row) return {};
-  double fits = 1, ratio = grading.largest() / grading.smallest();
+std::string crowding(double smallest, double largest, double reach) {
+  double fits = 1, ratio = largest / smallest;
+  if (most_neighbours(ratio, 2 * reach / smallest) <= longest_row) return {};
   double const given = ratio;
   for (int n = 0; n < 60; ++n) {
     double const middle = 0.5 * (fits + ratio);
-    (most_neighbours(middle, 2 * reach * middle / grading.largest()) <= longest_row ? fits : ratio) = middle;
+    (most_neighbours(middle, 2 * reach * middle / largest) <= longest_row ? fits : ratio) = middle;
   }
   char text[240];
   std::snprintf(text, sizeof text,
                 "the largest grain is %.3g times the smallest (%.4g mm), around it may lie more neighbours than the %d that a "
                 "disc can have: of this curve the ratio may be %.3g at most",
-                given, grading.smallest() * 1e3, longest_row, std::floor(10 * fits) / 10);
+                given, smallest * 1e3, longest_row, std::floor(10 * fits) / 10);
   return text;
 }
 

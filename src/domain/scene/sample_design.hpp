@@ -34,9 +34,9 @@ double most_neighbours(Grading const& grading, double reach);
 /// smallest disc. @param ratio  of the largest radius to the smallest
 double reach_of_a_full_row(double ratio);
 
-/// Why the sizes of a grading differ too much for the rows of neighbours, with the ratio that does not; empty where they fit.
-/// @param reach  beyond touching, of bonds [m]
-std::string crowding(Grading const& grading, double reach);
+/// Why the sizes of grains differ too much for the rows of neighbours, with the ratio that does not; empty where they fit.
+/// @param smallest,largest  diameters [m];  @param reach  beyond touching, of bonds [m]
+std::string crowding(double smallest, double largest, double reach);
 /// Why a Verlet skin [m], 0 = chosen, is too wide for the rows of neighbours, with the widest that is not; empty where it fits.
 std::string wide_skin(Grading const& grading, double skin);
 

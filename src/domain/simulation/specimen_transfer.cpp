@@ -28,13 +28,6 @@ void upload(Field<T> const& field, std::vector<Number> const& values) {
 
 void upload(RealField const& field, std::vector<double> const& values) { set_from_host(field, values); }
 
-std::vector<double> numbers_on_host(RealField const& field, std::size_t size) { return on_host(field, size); }
-template <class T>
-std::vector<double> numbers_on_host(Field<T> const& field, std::size_t size) {
-  auto const host = host_copy(field);
-  return {host.data(), host.data() + size};
-}
-
 /// Visits the fields of the discs that a specimen keeps, each with its column.
 template <class Visit>
 void for_each_column_of_specimen(ParticleSoA const& particles, Visit&& visit) {

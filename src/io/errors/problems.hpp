@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clathra {
@@ -31,6 +32,8 @@ struct FileProblem : std::runtime_error {
 };
 
 enum class Severity { error, missing_file, refusal };
+/// Ends the text of a refusal that a scene can overrule.
+inline constexpr std::string_view force_hint = " (run.force = true or --force goes on)";
 
 /// One thing wrong in a scene. `line` and `column` count from 1; 0 where the problem has no place in the file.
 struct Problem {

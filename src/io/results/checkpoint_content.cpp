@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -89,28 +90,31 @@ std::vector<double> read_finite(Hdf5File const& file, std::string const& name, R
   return column;
 }
 
-/// This rank's part of the discs, as records: every number has been looked at before any is used.
-void read_discs(Hdf5File const& file, RecordColumns const& names, SimulationState& s, Ranks const& ranks) {
+/// A column that is there already, as one that is made when it is asked for.
+template <class T>
+std::function<std::vector<T>()> held(std::vector<T> column) {
+  return [column = std::move(column)] { return column; };
+}
+
+/// This rank's part of the discs: all numbers are read, and looked at, before any is used.
+DiscColumns read_discs(Hdf5File const& file, RecordColumns const& names, Ranks const& ranks) {
   std::int64_t const discs = file.integer_attribute("particles"), entries = file.integer_attribute("entries");
   if (discs < 1 || discs > 1'000'000'000 || entries < 0 || entries > discs * longest_row)
     file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} neighbours", discs, entries));
   RowRange const rows = rows_of_rank(discs, ranks);
   std::vector<std::int32_t> lengths;
   RowRange const row_entries = read_lengths(file, rows, entries, lengths);
+  auto ids = file.read<std::int32_t>("particles/id", rows);
+  for (int const id : ids)
+    if (id < 0 || id >= discs) file.fail(ExitCode::bad_input, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
   DiscColumns columns;
-  columns.id = [&] {
-    auto ids = file.read<std::int32_t>("particles/id", rows);
-    for (int const id : ids)
-      if (id < 0 || id >= discs) file.fail(ExitCode::bad_input, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
-    return ids;
-  };
-  columns.row_length = [&] { return lengths; };
-  columns.neighbour = [&] { return file.read<std::int32_t>("rows/neighbour", row_entries); };
-  for (std::string const& name : names.discs)
-    columns.discs.push_back({name, [&] { return read_finite(file, "particles/" + name, rows); }});
+  columns.id = held(std::move(ids));
+  columns.row_length = held(std::move(lengths));
+  columns.neighbour = held(file.read<std::int32_t>("rows/neighbour", row_entries));
+  for (std::string const& name : names.discs) columns.discs.push_back({name, held(read_finite(file, "particles/" + name, rows))});
   for (std::string const& name : names.history)
-    columns.history.push_back({name, [&] { return read_finite(file, "rows/" + name, row_entries); }});
-  s.discs = columns_of(records_of(std::move(columns)), names);
+    columns.history.push_back({name, held(read_finite(file, "rows/" + name, row_entries))});
+  return columns;
 }
 
 }  // namespace
@@ -165,7 +169,7 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   } catch (Json::exception const& problem) {
     file.fail(ExitCode::bad_input, fmt::format("about: {}", problem.what()));
   }
-  read_discs(file, names, state.simulation, ranks);
+  state.simulation.discs = read_discs(file, names, ranks);
   read_events(file, state, ranks);
   return state;
 }

@@ -59,7 +59,9 @@ void require_metres(fs::path const& path, SpecimenOutline const& outline) {
 }
 
 void require_sizes_of_one_sand(fs::path const& path, std::vector<double> const& radii, Ranks const& ranks) {
-  if (std::string const problem = crowding(grading_of(radii, ranks), 0); !problem.empty()) refuse(path, problem);
+  double smallest = 1e300, largest = 0;
+  for (double const r : radii) smallest = std::min(smallest, 2 * r), largest = std::max(largest, 2 * r);
+  if (std::string const problem = crowding(ranks.min(smallest), ranks.max(largest), 0); !problem.empty()) refuse(path, problem);
 }
 
 void require_discs_inside(fs::path const& path, SpecimenOutline const& outline) {

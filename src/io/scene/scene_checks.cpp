@@ -32,7 +32,7 @@ struct Check {
     if (scene.run.force)
       found.warnings.push_back("forced: " + text);
     else
-      found.problems.push_back({std::move(keys), text + " (run.force = true or --force goes on)", Severity::refusal});
+      found.problems.push_back({std::move(keys), text + std::string(force_hint), Severity::refusal});
   }
   /// Whether a key is stated, and not as it is by default: what a run writes down as resolved states all keys.
   bool changed(std::string_view name) const {
@@ -105,7 +105,8 @@ std::optional<SampleDesign> check_design(Check& check) {
                               length_text(design.height)));
     else if (std::string const problem = narrowness(design.width, design.height, largest); !problem.empty())
       check.refusal({"sample.width", "sample.height", "sample.particles", "grading.d50"}, problem);
-    if (std::string const problem = crowding(design.grading, reach_of_bonds(scene, design.grading.d50())); !problem.empty())
+    if (std::string const problem = crowding(design.grading.smallest(), largest, reach_of_bonds(scene, design.grading.d50()));
+        !problem.empty())
       check.refusal({"grading.file", "grading.d50"}, problem);
     if (std::string const problem = wide_skin(design.grading, scene.run.skin); !problem.empty())
       check.refusal({"run.skin"}, problem);
