@@ -45,7 +45,7 @@ Specimen squeezed(double size_ratio, double shear_stiffness = sand_ks) {
   laws.motion.damping = 0.7;
   Simulation sim(s, laws, 0.05 * s.d50);
   prepare_servo(sim, 1e6, 1e-2, s.d50, {});
-  if (!hold_stress(sim, 1e6, 1e-3, 1000000, {}, "squeeze")) std::fprintf(stderr, "stability_map: a packing is not at rest\n");
+  if (!hold_stress(sim, 1e6, {1e-3}, 1000000, {}, "squeeze")) std::fprintf(stderr, "stability_map: a packing is not at rest\n");
   return sim.specimen();
 }
 

@@ -130,7 +130,7 @@ TEST(ExtremeStates, ABoxMovedByAMillionDiameters) {
   laws.motion.damping = 0.7;
   loaded.set_laws(laws);
   prepare_servo(loaded, 1e6, 1e-3, packing().d50, {});
-  ASSERT_TRUE(hold_stress(loaded, 1e6, 1e-3, 200000, {}, "test"));
+  ASSERT_TRUE(hold_stress(loaded, 1e6, {1e-3}, 200000, {}, "test"));
   Specimen const original = loaded.specimen();
   Specimen moved = original;
   double const way = 1e6 * moved.d50;
@@ -218,7 +218,7 @@ void expect_rest(std::string const& when, bool loaded, int steps, double most_ch
   Simulation sim = bonded(0.55, Composite::parallel);
   if (loaded) {
     prepare_servo(sim, 1e6, 1e-3, packing().d50, {});
-    ASSERT_TRUE(hold_stress(sim, 1e6, 1e-3, 200000, {}, "test"));
+    ASSERT_TRUE(hold_stress(sim, 1e6, {1e-3}, 200000, {}, "test"));
     sim.loading().x = sim.loading().y = AxisDrive::held();
   }
   sim.choose_time_step({});

@@ -90,7 +90,7 @@ TEST(StressAtRest, IsTheSameInTheContactsAndAtTheWalls) {
   laws.motion.damping = 0.7;
   Simulation sim(disordered_patch(16, 20, 0.04, 3), laws, 0.1 * grain_d50);
   prepare_servo(sim, 1e6, 2e-3, grain_d50, {});
-  EXPECT_TRUE(hold_stress(sim, 1e6, within(1e-5, 1e-4), 60000, {}, "test"));
+  EXPECT_TRUE(hold_stress(sim, 1e6, {within(1e-5, 1e-4)}, 60000, {}, "test"));
   sim.loading().x = sim.loading().y = AxisDrive::held();
   sim.step(3000);
   Measures const m = sim.assembly().measures();

@@ -16,7 +16,7 @@ Simulation elastic_block(double stress, double alpha) {
   laws.motion.damping = alpha;
   Simulation sim(s, laws, 0.1 * grain_d50);
   prepare_servo(sim, stress, 1e-3, grain_d50, {});
-  EXPECT_TRUE(hold_stress(sim, stress, 1e-3, 40000, {}, "test"));
+  EXPECT_TRUE(hold_stress(sim, stress, {1e-3}, 40000, {}, "test"));
   return sim;
 }
 
@@ -43,6 +43,18 @@ TEST(ServoWall, ThatMustMoveAtAConstantRateKeepsTheStress) {
   EXPECT_NEAR(mean, 1, 1e-3);
   EXPECT_LT(worst, 0.01);
   EXPECT_EQ(sim.assembly().broken_bonds(), 0);
+}
+
+TEST(Rest, KnowsADeviatorOnTheWallsWhereItIsAskedFor) {
+  double const stress = 1e6, deviator = 3e-3;
+  Simulation sim = elastic_block(stress, 0.3);
+  sim.loading().y.target_stress = (1 + deviator) * stress;
+  EXPECT_TRUE(hold_stress(sim, stress, {1e-3}, 40000, {}, "test"));
+  EXPECT_NEAR(sim.assembly().stress().y / sim.assembly().stress().x - 1, deviator, 0.1 * deviator);
+  Measures const m = sim.assembly().measures();
+  EXPECT_EQ(unrest(sim, m, stress, {1e-3, 1.2 * deviator}), "");
+  EXPECT_EQ(unrest(sim, m, stress, {1e-3, 1e-3}), "vertical stress 0.3 % higher than the lateral one (at rest within 0.1 %)");
+  EXPECT_FALSE(hold_stress(sim, stress, {1e-3, 1e-3}, 2000, {}, "test"));
 }
 
 /// Largest error of both stresses over so many steps, relatively.

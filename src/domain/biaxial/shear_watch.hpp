@@ -9,9 +9,8 @@
 
 namespace clathra {
 
-inline constexpr double check_interval = 2e-4;      ///< of axial strain
-inline constexpr double unbalanced_at_rest = 1e-3;  ///< mean unbalanced force over mean contact force, before the shear
-inline constexpr double unbalanced_limit = 1e-2;    ///< of single checks, which are counted
+inline constexpr double check_interval = 2e-4;    ///< of axial strain
+inline constexpr double unbalanced_limit = 1e-2;  ///< of single checks, which are counted
 /// Of the mean over the checks up to the peak of q, of a bonded test. What follows is the failure itself: it is as fast as the
 /// specimen wants it. Sand shakes without consequence where it is not damped; its peak follows the rate (inertial_warning()).
 inline constexpr double unbalanced_to_peak_limit = 5e-3;

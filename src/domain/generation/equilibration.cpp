@@ -36,8 +36,8 @@ Strains strains_towards(Simulation const& simulation, WallStress const& inside, 
 
 /// Steps in chunks until there is no unrest() in three checks on end. @param advance  makes so many steps
 template <class Advance>
-bool step_to_rest(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
-                  char const* stage, Advance const& advance) {
+bool step_to_rest(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
+                  ProgressCallback const& progress, char const* stage, Advance const& advance) {
   std::int64_t const first = simulation.assembly().steps();
   int checks_at_rest = 0;
   Measures m = simulation.assembly().measures();
@@ -98,7 +98,7 @@ double wave_speed(Simulation const& simulation) {
   return std::sqrt(packing_modulus(simulation.assembly().laws.contact.grain) / bulk_density);
 }
 
-std::string unrest(Simulation const& simulation, Measures const& m, double stress, double rest) {
+std::string unrest(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest) {
   constexpr double tolerance = 0.005;
   std::string text;
   auto const say = [&](char const* format, auto... numbers) {
@@ -114,13 +114,17 @@ std::string unrest(Simulation const& simulation, Measures const& m, double stres
   if (simulation.assembly().periodic()) {
     require("mean stress of the contacts", 0.5 * (m.stress_area_xx + m.stress_area_yy) / area);
   } else {
-    require("lateral stress on the walls", simulation.assembly().stress().x);
-    require("vertical stress on the walls", simulation.assembly().stress().y);
+    WallStress const walls = simulation.assembly().stress();
+    require("lateral stress on the walls", walls.x);
+    require("vertical stress on the walls", walls.y);
+    if (double const deviator = walls.y - walls.x; std::abs(deviator) > rest.deviator * stress)
+      say("vertical stress %.2g %% %s than the lateral one (at rest within %g %%)", 100 * std::abs(deviator) / stress,
+          deviator > 0 ? "higher" : "lower", 100 * rest.deviator);
     require("lateral stress of the contacts less the shear of the walls", (m.stress_area_xx - m.wall_shear_xx) / area);
     require("vertical stress of the contacts less the shear of the walls", (m.stress_area_yy - m.wall_shear_yy) / area);
   }
   double const unbalanced = m.unbalanced_ratio(simulation.assembly().discs());
-  if (!(unbalanced < rest)) say("unbalanced ratio %.2g (at rest below %g)", unbalanced, rest);
+  if (!(unbalanced < rest.unbalanced)) say("unbalanced ratio %.2g (at rest below %g)", unbalanced, rest.unbalanced);
   return text;
 }
 
@@ -163,12 +167,13 @@ void prepare_servo(Simulation& simulation, double stress, double inertial_number
   simulation.loading().y = AxisDrive::at_stress(stress, 0.5 * rate * walls.height());
 }
 
-bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
-                 char const* stage) {
+bool hold_stress(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
+                 ProgressCallback const& progress, char const* stage) {
   return step_to_rest(simulation, stress, rest, most_steps, progress, stage, [&](std::int64_t steps) { simulation.step(steps); });
 }
 
-bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress) {
+bool settle(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
+            ProgressCallback const& progress) {
   return step_to_rest(simulation, stress, rest, most_steps, progress, "generate", [&](std::int64_t steps) {
     for (; steps > 0; steps -= steering) {
       WallStress const inside = stress_inside(simulation);

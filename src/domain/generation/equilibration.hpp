@@ -1,5 +1,7 @@
 #pragma once
 /// Bringing an assembly to rest under an isotropic stress, and the laws of its discs on the way there.
+#include <cmath>
+
 #include "domain/scene/grading.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/stage.hpp"
@@ -45,22 +47,29 @@ struct PackedSpecimen {
   std::int64_t disc_steps = 0;
 };
 
+/// What is called rest.
+struct RestCriterion {
+  double unbalanced = 1e-3;    ///< ratio, at most
+  double deviator = HUGE_VAL;  ///< of the stresses on the walls, over the stress that is held, at most
+};
+
 /// What keeps a specimen from resting under an isotropic stress, in words with the numbers; empty where nothing does. It rests
 /// where the walls press with that stress within 0.5 %, the contacts inside with what that comes to (a wave on its way shows in
-/// them first; the shear of rough walls carries its part), and the unbalanced ratio is below `rest`.
-std::string unrest(Simulation const& simulation, Measures const& m, double stress, double rest);
+/// them first; the shear of rough walls carries its part), and what `rest` asks for holds.
+std::string unrest(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest);
 
 /// Steps with walls steered to an isotropic stress until there is no unrest() in three checks on end.
 /// @return false if that took more than `most_steps`
-bool hold_stress(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress,
-                 char const* stage);
+bool hold_stress(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
+                 ProgressCallback const& progress, char const* stage);
 
 /// The same for an assembly that is about to rest, from prepare_servo() on: box and discs close together by what the stresses
 /// inside lack, either direction for itself, and the walls follow these, so that no wave has to carry the stress through a large
 /// assembly.
-bool settle(Simulation& simulation, double stress, double rest, std::int64_t most_steps, ProgressCallback const& progress);
+bool settle(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
+            ProgressCallback const& progress);
 
-inline constexpr double rest_of_specimens = 1e-3;            ///< unbalanced ratio of those that are generated
+inline constexpr RestCriterion rest_of_specimens;            ///< that are generated
 inline constexpr std::int64_t most_steps_to_rest = 200'000;  ///< of these
 
 /// Why a specimen that was generated did not come to rest in so many steps.
