@@ -13,7 +13,7 @@ objdump -d --no-show-raw-insn "$object" | c++filt | awk '
   /^[0-9a-f]+ <.*>:$/ {
     name = ""
     if ($0 ~ />::~?ContactKernel\(/) next
-    if (match($0, /^[0-9a-f]+ <clathra::ContactKernel<clathra::FullPrecision, \(clathra::BondKind\)[0-9], [a-z]+, [a-z]+, [a-z]+>/)) {
+    if (match($0, /^[0-9a-f]+ <clathra::ContactKernel<clathra::KernelVariant<clathra::FullPrecision, \(clathra::BondKind\)[0-9], [a-z]+, [a-z]+, [a-z]+>/)) {
       name = substr($0, RSTART, RLENGTH)
       sub(/.*BondKind\)/, "", name); sub(/>/, "", name); gsub(/, /, " ", name); gsub(/true/, "1", name); gsub(/false/, "0", name)
     }

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "kernels/bond_quick_test.hpp"
-#include "kernels/history.hpp"
 #include "scenes.hpp"
 
 namespace clathra {

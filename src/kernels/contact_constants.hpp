@@ -2,7 +2,6 @@
 /// The laws as the contact kernel takes them.
 #include "kernels/bond_quick_test.hpp"
 #include "kernels/forces.hpp"
-#include "kernels/history.hpp"
 
 namespace clathra {
 

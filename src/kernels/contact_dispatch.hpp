@@ -41,7 +41,7 @@ void compute_forces_in(ParticleSoA const& particles, ContactRows const& rows, Co
   std::visit(
       [&](auto bond, auto friction, auto rolling, auto losing) {
         constexpr bool shears = friction() || bond() == BondKind::replace;  // one kernel where the bond needs the history
-        using Kernel = ContactKernel<P, bond(), shears, rolling(), losing()>;
+        using Kernel = ContactKernel<KernelVariant<P, bond(), shears, rolling(), losing()>>;
         launches.parallel_for(Kernel::bonded_code ? "contact_forces_bonded" : "contact_forces", groups, uncounted([&] {
                                 return Kernel{particles, rows,   constants, laws.bond, step,
                                               steps,     breaks, losses,    faults,    discs_ahead(particles.owned)};

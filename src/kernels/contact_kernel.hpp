@@ -4,38 +4,31 @@
 #include <type_traits>
 
 #include "kernels/bond_failures.hpp"
-#include "kernels/contact_constants.hpp"
-#include "kernels/pair_motion.hpp"
-#include "kernels/re_reference.hpp"
-#include "kernels/row_history.hpp"
+#include "kernels/path_sum_history.hpp"
+#include "kernels/reference_history.hpp"
 
 namespace clathra {
 
 /// One group of discs per call, as many as a vector holds: walks their rows side by side.
-/// @tparam P  FullPrecision or MixedPrecision;  @tparam Friction  false where grain contacts carry no shear
-/// @tparam Losses  whether there are dashpots or an energy ledger; which of them a branch finds that goes one way in a whole
-/// launch
-template <class P, BondKind Bond, bool Friction, bool Rolling, bool Losses>
+/// @tparam Variant  KernelVariant
+template <class Variant>
 struct ContactKernel {
-  using R = typename P::Real;
-  using V = LanesOf<R>;
-  using VMask = MaskOf<V>;
-  using Kept = HistoryOf<P>;
-  using Force = typename Kept::Force;
-  using Constants = ContactConstants<R>;
-  static constexpr bool mixed = P::precision == Precision::mixed;
-  using Discs = DiscReader<P, !mixed || Losses, Losses>;
-  using Failures = BondFailures<P>;
-  using StepIncrement = IncrementOfStep<V>;
+  using R = typename Variant::R;
+  using V = typename Variant::V;
+  using VMask = typename Variant::VMask;
+  using Constants = typename Variant::Constants;
+  using Discs = typename Variant::Discs;
+  using History = typename Variant::History;
+  using Force = typename Variant::Force;
+  using Forces = typename Variant::Forces;
+  using StepIncrement = typename Variant::StepIncrement;
+  static constexpr BondKind Bond = Variant::Bond;
+  static constexpr bool mixed = Variant::mixed, bonded_code = Variant::bonded_code, shears = Variant::shears,
+                        moments = Variant::moments, separate = Variant::separate, Rolling = Variant::Rolling,
+                        Losses = Variant::Losses;
+  using Kept = std::conditional_t<mixed, ReferenceHistory<Variant>, PathSumHistory<Variant>>;
+  using Failures = BondFailures<typename Variant::Numbers>;
   static constexpr int lanes = lane_count_of<R>, slice_width = slice_width_of<R>;
-  static constexpr bool bonded_code = Bond != BondKind::none;
-  static constexpr bool shears = Friction || Bond == BondKind::replace;  // has a history of `shear`
-  static constexpr bool moments = Rolling || bonded_code;
-  static constexpr bool separate = Bond == BondKind::parallel;
-  static constexpr bool slips = shears || separate,
-                        rolls = moments && (Rolling || !separate);  // of `shear` or `bond_shear`; of `moment`
-  using ReReferenceOfPairs = ReReference<shears, rolls, separate>;
-  using History = RowHistory<P, shears, moments, bonded_code, separate>;
 
   ParticleSoA p;
   ContactRows rows;
@@ -53,14 +46,10 @@ struct ContactKernel {
     typename Discs::Own disc;
     V force_x, force_y, torque;
     V most_overlap;    ///< mixed precision: of each disc
-    bool rotated_far;  ///< likewise: whether any of them has
+    bool rotated_far;  ///< ReferenceHistory: whether any of them has
     V sliding, rolling, dashpot, breakage;
   };
 
-  /// What its histories come to.
-  struct Forces {
-    Force shear, moment, bond_shear, bond_moment;
-  };
   KOKKOS_FUNCTION void operator()(int group) const {
     if (is_stopped(steps)) return;
     auto const first = static_cast<std::size_t>(group) * lanes;
@@ -119,58 +108,43 @@ struct ContactKernel {
     if (!active && !any(touching)) return false;
     History::fetch_ahead(rows, e);
     History h = History::read(rows, e);
-    auto const none = remembers_nothing(h), begins = none && touching;
+    auto const none = Kept::is_none(h), begins = none && touching;
 
     V const distance = Discs::distance_of(distance2);
     Inverses<V> const inverse = inverses<mixed, moments>(distance, distance2, reach);
     V const nx = dx * inverse.of_distance, ny = dy * inverse.of_distance;
     typename Discs::MotionOf moving;
     if constexpr (Discs::moves) moving = Discs::other_motion(p, j);
-    ContactMotion<V> motion;
-    motion.overlap = Discs::overlap_at(distance, reach, law.tick);
-    V const half = constant<V>(0.5), arm = negative_multiply_add(half, motion.overlap, disc.radius),
-            other_arm = negative_multiply_add(half, motion.overlap, other_radius);  // arm + other_arm = distance
+    V const overlap = Discs::overlap_at(distance, reach, law.tick), half = constant<V>(0.5);
+    V const arm = negative_multiply_add(half, overlap, disc.radius),
+            other_arm = negative_multiply_add(half, overlap, other_radius);  // arm + other_arm = distance
     StepIncrement in_step{V(0), V(0)};
+    V closing_velocity(0);
     if constexpr (Discs::moves) {
-      motion.closing_velocity = -((moving.vx - disc.motion.vx) * nx + (moving.vy - disc.motion.vy) * ny);
+      closing_velocity = -((moving.vx - disc.motion.vx) * nx + (moving.vy - disc.motion.vy) * ny);
       in_step = increment_of_step(law.dt, disc.motion, moving, nx, ny, arm, other_arm);
     }
-    motion.shear_increment = in_step.slip, motion.relative_rotation = in_step.rotation;
-    V sine2(0);
+    typename Variant::Pairs at;  // number by number, as in load_own()
+    at.dx = dx, at.dy = dy, at.distance = distance, at.reach = reach, at.nx = nx, at.ny = ny;
+    at.arm = arm, at.other_arm = other_arm, at.inverse_distance2 = inverse.of_distance2, at.inverse_reach = inverse.of_reach;
+    typename Kept::Motion moved;
+    moved.of_pair.overlap = overlap, moved.of_pair.closing_velocity = closing_velocity;
+    Kept::measure(rows, e, law, disc, other, at, in_step, none, h, moved);
     if constexpr (mixed) {
-      motion.common_radius = V(2) * disc.radius * other_radius * inverse.of_reach;  // common_radius() of radii that are not zero
-      own.most_overlap = lane_max(motion.overlap, own.most_overlap);
-      motion.relative_rotation = other.rotation_increment - disc.rotation_increment;
-      if constexpr (slips) {
-        IntLanes const reference = load_ints(rows.reference_branch.data<std::int32_t>() + e);
-        auto const branch = branch_since(reference, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2);
-        motion.shear_increment = motion_since(branch, arm, other_arm, disc.rotation_increment, other.rotation_increment).slip,
-        sine2 = branch.sine2;
-        motion.overlap = overlap_since(reference, branch, distance, inverse.of_distance2, reach, law.tick,
-                                       separate ? none && !is_bonded(h.formation_overlap) : none);
-      }
+      own.most_overlap = lane_max(overlap, own.most_overlap);
     } else {
-      motion.common_radius = common_radius(disc.radius, other_radius);
       auto const deep = distance < lane_max(disc.radius, other_radius);
       if (any(deep)) report_deep(first, deep);
     }
+    ContactMotion<V> const& motion = moved.of_pair;
 
     Viscosity dashpot;
     if constexpr (Losses) dashpot = viscosity(law, disc.motion.inverse_mass, moving.inverse_mass);
     Forces now;
-    ContactMotion<V> of_grains = motion;
-    if constexpr (mixed && (shears || rolls)) {
-      if (any(begins)) {  // with the slip of this step
-        StepIncrement const way = first_increment<Discs>(p, {law.dt, first, j, nx, ny, arm, other_arm});
-        of_grains.shear_increment = select(begins, way.slip, motion.shear_increment);
-        of_grains.relative_rotation = select(begins, way.rotation, motion.relative_rotation);
-        if constexpr (shears) h.shear = select(begins, V(0), h.shear);
-        if constexpr (rolls) h.moment = select(begins, V(0), h.moment);
-      }
-    }
+    ContactMotion<V> const& of_grains = Kept::of_grains(p, law, first, j, at, moved, begins, h);
     ContactForce<V> force = grain_force(law, of_grains, dashpot, h, none && !begins, now);
     if constexpr (Losses && Bond != BondKind::replace) {
-      if (law.ledger) add_grain_losses(law, motion, now, before(h, now, in_step), force, own);
+      if (law.ledger) add_grain_losses(law, motion, now, Kept::before(h, now, in_step), force, own);
     }
     [[maybe_unused]] auto intact = VMask(false), broken = VMask(false);
     if constexpr (bonded_code) {
@@ -188,23 +162,10 @@ struct ContactKernel {
     }
     auto carrying = touching;
     if constexpr (bonded_code) carrying = touching || intact;
-    write(e, h, now);
-    if constexpr (mixed && (slips || rolls)) {
-      auto const far = carrying && lane_max(other.rotation_increment * other.rotation_increment, sine2) >
-                                       V(largest_rotation * largest_rotation);
-      auto changes = broken;
-      if constexpr (shears || rolls) changes = changes || none == (separate ? touching : carrying);  // begins or ends
-      if (any(far || changes) || own.rotated_far) {
-        if constexpr (Bond == BondKind::replace) {
-          now.shear.stiffness = select(broken, V(law.grain.shear_stiffness), now.shear.stiffness);
-          if constexpr (Rolling)
-            now.moment.stiffness = select(broken, rolling_stiffness(law.grain, motion.common_radius), now.moment.stiffness);
-        }
-        ReReferenceOfPairs{rows}.apply({e, changes, touching, intact, other.ticks_x, other.ticks_y, dx, dy, inverse.of_distance2,
-                                        arm, other_arm, disc.rotation_increment, other.rotation_increment, sine2},
-                                       Forces(now));
-      }
-    }
+    Kept::write(rows, e, h, now);
+    typename Variant::Outcome masks;
+    masks.none = none, masks.touching = touching, masks.intact = intact, masks.broken = broken, masks.carrying = carrying;
+    Kept::end_step(rows, e, law, own.rotated_far, disc, other, at, moved, masks, now);
     // Entries out of touch and without a bond got exact zeros from the laws; nothing needs masking here.
     add_force(force, nx, ny, arm, own);
     return any(carrying);
@@ -240,7 +201,7 @@ struct ContactKernel {
     Own own;  // each number of which is set here: as a whole it would be set to zero by a function
     own.disc = Discs::own(p, first);
     own.most_overlap = constant<V>(-1e30);
-    own.rotated_far = mixed && any(has_rotated_far(own.disc.rotation_increment));
+    own.rotated_far = Kept::rotated_far(own.disc);
     own.force_x = own.force_y = own.torque = own.sliding = own.rolling = own.dashpot = own.breakage = V(0);
     return own;
   }
@@ -248,25 +209,6 @@ struct ContactKernel {
   using Viscosity = std::conditional_t<Losses, V, Undamped>;
   KOKKOS_FORCEINLINE_FUNCTION static V viscosity(Constants const& law, V const& inverse_mass, V const& other_inverse_mass) {
     return law.grain.damping_ratio > 0 ? dashpot_coefficient(law.grain, inverse_mass, other_inverse_mass) : V(0);
-  }
-
-  /// Pairs without a history of the grain contact (or of the bond in its place), in mixed precision.
-  KOKKOS_FORCEINLINE_FUNCTION static VMask remembers_nothing(History const& h) {
-    if constexpr (mixed && shears) return Kept::is_none(h.shear);
-    if constexpr (mixed && rolls) return Kept::is_none(h.moment);
-    return VMask(false);
-  }
-  /// In mixed precision separate bonds keep what they have: they do not slip.
-  KOKKOS_FORCEINLINE_FUNCTION void write(std::size_t e, History const& h, Forces const& now) const {
-    auto const keep = [e](RealField const& field, V const& kept, Force const& force) {
-      store(field.data<R>() + e, Kept::after(kept, force));
-    };
-    if constexpr (shears) keep(rows.shear, h.shear, now.shear);
-    if constexpr (rolls) keep(rows.moment, h.moment, now.moment);
-    if constexpr (separate && !mixed) {
-      keep(rows.bond_shear, h.bond_shear, now.bond_shear);
-      keep(rows.bond_moment, h.bond_moment, now.bond_moment);
-    }
   }
 
   /// Eq. 8: the forces of unbonded pairs, their trials put within their limits.
@@ -342,7 +284,7 @@ struct ContactKernel {
       ContactForce<V> force = limit(law, motion, dashpot, now, intact);
       if constexpr (!Rolling) force.moment = now.moment.now = select(intact, now.moment.trial, zero);
       if constexpr (Losses) {
-        if (law.ledger) add_replace_losses(law, motion, bond, now, bonded, broken, before(h, now, in_step), force, own);
+        if (law.ledger) add_replace_losses(law, motion, bond, now, bonded, broken, Kept::before(h, now, in_step), force, own);
       }
       force.normal = select(intact, bond.force.normal, force.normal);
       return force;
@@ -353,15 +295,6 @@ struct ContactKernel {
     for (int l = 0; l < lanes; ++l) {
       if (lane(deep, l)) faults.report(Fault::deep_overlap, p.id(first + static_cast<std::size_t>(l)));
     }
-  }
-
-  /// The forces at the beginning of the step.
-  KOKKOS_FORCEINLINE_FUNCTION static ContactForce<V> before(History const& h, Forces const& now, StepIncrement const& in_step) {
-    if constexpr (!mixed) return {V(0), h.shear, h.moment};
-    ContactForce<V> force{V(0), V(0), V(0)};
-    if constexpr (shears) force.shear = negative_multiply_add(now.shear.stiffness, in_step.slip, now.shear.trial);
-    if constexpr (moments) force.moment = negative_multiply_add(now.moment.stiffness, in_step.rotation, now.moment.trial);
-    return force;
   }
 
   /// Work of slip and plastic rolling of a grain contact in this step, by the mean force over the step: exactly what leapfrog

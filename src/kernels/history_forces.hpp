@@ -1,7 +1,8 @@
 #pragma once
-/// The forces and moments that pairs remember, off the hot path: whatever the precision, rows hold what gives them (history.hpp).
+/// The forces and moments that pairs remember, off the hot path: whatever the precision, rows hold what gives them
+/// (path_sum_history.hpp, reference_history.hpp).
 #include "kernels/forces.hpp"
-#include "kernels/history.hpp"
+#include "kernels/reference_configuration.hpp"
 
 namespace clathra {
 

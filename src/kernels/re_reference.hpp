@@ -1,7 +1,7 @@
 #pragma once
 /// What the contact kernel does in mixed precision where pairs get a new reference configuration.
 #include "kernels/contacts.hpp"
-#include "kernels/history.hpp"
+#include "kernels/reference_configuration.hpp"
 
 namespace clathra {
 
@@ -19,7 +19,6 @@ struct PairsToReReference {
 /// @tparam Shears,Moments  which histories grain contacts (or bonds in their place) have;  @tparam Separate  bonds have their own
 template <bool Shears, bool Moments, bool Separate>
 struct ReReference {
-  using Kept = HistoryOf<MixedPrecision>;
   ContactRows const& rows;
 
   /// Gives pairs that begin, or have rotated far, their present branch as the reference, and discs that have rotated far a new
@@ -43,7 +42,7 @@ struct ReReference {
     auto const set = [&](RealField const& field, auto const& force, FloatLanes const& way, MaskOf<FloatLanes> const& carries) {
       float* const to = field.data<float>() + at.entry;
       FloatLanes const at_reference =
-          select(carries, negative_multiply_add(force.stiffness, way, force.now), FloatLanes(Kept::none));
+          select(carries, negative_multiply_add(force.stiffness, way, force.now), FloatLanes(no_bond_single));
       store(to, select(where, at_reference, load(to)));
     };
     if constexpr (Shears) set(rows.shear, now.shear, slip, of_grains);

@@ -1,7 +1,7 @@
 #pragma once
 /// How the contact kernel reads what rows keep of contacts and bonds.
 #include "kernels/contacts.hpp"
-#include "kernels/history.hpp"
+#include "kernels/reference_configuration.hpp"
 
 namespace clathra {
 
@@ -12,22 +12,22 @@ template <class P, bool Shears, bool Moments, bool Bonds, bool Separate>
 struct RowHistory {
   using R = typename P::Real;
   using V = LanesOf<R>;
-  using Kept = HistoryOf<P>;
   static constexpr bool references = P::precision == Precision::mixed && (Shears || Separate);
 
   V shear, moment, formation_overlap, width, bond_shear, bond_moment;
 
   KOKKOS_FORCEINLINE_FUNCTION static RowHistory read(ContactRows const& rows, std::size_t e) {
+    auto const kept = [e](RealField const& field) { return load(field.data<R>() + e); };
     RowHistory h{V(0), V(0), V(no_bond_of<R>), V(0), V(0), V(0)};
-    if constexpr (Shears) h.shear = Kept::read(rows.shear, e);
-    if constexpr (Moments) h.moment = Kept::read(rows.moment, e);
+    if constexpr (Shears) h.shear = kept(rows.shear);
+    if constexpr (Moments) h.moment = kept(rows.moment);
     if constexpr (Bonds) {
-      h.formation_overlap = load(rows.formation_overlap.data<R>() + e);
-      h.width = load(rows.width.data<R>() + e);
+      h.formation_overlap = kept(rows.formation_overlap);
+      h.width = kept(rows.width);
     }
     if constexpr (Separate) {
-      h.bond_shear = Kept::read(rows.bond_shear, e);
-      h.bond_moment = Kept::read(rows.bond_moment, e);
+      h.bond_shear = kept(rows.bond_shear);
+      h.bond_moment = kept(rows.bond_moment);
     }
     return h;
   }
