@@ -34,23 +34,25 @@ Strains strains_towards(Simulation const& simulation, WallStress const& inside, 
   return {mean + difference, mean - difference};
 }
 
-/// Steps in chunks until there is no unrest() in three checks on end. @param advance  makes so many steps
+/// Steps in chunks until there is no unrest() in three checks on end, and no deviator at the last of them. @param advance  makes
+/// so many steps
 template <class Advance>
 bool step_to_rest(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
                   ProgressCallback const& progress, char const* stage, Advance const& advance) {
   std::int64_t const first = simulation.assembly().steps();
   int checks_at_rest = 0;
-  Measures m = simulation.assembly().measures();
-  while (simulation.assembly().steps() - first < most_steps && checks_at_rest < 3) {
+  bool rests = false;
+  while (simulation.assembly().steps() - first < most_steps && !rests) {
     advance(std::min<std::int64_t>(chunk, first + most_steps - simulation.assembly().steps()));
-    m = simulation.assembly().measures();
-    checks_at_rest = unrest(simulation, m, stress, rest).empty() ? checks_at_rest + 1 : 0;
+    Measures const m = simulation.assembly().measures();
+    checks_at_rest = unrest(simulation, m, stress, {rest.unbalanced}).empty() ? checks_at_rest + 1 : 0;
+    rests = checks_at_rest >= 3 && unrest(simulation, m, stress, rest).empty();
     report(progress, {stage, static_cast<double>(simulation.assembly().steps() - first) / static_cast<double>(most_steps),
                       "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " +
                           percent_text(simulation.assembly().void_ratio(), 4),
                       simulation.assembly().steps() * simulation.assembly().discs()});
   }
-  return checks_at_rest >= 3;
+  return rests;
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ struct PackedSpecimen {
 /// What is called rest.
 struct RestCriterion {
   double unbalanced = 1e-3;    ///< ratio, at most
-  double deviator = HUGE_VAL;  ///< of the stresses on the walls, over the stress that is held, at most
+  double deviator = HUGE_VAL;  ///< of the stresses on the walls, over the stress that is held, at most, at the last check
 };
 
 /// What keeps a specimen from resting under an isotropic stress, in words with the numbers; empty where nothing does. It rests
@@ -58,7 +58,7 @@ struct RestCriterion {
 /// them first; the shear of rough walls carries its part), and what `rest` asks for holds.
 std::string unrest(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest);
 
-/// Steps with walls steered to an isotropic stress until there is no unrest() in three checks on end.
+/// Steps with walls steered to an isotropic stress until there is no unrest() in three checks on end, and no deviator at the last.
 /// @return false if that took more than `most_steps`
 bool hold_stress(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
                  ProgressCallback const& progress, char const* stage);
