@@ -74,7 +74,7 @@ bool is_same(T const& a, T const& b) {
 enum class Of { all, bonded, made };  // made: whose specimen is not read from a file
 bool has_effect(Of which, Scene const& scene) {
   if (which == Of::bonded) return has_bonds(scene);
-  return which == Of::all || scene.sample.generator != Generator::file;
+  return which == Of::all || !scene.specimen.is_read();
 }
 
 /// A key of the model, and whether it says the same in two scenes.
@@ -92,38 +92,38 @@ constexpr bool same_in(Scene const& a, Scene const& b) {
 /// All that was the same in every test of the table, beside what it has columns and rows for.
 constexpr ModelKey model[] = {
     {CLATHRA_MODEL(grains, density)},
-    {CLATHRA_MODEL(grains, kn)},
-    {CLATHRA_MODEL(grains, ks)},
-    {CLATHRA_MODEL(grains, particle_stiffness_ratio), Of::bonded},
+    {CLATHRA_MODEL(grains, normal_stiffness)},
+    {CLATHRA_MODEL(grains, shear_stiffness)},
+    {CLATHRA_MODEL(bond, grain_stiffness_factor), Of::bonded},
     {CLATHRA_MODEL(grains, friction)},
-    {CLATHRA_MODEL(grains, shape_factor)},
-    {CLATHRA_MODEL(grains, contact_damping)},
+    {CLATHRA_MODEL(grains, rolling_width_factor)},
+    {CLATHRA_MODEL(damping, viscous_ratio)},
     {CLATHRA_MODEL(grading, table), Of::made},
     {CLATHRA_MODEL(grading, file), Of::made},
     {CLATHRA_MODEL(hydrate, temperature), Of::bonded},
     {CLATHRA_MODEL(hydrate, pore_pressure), Of::bonded},
     {CLATHRA_MODEL(hydrate, density), Of::bonded},
     {CLATHRA_MODEL(bond, law), Of::bonded},
-    {CLATHRA_MODEL(bond, composite), Of::bonded},
+    {CLATHRA_MODEL(bond, contact_coupling), Of::bonded},
     {CLATHRA_MODEL(bond, moment_scale), Of::bonded},
     {CLATHRA_MODEL(bond, moment_ratio), Of::bonded},
-    {CLATHRA_MODEL(bond, rod_thickness), Of::bonded},
+    {CLATHRA_MODEL(bond, thickness_mapping), Of::bonded},
     {CLATHRA_MODEL(bond, friction_floor), Of::bonded},
-    {CLATHRA_MODEL(bond, coefficients), Of::bonded},
-    {CLATHRA_MODEL(bond, mode), Of::bonded},
+    {CLATHRA_MODEL(bond, strength_from), Of::bonded},
+    {CLATHRA_MODEL(bond, critical_thickness_from), Of::bonded},
     {CLATHRA_MODEL(bond, after_consolidation), Of::bonded},
-    {CLATHRA_MODEL(bond, stress)},
+    {CLATHRA_MODEL(specimen, preparation_stress)},
     {CLATHRA_MODEL(test, confining_stress)},
     {CLATHRA_MODEL(test, wall_friction)},
     {CLATHRA_MODEL(test, consolidation_steps)},
-    {CLATHRA_MODEL(sample, width), Of::made},
-    {CLATHRA_MODEL(sample, height), Of::made},
-    {CLATHRA_MODEL(sample, aspect_ratio), Of::made},
-    {CLATHRA_MODEL(sample, generator), Of::made},
-    {CLATHRA_MODEL(sample, layers), Of::made},
-    {CLATHRA_MODEL(sample, void_ratio_at), Of::made},
-    {CLATHRA_MODEL(run, damping)},
-    {CLATHRA_MODEL(run, mass_scaling)},
+    {CLATHRA_MODEL(specimen, width), Of::made},
+    {CLATHRA_MODEL(specimen, height), Of::made},
+    {CLATHRA_MODEL(specimen, aspect_ratio), Of::made},
+    {CLATHRA_MODEL(specimen, generator), Of::made},
+    {CLATHRA_MODEL(specimen, compaction_layers), Of::made},
+    {CLATHRA_MODEL(specimen, void_ratio_at), Of::made},
+    {CLATHRA_MODEL(damping, local)},
+    {CLATHRA_MODEL(run, mass_scaled_fraction)},
 };
 #undef CLATHRA_MODEL
 
@@ -135,15 +135,16 @@ std::vector<std::string> other_keys(Scene const& scene) {
   constexpr double past_the_peak = 0.05;
   std::vector<std::string> keys;
   if (scene.test.axial_strain < past_the_peak) keys.emplace_back("test.axial_strain");
-  if (scene.sample.generator == Generator::file) {
-    keys.emplace_back("sample.file");
+  if (scene.specimen.is_read()) {
+    keys.emplace_back("specimen.file");
     return keys;
   }
-  if (std::int64_t const discs = scene.sample.particles; discs > 0 && (discs < fewest || discs > most))
-    keys.emplace_back("sample.particles");
-  bool const box = scene.sample.width > 0 && scene.sample.height > 0 && scene.sample.particles > 0;  // the fourth follows
-  if (scene.sample.void_ratio > 0 ? !is_near(scene.sample.void_ratio, void_ratio) : box) keys.emplace_back("sample.void_ratio");
-  if (scene.grading.d50 > 0 ? !is_near(scene.grading.d50, d50) : box && scene.sample.void_ratio > 0)
+  if (std::int64_t const discs = scene.specimen.particles; discs > 0 && (discs < fewest || discs > most))
+    keys.emplace_back("specimen.particles");
+  bool const box = scene.specimen.width > 0 && scene.specimen.height > 0 && scene.specimen.particles > 0;  // the fourth follows
+  if (scene.specimen.void_ratio > 0 ? !is_near(scene.specimen.void_ratio, void_ratio) : box)
+    keys.emplace_back("specimen.void_ratio");
+  if (scene.grading.d50 > 0 ? !is_near(scene.grading.d50, d50) : box && scene.specimen.void_ratio > 0)
     keys.emplace_back("grading.d50");
   return keys;
 }
@@ -160,9 +161,9 @@ std::string out_of_range(Scene const& scene, RateNumbers const& n) {
     return names;
   }
   if (has_bonds(scene) && scene.hydrate.saturation > saturation * (1 + slack)) return "only up to a saturation of 55 %";
-  if (scene.run.inertia_scaling > most_inertia * (1 + slack)) return "only up to moments of inertia times 3";
+  if (scene.run.rotational_inertia_factor > most_inertia * (1 + slack)) return "only up to moments of inertia times 3";
   if (is_faster(n.inertial_number, rates)) return text_of("only up to I = %.3g", std::end(rates)[-1].inertial_number);
-  if (scene.run.inertia_scaling > 1 && is_faster(n.inertial_number, heavier_rotation))
+  if (scene.run.rotational_inertia_factor > 1 && is_faster(n.inertial_number, heavier_rotation))
     return text_of("only up to I = %.3g with heavier rotation", std::end(heavier_rotation)[-1].inertial_number);
   if (n.wave_number > most_wave * (1 + slack)) return text_of("only up to W = %.3g", most_wave);
   return {};
@@ -171,7 +172,7 @@ std::string out_of_range(Scene const& scene, RateNumbers const& n) {
 /// Of one material.
 MeasuredError error_of(RunScene const& run, double rate, MeasuredError RateEffect::*material, MeasuredError const& of_mixed) {
   MeasuredError total = error_at(rates, rate, material);
-  if (run.inertia_scaling > 1) total = sum(total, error_at(heavier_rotation, rate, material));
+  if (run.rotational_inertia_factor > 1) total = sum(total, error_at(heavier_rotation, rate, material));
   return run.precision == Precision::mixed ? sum(total, of_mixed) : total;
 }
 

@@ -9,7 +9,7 @@
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/hydrate.hpp"
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "expected_error.hpp"
 #include "progress_line.hpp"
 #include "threads.hpp"
@@ -43,20 +43,20 @@ std::string expected_error_text(Scene const& scene, StageRecord const& numbers) 
 
 }  // namespace
 
-Forecast forecast(Scene const& scene, SampleDesign const& design, int ranks) {
+Forecast forecast(Scene const& scene, SpecimenDesign const& design, int ranks) {
   Forecast result;
   result.numbers = predict(scene, design, ranks);
   RateNumbers const rate = rate_of(result.numbers);
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
   if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty()) result.refusals.push_back(refusal);
-  if (scene.sample.generator != Generator::file) return result;
+  if (!scene.specimen.is_read()) return result;
   // The checks of the scene know only what is generated. One that was wide enough as designed is a little narrower at rest.
   constexpr double settled = 0.95;
   Grading const& grading = design.grading;
   for (std::string const& problem : {narrowness(design.width, design.height, grading.largest(), settled * fewest_grains_across),
                                      crowding(grading.smallest(), grading.largest(), reach_of_bonds(scene, grading.d50())),
-                                     wide_skin(grading, scene.run.skin)})
+                                     wide_skin(grading, scene.run.verlet_skin)})
     if (!problem.empty()) result.refusals.push_back(problem);
   return result;
 }
@@ -71,7 +71,7 @@ std::string memory_refusal(StageRecord const& numbers) {
 std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& forecast) {
   std::vector<std::string> warnings = input.warnings;
   warnings.insert(warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
-  if (input.scene.run.force)
+  if (input.scene.run.ignore_guards)
     for (std::string const& refusal : forecast.refusals) warnings.push_back("forced: " + refusal);
   return warnings;
 }
@@ -92,15 +92,18 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
   text += row("d50", fmt::format("{:.4g} mm", n.at("d50_m") * 1e3));
   text += row("bonds", has_bonds(scene) ? bonds_text(scene.hydrate) : "none");
   text += row("confining stress", fmt::format("{:.4g} MPa", scene.test.confining_stress * 1e-6));
-  std::string const rotation =
-      scene.run.inertia_scaling == 1 ? "" : fmt::format(", moments of inertia times {:g}", scene.run.inertia_scaling);
-  text += row("time step",
-              fmt::format("{:.3g} s ({:g} of {}{})", n.at("time_step_s"), scene.run.step_choice().safety,
-                          scene.run.time_step == TimeStepRule::spectrum ? "the limit of stability" : "the estimate", rotation));
+  std::string const rotation = scene.run.rotational_inertia_factor == 1
+                                   ? ""
+                                   : fmt::format(", moments of inertia times {:g}", scene.run.rotational_inertia_factor);
+  text +=
+      row("time step",
+          fmt::format("{:.3g} s ({:g} of {}{})", n.at("time_step_s"), scene.run.step_choice().safety,
+                      scene.run.time_step_rule == TimeStepRule::spectrum ? "the limit of stability" : "the estimate", rotation));
   text += row("strain rate",
               fmt::format("{:.4g} 1/s, up to {:.4g} % axial strain", n.at("strain_rate_per_s"), scene.test.axial_strain * 100));
   std::string const lowered =
-      n.at("rate_share") < 1 ? fmt::format("lowered from {:.3g} by test.wave_number; ", scene.test.inertial_number) : "";
+      n.at("rate_share") < 1 ? fmt::format("lowered from {:.3g} by test.max_platen_wave_stress; ", scene.test.inertial_number)
+                             : "";
   text += row("inertial number I",
               fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning(scene)));
   text += row("wave number W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("wave_number"), wave_limit));
@@ -119,7 +122,7 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
 }
 
 void refuse_if_needed(Scene const& scene, Forecast const& forecast) {
-  if (forecast.refusals.empty() || scene.run.force) return;
+  if (forecast.refusals.empty() || scene.run.ignore_guards) return;
   std::string text;
   for (std::string const& refusal : forecast.refusals) text += (text.empty() ? "" : "; ") + refusal;
   throw Refused(text + " (--force goes on)");

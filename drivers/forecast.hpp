@@ -5,8 +5,8 @@
 
 #include "domain/biaxial/scene_cost.hpp"
 #include "domain/parallel/ranks.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 #include "io/scene/scene_file.hpp"
 #include "machine_speed.hpp"
@@ -21,7 +21,7 @@ struct Forecast {
 
 /// @param design  of the specimen: as the scene asks for it, or as it was read
 /// @param ranks  that will share the run
-Forecast forecast(Scene const& scene, SampleDesign const& design, int ranks);
+Forecast forecast(Scene const& scene, SpecimenDesign const& design, int ranks);
 
 inline constexpr double usable_memory = 0.9;  ///< of what is free
 

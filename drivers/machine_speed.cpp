@@ -63,8 +63,8 @@ void keep(fs::path const& file, std::string const& key, double rate) {
 double measured(int threads, bool bonded, std::string const& precision) {
   print_error("clathra: measuring the speed of this machine, once (a few seconds)");
   std::string const json =
-      output_of_own_program({"bench", "--json", "--case", bonded ? "bonded" : "rolling", "--discs", "2000", "--seconds", "0.7",
-                             "--precision", precision, "--threads", fmt::format("{}", threads)});
+      output_of_own_program({"bench", "--json", "--case", bonded ? "bonded" : "rolling", "--particles", "2000", "--seconds",
+                             "0.7", "--precision", precision, "--threads", fmt::format("{}", threads)});
   return Json::parse(json).at("disc_steps_per_second").get<double>();
 }
 

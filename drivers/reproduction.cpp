@@ -22,7 +22,8 @@ std::string snapshot_strains() {
 
 std::string shared_keys(std::int64_t discs) {
   return fmt::format(
-      "# What all tests of `clathra reproduce` share; the rest is the default of `clathra`.\n[sample]\nparticles = {}\n\n[test]\n"
+      "# What all tests of `clathra reproduce` share; the rest is the default of `clathra`.\n[specimen]\nparticles = "
+      "{}\n\n[test]\n"
       "axial_strain = \"{:g} %\"\n\n[output]\nsnapshots = 0\nkeep_checkpoint = false\n",
       discs, 100 * paper_end);
 }
@@ -44,7 +45,7 @@ StudyGroup group_of(double thickness) {
   return {name,
           {{saturation_key, "55 %"},
            {confining_stress, "1 MPa"},
-           {"bond.mode", "given_thickness"},
+           {"bond.critical_thickness_from", "given_thickness"},
            {"bond.critical_thickness", fmt::format("{:g} um", std::round(thickness * 1e8) / 100)}},
           name.substr(0, name.find('_'))};
 }
@@ -63,7 +64,8 @@ Study reproduction_study(PaperDesign const& design, ReproductionSize const& size
   for (int const saturation : design.saturations)
     for (int const stress : design.stresses) study.groups.push_back(group_of(saturation, stress));
   for (double const thickness : design.thicknesses) study.groups.push_back(group_of(thickness));
-  study.keys = {saturation_key, confining_stress, "output.snapshots", snapshots_key, "bond.mode", "bond.critical_thickness"};
+  study.keys = {saturation_key,           confining_stress, "output.snapshots", snapshots_key, "bond.critical_thickness_from",
+                "bond.critical_thickness"};
   replace_text_file(study.scene, shared_keys(size.discs));
   return study;
 }

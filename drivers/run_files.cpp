@@ -30,7 +30,7 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
   });
   if (!output_.takes_snapshots()) return;
   std::vector<SnapshotEntry> const snapshots = before ? before->snapshots : std::vector<SnapshotEntry>();
-  snapshots_.emplace(folder_, ranks_, snapshots, output_.full_precision ? SnapshotNumbers::full : SnapshotNumbers::rounded);
+  snapshots_.emplace(folder_, ranks_, snapshots, output_.lossless_snapshots ? SnapshotNumbers::full : SnapshotNumbers::rounded);
   if (output_.snapshots > 0) interval_ = scene.test.axial_strain / output_.snapshots;
   if (!before) return;
   since_snapshot_ = test.events_after(snapshots.empty() ? -1 : snapshots.back().step);

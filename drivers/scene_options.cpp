@@ -21,7 +21,7 @@ void SceneOptions::add_to(CLI::App& verb) {
 LoadedScene SceneOptions::load(std::vector<std::string> more) const {
   std::vector<std::string> all = overrides;
   if (threads > 0) all.push_back(fmt::format("run.threads={}", threads));
-  if (force) all.push_back("run.force=true");
+  if (force) all.push_back("run.ignore_guards=true");
   all.insert(all.end(), more.begin(), more.end());
   std::filesystem::path const path = file;
   return parse_scene(read_once(path, largest_scene_file + 1), file, path.parent_path(), all);

@@ -49,8 +49,8 @@ struct Comparison {
 void compare(Comparison& same, GoldenBond const& golden) {
   Scene scene;
   scene.hydrate.saturation = golden.saturation;
-  scene.bond.coefficients = CoefficientSource::printed;
-  scene.grains.particle_stiffness_ratio = 1;
+  scene.bond.strength_from = CoefficientSource::printed;
+  scene.bond.grain_stiffness_factor = 1;
   double const gap = golden.share * critical_thickness_ratio(golden.saturation) * median_diameter, radius = median_diameter / 2;
   BondCard const card = evaluate_bond(scene, median_diameter, radius, radius, gap, 0);
   same("B", card.B, golden.B);
@@ -182,7 +182,7 @@ std::string check_specimen_file() {
 std::uint64_t bonded_state_hash() {
   Scene scene;
   scene.hydrate.saturation = 0.55;
-  scene.bond.coefficients = CoefficientSource::printed;
+  scene.bond.strength_from = CoefficientSource::printed;
   Specimen specimen = bondable_patch(20);
   install_bonds(scene, specimen);
   SimulationLaws laws;

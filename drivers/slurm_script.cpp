@@ -39,7 +39,8 @@ std::string shell_word(std::string const& text) {
 }
 
 void write_slurm_script(StudyPlan const& plan, SlurmJobs const& jobs) {
-  if (plan.study.until) throw Refused("--slurm needs members that are known before: leave out 'until' and give 'seeds'");
+  if (plan.study.precision_target)
+    throw Refused("--slurm needs members that are known before: leave out 'precision_target' and give 'seeds'");
   fs::path const study = jobs.script.string() + ".toml";
   replace_text_file(study, resolved_study(plan.study), Existing::kept);
   std::vector<std::string> words = {own_path(), "study", absolute_text(study), "--checkpoint-every", jobs.checkpoint_every};

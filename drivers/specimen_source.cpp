@@ -23,11 +23,11 @@ Specimen generate_recorded(Scene const& scene, ProgressLine& line, RunRecord& re
 }
 
 Specimen read_for_test(LoadedScene& input, Ranks const& ranks) {
-  std::filesystem::path const file = input.scene.sample.file;
+  std::filesystem::path const file = input.scene.specimen.file;
   CheckedSpecimen read = read_checked_specimen(file, ranks);
   require_walls(file, read.specimen);
   for (auto const& found : {compare_with_scene(file, read.specimen, input.scene), oddities(file, read.specimen, read.facts),
-                            stress_oddities(file, read.specimen, read.facts, input.scene.grains.kn)})
+                            stress_oddities(file, read.specimen, read.facts, input.scene.grains.normal_stiffness)})
     input.warnings.insert(input.warnings.end(), found.begin(), found.end());
   return std::move(read.specimen);
 }

@@ -16,7 +16,7 @@ namespace clathra {
 /// @throws Refused, Diverged, Stopped
 Specimen generate_recorded(Scene const& scene, ProgressLine& line, RunRecord& record, Ranks const& ranks);
 
-/// Reads the specimen of `sample.file` for a test by the scene and adds what is odd about it to the warnings. Collective.
+/// Reads the specimen of `specimen.file` for a test by the scene and adds what is odd about it to the warnings. Collective.
 /// @return this rank's part;  @throws FileProblem bad_input, file_missing, refused
 Specimen read_for_test(LoadedScene& input, Ranks const& ranks = {});
 

@@ -45,9 +45,10 @@ std::string study_forecast(StudyPlan const& plan, int parallel, int threads) {
   text += row("shear", fmt::format("{} at {} disc-steps/s ({})", duration_text(runs / rate), short_count(rate), speed.origin));
   text += row("memory", fmt::format("{:.3g} GB", largest_memory(plan) * parallel * 1e-9));
   text += row("disk", fmt::format("{:.3g} GB", disk * 1e-9));
-  if (plan.study.until)
-    text += row("until", fmt::format("{} is known to {:.3g} % of its mean, at most {} seeds", plan.study.until->number,
-                                     plan.study.until->width * 100, plan.study.most_seeds));
+  if (plan.study.precision_target)
+    text +=
+        row("target", fmt::format("{} is known to {:.3g} % of its mean, at most {} seeds", plan.study.precision_target->number,
+                                  plan.study.precision_target->width * 100, plan.study.max_seeds));
   return text;
 }
 

@@ -58,7 +58,7 @@ void require_known_number(StudyGoal const& goal) {
   std::vector<std::string_view> const views(names.begin(), names.end());
   std::string all;
   for (std::string const& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw SceneProblems({{"--until", 0, 0,
+  throw SceneProblems({{"--precision-target", 0, 0,
                         fmt::format("no member has a number '{}'{}; there are {}", goal.number.substr(0, 60),
                                     name_suggestion(goal.number, views), all)}});
 }
@@ -94,7 +94,7 @@ bool GoalSearch::add_members(StudyPlan& plan, ProgressLine& line) {
     if (search.done()) continue;
     std::vector<std::uint64_t> const seeds = seeds_of(plan, searched.groups.front());
     auto const count = static_cast<int>(seeds.size()),
-               more = std::min(search.wanted() - static_cast<int>(searched.values.size()), most_seeds_ - count);
+               more = std::min(search.wanted() - static_cast<int>(searched.values.size()), max_seeds_ - count);
     if (more <= 0) {
       MeanInterval const now = mean_interval(searched.values);
       line.warn(fmt::format("{}: {} is known to {:.2g} % with {} seeds, not to {:.2g} %", name, goal_->number,

@@ -19,7 +19,7 @@ void require_known_number(StudyGoal const& goal);
 /// number of seeds. What it decides follows from the results alone, so a study that is resumed decides the same again.
 class GoalSearch {
  public:
-  explicit GoalSearch(Study const& study) : goal_(study.until), most_seeds_(study.most_seeds) {}
+  explicit GoalSearch(Study const& study) : goal_(study.precision_target), max_seeds_(study.max_seeds) {}
   /// Looks at what is finished and adds the members of the next wave. @return false where there is none: every mean is known, or
   /// has as many seeds as it may, which is then a warning
   bool add_members(StudyPlan& plan, ProgressLine& line);
@@ -33,7 +33,7 @@ class GoalSearch {
   std::map<std::string, Searched> collect(StudyPlan const& plan) const;
 
   std::optional<StudyGoal> goal_;
-  int most_seeds_;
+  int max_seeds_;
   std::map<std::string, SequentialMean> searches_;
 };
 

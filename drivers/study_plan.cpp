@@ -26,17 +26,18 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Keys that a specimen read from a file has a say in instead of the scene.
-constexpr std::string_view size_keys[] = {"sample.particles", "sample.void_ratio", "sample.void_ratio_at",
-                                          "sample.width",     "sample.height",     "grading.d50"};
+constexpr std::string_view size_keys[] = {
+    "specimen.particles", "specimen.void_ratio", "specimen.void_ratio_at",     "specimen.width",
+    "specimen.height",    "specimen.generator",  "specimen.compaction_layers", "grading.d50"};
 
 /// Whether the making of a specimen could depend on a key: of one that is to have its void ratio at the start of the test, what
 /// it goes through before the test is part of it. What is sheared and written later is not, nor what trades accuracy for speed:
 /// settings are compared on the same specimens.
 bool is_of_generation(std::string const& key, Scene const& scene) {
-  if (key.starts_with("sample.") || key.starts_with("grading.") || key == "run.seed") return true;
-  if (scene.sample.void_ratio_at == VoidRatioAt::preparation)
-    return key == "bond.stress" || key == "grains.density" || key == "grains.kn" || key == "grains.ks";
-  if (key == "grains.contact_damping") return false;
+  if (key.starts_with("specimen.") || key.starts_with("grading.") || key == "run.seed") return true;
+  if (scene.specimen.void_ratio_at == VoidRatioAt::preparation)
+    return key == "grains.density" || key == "grains.normal_stiffness" || key == "grains.shear_stiffness";
+  if (key == "damping.viscous_ratio") return false;
   return key.starts_with("grains.") || key.starts_with("bond.") || key.starts_with("hydrate.") ||
          key == "test.confining_stress" || key == "test.wall_friction";
 }
@@ -62,7 +63,7 @@ bool is_of_size(std::string const& text) {
 }
 
 /// What a specimen in a file says of the cost of testing it.
-SampleDesign const& design_of_file(StudyPlan& plan, std::string const& file) {
+SpecimenDesign const& design_of_file(StudyPlan& plan, std::string const& file) {
   auto const found = plan.designs.find(file);
   if (found != plan.designs.end()) return found->second;
   Specimen const specimen = read_specimen(file);
@@ -72,8 +73,8 @@ SampleDesign const& design_of_file(StudyPlan& plan, std::string const& file) {
 
 /// What a member will cost and what its guards say. @throws FileProblem where it reads a specimen that cannot be read
 Forecast forecast_of(StudyPlan& plan, Scene const& scene) {
-  if (scene.sample.generator != Generator::file) return forecast(scene, design_sample(scene), 1);
-  return forecast(scene, design_of_file(plan, scene.sample.file), 1);
+  if (!scene.specimen.is_read()) return forecast(scene, design_sample(scene), 1);
+  return forecast(scene, design_of_file(plan, scene.specimen.file), 1);
 }
 
 std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::string> const& overrides) {
@@ -88,7 +89,7 @@ std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::
   task.log = plan.study.folder / "logs" / (name + ".log");
   std::vector<std::string> making;
   for (std::string const& text : overrides)
-    if (std::string const key = text.substr(0, text.find('=')); is_of_generation(key, scene) || key == "run.force")
+    if (std::string const key = text.substr(0, text.find('=')); is_of_generation(key, scene) || key == "run.ignore_guards")
       making.push_back(text);
   task.arguments = with_set({"generate", plan.study.scene.string(), "-o", task.result.string()}, making);
   StageRecord const cost = predict(scene);
@@ -111,9 +112,9 @@ Scene scene_of_member(StudyPlan& plan, StudyGroup const& group, std::uint64_t se
     }
     plan.refused[group.name] = std::move(why);
     StudyGroup forced = group;
-    forced.settings.emplace_back("run.force", "true");
+    forced.settings.emplace_back("run.ignore_guards", "true");
     Scene scene = member_scene(plan.study, forced, seed).scene;
-    scene.run.force = false;
+    scene.run.ignore_guards = false;
     return scene;
   }
 }
@@ -138,8 +139,8 @@ StudyPlan plan_study(Study study) {
     try {
       Scene const scene = scene_of_member(plan, group, plan.study.seeds.front());
       SceneTexts texts = scene_texts(scene, ".");
-      texts["sample.file"] = scene.sample.file;
-      if (scene.sample.generator == Generator::file) read_files.push_back(group.name);
+      texts["specimen.file"] = scene.specimen.file;
+      if (scene.specimen.is_read()) read_files.push_back(group.name);
       auto const [other, is_new] = seen.emplace(std::move(texts), group.name);
       if (!is_new)
         problems.push_back(
@@ -150,13 +151,14 @@ StudyPlan plan_study(Study study) {
           problems.push_back(problem);
     }
   }
-  if (problems.empty() && !plan.study.seeds_stated && !plan.study.until && read_files.size() == plan.study.groups.size())
+  if (problems.empty() && !plan.study.seeds_stated && !plan.study.precision_target &&
+      read_files.size() == plan.study.groups.size())
     plan.study.seeds.resize(1);
-  if (!read_files.empty() && (plan.study.seeds.size() > 1 || plan.study.until))
+  if (!read_files.empty() && (plan.study.seeds.size() > 1 || plan.study.precision_target))
     problems.push_back(
         {plan.study.file.string(), 0, 0,
          fmt::format("seeds change nothing in the group {}, whose specimen comes from a file: all would be the same "
-                     "test. Write seeds = 1, or let specimens be made (sample.generator)",
+                     "test. Write seeds = 1, or let specimens be made (specimen.generator)",
                      read_files.front())});
   if (!problems.empty()) throw SceneProblems(std::move(problems));
   return plan;
@@ -175,11 +177,11 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   task.memory = cost.numbers.at("memory_bytes");
   task.disk = cost.numbers.at("disk_bytes");
   task.refusals = plan.refused[of.name];
-  if (!scene.run.force) task.refusals.insert(task.refusals.end(), cost.refusals.begin(), cost.refusals.end());
-  if (scene.sample.generator != Generator::file) {
+  if (!scene.run.ignore_guards) task.refusals.insert(task.refusals.end(), cost.refusals.begin(), cost.refusals.end());
+  if (!scene.specimen.is_read()) {
     task.specimen = specimen_task(plan, scene, overrides);
     std::erase_if(overrides, is_of_size);
-    overrides.insert(overrides.end(), {"sample.generator=file", "sample.file=" + plan.specimens[*task.specimen].result.string()});
+    overrides.insert(overrides.end(), {"specimen.file=" + plan.specimens[*task.specimen].result.string()});
   }
   task.arguments = with_set({"run", plan.study.scene.string(), "--output", task.result.string(), "--resume"}, overrides);
   MemberResult member;

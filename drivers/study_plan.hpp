@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "io/results/study_results.hpp"
 #include "io/scene/study_members.hpp"
 
@@ -31,7 +31,7 @@ struct StudyPlan {
   std::vector<StudyTask> runs;                              ///< of members[i]
   std::vector<StudyTask> specimens;                         ///< each for all members of the same scene of generation and seed
   std::map<std::string, std::vector<std::string>> refused;  ///< by group: what the guards of its scene say
-  std::map<std::string, SampleDesign> designs;              ///< of the specimens that scenes read from files of their own
+  std::map<std::string, SpecimenDesign> designs;            ///< of the specimens that scenes read from files of their own
 
   /// The scene of a run, once its specimen is there. @throws SceneProblems, FileProblem
   LoadedScene scene_of_run(std::size_t member) const;

@@ -38,7 +38,7 @@ std::vector<std::string> Summary::warnings() const {
   if (has_energy_ && !(std::fabs(energy_residual()) <= most_residual))
     texts.push_back(
         fmt::format("{:.3g} % of the boundary work is unaccounted for (more than {:g} %): the time step is too long for "
-                    "this test, lower run.dt_safety",
+                    "this test, lower run.time_step_safety",
                     100 * std::fabs(energy_residual()), 100 * most_residual));
   return texts;
 }

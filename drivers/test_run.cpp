@@ -65,8 +65,8 @@ class TestRun::Running {
       if (!limits_.resume && !limits_.overwrite) require_no_kept_run();
       replaces_ = holds_results(folder_);
       std::error_code ignored;
-      if (replaces_ && specimen_ && std::filesystem::equivalent(scene_.sample.file, folder_ / "final.h5", ignored))
-        throw FileProblem(ExitCode::refused, scene_.sample.file,
+      if (replaces_ && specimen_ && std::filesystem::equivalent(scene_.specimen.file, folder_ / "final.h5", ignored))
+        throw FileProblem(ExitCode::refused, scene_.specimen.file,
                           "is a result that the new run would take the place of: copy it elsewhere, or choose another folder");
       forget_next_specimen();  // of a run that was killed
     });
@@ -138,9 +138,8 @@ class TestRun::Running {
   /// to be sheared, after which no guard of the preparation can refuse it.
   void take_folder() {
     on_root(ranks_, [&] {
-      lock_->clear(scene_.sample.file);
-      if (replaces_ && scene_.sample.generator != Generator::file)
-        std::filesystem::rename(folder_ / next_specimen, folder_ / "specimen.h5");
+      lock_->clear(scene_.specimen.file);
+      if (replaces_ && !scene_.specimen.is_read()) std::filesystem::rename(folder_ / next_specimen, folder_ / "specimen.h5");
     });
     begin_record();
   }

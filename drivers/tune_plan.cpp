@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "domain/biaxial/scene_cost.hpp"
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "io/errors/problems.hpp"
 #include "io/scene/schema.hpp"
 #include "study_goal.hpp"
@@ -17,8 +17,9 @@ namespace {
 constexpr double ladder_rates[] = {3e-3, 1e-3, 3e-4, 1e-4, 3e-5};
 
 /// Keys that the levels set themselves.
-constexpr std::string_view tuned_keys[] = {"test.inertial_number", "test.strain_rate", "test.wave_number",    "run.precision",
-                                           "run.dt_safety",        "run.accuracy",     "run.inertia_scaling", "run.mass_scaling"};
+constexpr std::string_view tuned_keys[] = {
+    "test.inertial_number", "test.strain_rate", "test.max_platen_wave_stress",   "run.precision",
+    "run.time_step_safety", "run.preset",       "run.rotational_inertia_factor", "run.mass_scaled_fraction"};
 
 /// Keys of the command line that no level takes: each has its own.
 constexpr std::string_view own_keys[] = {"run.seed", "run.threads", "output.folder"};
@@ -48,34 +49,34 @@ bool is_reference(TuneSetting const& setting) {
 }
 
 TuneSetting setting_of(Scene const& scene) {
-  return {predict(scene).at("inertial_number"), scene.run.precision, scene.run.dt_safety, scene.run.inertia_scaling,
-          scene.run.mass_scaling};
+  return {predict(scene).at("inertial_number"), scene.run.precision, scene.run.time_step_safety,
+          scene.run.rotational_inertia_factor, scene.run.mass_scaled_fraction};
 }
 
 std::vector<Setting> keys_of_rung(TuneSetting const& s) {
   return {{"test.inertial_number", share_text(s.inertial_number)},
-          {"test.wave_number", "0"},
+          {"test.max_platen_wave_stress", "0"},
           {"run.precision", precision_names[static_cast<int>(s.precision)]},
-          {"run.dt_safety", s.dt_safety > 0 ? share_text(s.dt_safety) : ""},
-          {"run.inertia_scaling", share_text(s.inertia_scaling)},
-          {"run.mass_scaling", share_text(s.mass_scaling)}};
+          {"run.time_step_safety", s.dt_safety > 0 ? share_text(s.dt_safety) : ""},
+          {"run.rotational_inertia_factor", share_text(s.inertia_scaling)},
+          {"run.mass_scaled_fraction", share_text(s.mass_scaling)}};
 }
 
 /// The size of a level: that of the scene, in smaller.
-std::vector<std::string> sample_of_rung(Scene const& scene, SampleDesign const& design, std::int64_t discs) {
+std::vector<std::string> sample_of_rung(Scene const& scene, SpecimenDesign const& design, std::int64_t discs) {
   double const smaller = std::sqrt(static_cast<double>(discs) / static_cast<double>(design.particles));
-  std::vector<std::string> overrides = {"sample.generator=under_compaction",
-                                        "sample.particles=",
-                                        fmt::format("sample.width={}", design.width * smaller),
-                                        fmt::format("sample.height={}", design.height * smaller),
-                                        fmt::format("sample.void_ratio={}", design.void_ratio),
+  std::vector<std::string> overrides = {"specimen.generator=under_compaction",
+                                        "specimen.particles=",
+                                        fmt::format("specimen.width={}", design.width * smaller),
+                                        fmt::format("specimen.height={}", design.height * smaller),
+                                        fmt::format("specimen.void_ratio={}", design.void_ratio),
                                         fmt::format("grading.d50={}", design.grading.d50())};
-  if (scene.sample.layers > 5) overrides.emplace_back("sample.layers=5");
+  if (scene.specimen.compaction_layers > 5) overrides.emplace_back("specimen.compaction_layers=5");
   return overrides;
 }
 
 /// Of a level whose narrower side has grains enough across.
-std::int64_t fewest_discs(SampleDesign const& design) {
+std::int64_t fewest_discs(SpecimenDesign const& design) {
   double const side = std::min(design.width, design.height),
                share = std::pow(fewest_grains_across * design.grading.largest() / side, 2);
   constexpr double spare = 1.05;  // the number of discs is whole, the box follows
@@ -137,14 +138,15 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
   plan.base = load_scene(scene, overrides);
   plan.goal = goal;
   Scene const& base = plan.base.scene;
-  if (base.sample.generator == Generator::file)
-    throw Refused("tune needs specimens of several seeds: a specimen from a file (sample.generator) is one only");
-  SampleDesign const design = design_sample(base);
+  if (base.specimen.is_read())
+    throw Refused("tune needs specimens of several seeds: a specimen from a file (specimen.generator) is one only");
+  SpecimenDesign const design = design_sample(base);
   discs = std::max(discs, fewest_discs(design));
   plan.reduced = discs < design.particles;
   plan.discs = std::min(discs, design.particles);
   for (double const rate : ladder_rates)
-    for (TuneSetting const& setting : settings_at(rate, 0.5 * RunScene{.time_step = base.run.time_step}.step_choice().safety))
+    for (TuneSetting const& setting :
+         settings_at(rate, 0.5 * RunScene{.time_step_rule = base.run.time_step_rule}.step_choice().safety))
       plan.settings.push_back(setting);
   TuneSetting const own = setting_of(base);
   auto const known = std::find(plan.settings.begin(), plan.settings.end(), own);
@@ -196,7 +198,8 @@ Scene TunePlan::scene_with(std::size_t setting) const {
 
 std::vector<Setting> TunePlan::keys_of(std::size_t setting) const {
   TuneSetting const& s = settings[setting];
-  double const step = s.dt_safety > 0 ? s.dt_safety : RunScene{.time_step = base.scene.run.time_step}.step_choice().safety;
+  double const step =
+      s.dt_safety > 0 ? s.dt_safety : RunScene{.time_step_rule = base.scene.run.time_step_rule}.step_choice().safety;
   std::vector<Setting> keys = keys_of_rung(s);
   keys[1].second = fmt::format("{:.3g}", wave_number(setting));
   keys[3].second = share_text(step);

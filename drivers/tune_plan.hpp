@@ -39,7 +39,7 @@ struct TunePlan {
 
   /// The trials of a search among the settings, costs by prediction.
   std::vector<Trial> trials() const;
-  /// W of a level at its rate. It grows with the height: the scene itself keeps to it by test.wave_number.
+  /// W of a level at its rate. It grows with the height: the scene itself keeps to it by test.max_platen_wave_stress.
   double wave_number(std::size_t setting) const;
   /// The scene at full size with a setting.
   Scene scene_with(std::size_t setting) const;

@@ -59,7 +59,7 @@ std::string comment_of(std::string const& key, TunePlan const& plan, SettingSear
   if (key == "test.inertial_number")
     return fmt::format("clathra tune, within {:g} %: with all its keys {}; {:.3g} of the cost that was",
                        100 * plan.goal.tolerance, measured_text(plan, all), plan.relative_cost(setting));
-  if (key == "test.wave_number")
+  if (key == "test.max_platen_wave_stress")
     return plan.reduced ? "W of the specimens that were measured: a taller one is sheared slower"
                         : "W of the specimens that were measured";
   return fmt::format("measured with these keys: {:+.2f} +- {:.2f} %", 100 * all.error, 100 * all.half_width);
@@ -95,7 +95,7 @@ std::string tuned_scene(TunePlan const& plan, SettingSearch const& search, std::
     std::erase_if(edits, [&](SceneEdit const& edit) { return edit.key == name; });
     edits.push_back({name, value_text(*find_key(name), wanted), comment_of(name, plan, search, setting)});
   }
-  std::erase_if(edits, [](SceneEdit const& edit) { return edit.key == "test.strain_rate" || edit.key == "run.accuracy"; });
+  std::erase_if(edits, [](SceneEdit const& edit) { return edit.key == "test.strain_rate" || edit.key == "run.preset"; });
   if (!wanted.grading.file.empty())
     edits.push_back(
         {"grading.file", fmt::format("\"{}\"", std::filesystem::proximate(wanted.grading.file, folder).string()), ""});

@@ -23,7 +23,7 @@ run() {
   [ -f "$out/${name#paper/}/final.h5" ] ||
     "$program" run "$scene" --set run.threads="$threads" "$@" --resume --output "$out/${name#paper/}"
 }
-of_specimen=(--set sample.generator=file --set "sample.file=$out/specimen.h5")
+of_specimen=(--set "specimen.file=$out/specimen.h5")
 tests=()
 for stress in 1mpa 2mpa 3mpa; do
   for saturation in sand s26 s41 s55; do

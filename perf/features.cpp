@@ -63,8 +63,8 @@ std::vector<Feature> features() {
   auto const rough = [](Simulation& s) { with_laws(s, [](SimulationLaws& l) { l.wall.friction = 0.3; }); };
   auto const ledger = [](Simulation& s) { s.set_ledger(true); };
   auto const marks = [](Simulation& s) { s.mark_start(); };
-  return {{"rolling resistance (`grains.shape_factor`)", rolling, shape_factor(0), nothing},
-          {"contact dashpots (`grains.contact_damping`)", rolling, nothing, dashpot},
+  return {{"rolling resistance (`grains.rolling_width_factor`)", rolling, shape_factor(0), nothing},
+          {"contact dashpots (`damping.viscous_ratio`)", rolling, nothing, dashpot},
           {"rough walls (`test.wall_friction`)", rolling, nothing, rough},
           {"energy ledger (`output.energy`)", rolling, nothing, ledger},
           {"displacements of snapshots (`output.snapshots`)", rolling, nothing, marks},

@@ -11,9 +11,9 @@ source "$root/tests/kill_session.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-for key in sample.particles=$discs test.axial_strain=0.03 output.records=100 output.snapshots=2; do scene+=(--set "$key"); done
+for key in specimen.particles=$discs test.axial_strain=0.03 output.records=100 output.snapshots=2; do scene+=(--set "$key"); done
 mpirun -n 2 "$clathra" generate "${scene[@]}" -o specimen.h5 2>log >/dev/null
-given=(run "${scene[@]}" --set sample.generator=file --set sample.file=specimen.h5)
+given=(run "${scene[@]}" --set specimen.file=specimen.h5)
 begin=$SECONDS
 mpirun -n 2 "$clathra" "${given[@]}" --output alone >log 2>&1
 echo "left alone on 2 ranks: $((SECONDS - begin)) s, $(tail -n 1 alone/history.csv | cut -d, -f15-18 | tr , +) = $(($(wc -l <alone/events.csv) - 1)) bonds broken"

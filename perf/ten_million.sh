@@ -12,7 +12,7 @@ job=
 trap 'kill $job 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
 # Bonded under the confining stress of the test, and sheared without the consolidation, which would take hours.
-for key in sample.particles=$discs test.consolidation_steps=0 test.axial_strain=0.0013 output.records=20 output.snapshots=1; do scene+=(--set "$key"); done
+for key in specimen.particles=$discs test.consolidation_steps=0 test.axial_strain=0.0013 output.records=20 output.snapshots=1; do scene+=(--set "$key"); done
 # Leaves the sum of the greatest resident memories of the ranks, in MB, in a file: watched FILE COMMAND...
 watched() {
   local file=$1 peak=0 now
@@ -39,7 +39,7 @@ timed() { # timed WHAT COMMAND...: the command with its wall time and memory
 "$clathra" check "${scene[@]}" --ranks 2 | grep -E "memory|disk|steps"
 [ -n "$specimen" ] || timed "generated" mpirun -n 2 "$clathra" generate "${scene[@]}" -o specimen.h5
 specimen=${specimen:-$PWD/specimen.h5}
-given=(run "${scene[@]}" --set sample.generator=file --set "sample.file=$specimen")
+given=(run "${scene[@]}" --set "specimen.file=$specimen")
 timed "bonded and sheared, left alone" mpirun -n 2 "$clathra" "${given[@]}" --output alone
 ls -l "$specimen" alone/*.h5 alone/snap/*.h5 | awk '{ print $9 ": " int($5 / 1e6) " MB" }'
 timed "told to stop at its first checkpoint" mpirun -n 2 "$clathra" "${given[@]}" --output resumed --max-walltime 1s

@@ -26,9 +26,9 @@ offers "--version" --ve
 offers "--dry-run" run --dr
 offers "--set" run scene.toml --s
 offers "hydrate.saturation=" run --set hydrate.s
-offers "parallel" run scene.toml --set bond.composite = pa
-offers "replace parallel memory" run --set bond.composite =
-offers "true false" run --set run.force =
+offers "parallel" run scene.toml --set bond.contact_coupling = pa
+offers "replaces parallel replaces_keeping_force" run --set bond.contact_coupling =
+offers "true false" run --set run.ignore_guards =
 offers "" run --set test.axial_strain =
 offers "printed thm" bond --coefficients ""
 offers "lammpsdump vtu csv" export folder --to ""

@@ -35,7 +35,7 @@ shows() {
 
 with_small_runs() {
   sed -E -e ':join' -e '/\\$/{N;s/\\\n//;b join' -e '}' \
-    -e 's/^clathra run .*/& --set sample.particles=300 --set test.axial_strain="1 %"/' "$1"
+    -e 's/^clathra run .*/& --set specimen.particles=300 --set test.axial_strain="1 %"/' "$1"
 }
 
 mapfile -t files < <(blocks)

@@ -100,7 +100,7 @@ TEST(Diverged, SaysSinceWhenWhereAndWhatToChange) {
     EXPECT_TRUE(names(text, part)) << part << " is not in " << text;
   double const share = std::stod(text.substr(text.find("the time step is ") + 17));
   EXPECT_GT(share, 1) << text;
-  EXPECT_TRUE(names(text, "shorten the step (run.dt_safety)")) << text;
+  EXPECT_TRUE(names(text, "shorten the step (run.time_step_safety)")) << text;
 }
 
 TEST(Diverged, NamesThePlaceAndTheDeepestContactOfTheDisc) {
@@ -219,7 +219,7 @@ TEST(ExtremeSizes, AreNotBlamedForASkinThatListsTooMany) {
     Simulation const sim(s, laws, 7 * grain_d50);
     ADD_FAILURE() << "went on";
   } catch (Diverged const& fault) {
-    EXPECT_TRUE(names(fault.what(), "give a smaller run.skin, or none: ")) << fault.what();
+    EXPECT_TRUE(names(fault.what(), "give a smaller run.verlet_skin, or none: ")) << fault.what();
     EXPECT_TRUE(names(fault.what(), " are 7 of d50, where 0.12 are usual")) << fault.what();
     EXPECT_FALSE(names(fault.what(), "grading")) << fault.what();
   }

@@ -19,7 +19,7 @@ Scene sand_scene() {
   scene.run.precision = tested_precision();
   scene.test.axial_strain = 0.01;
   scene.test.inertial_number = 2e-4;
-  scene.test.wave_number = 0;  // as fast as a test here says
+  scene.test.max_platen_wave_stress = 0;  // as fast as a test here says
   scene.output.records = 20;
   scene.output.energy = true;
   return scene;
@@ -80,32 +80,32 @@ TEST(ExtremeScenes, WithoutFrictionAndWithTooMuch) {
 
 TEST(ExtremeScenes, WithoutShearStiffnessAndWithAsMuchAsNormal) {
   Scene scene = sand_scene();
-  scene.grains.ks = 0;
+  scene.grains.shear_stiffness = 0;
   expect_row("k_s = 0", "peak q/p", expect_sound("k_s = 0", scene).peak_ratio, 0, 1);
-  scene.grains.ks = scene.grains.kn;
+  scene.grains.shear_stiffness = scene.grains.normal_stiffness;
   expect_row("k_s = k_n", "peak q/p", expect_sound("k_s = k_n", scene).peak_ratio, 0.3, 1.5);
 }
 
 TEST(ExtremeScenes, WithoutRollingResistanceAndWithTooMuch) {
   Scene scene = sand_scene();
-  scene.grains.shape_factor = 0;
+  scene.grains.rolling_width_factor = 0;
   double const round = expect_sound("shape factor 0", scene).peak_ratio;
   // Of so few discs by chance: 0.09 to 0.33 were seen, with other specimens.
   expect_row("shape factor 0", "peak q/p", round, 0.05, 1);
-  scene.grains.shape_factor = 10;
+  scene.grains.rolling_width_factor = 10;
   expect_row("shape factor 10", "peak q/p", expect_sound("shape factor 10", scene).peak_ratio, round, 2);
 }
 
 TEST(ExtremeScenes, FromOneKilopascalToAHundredMegapascals) {
   Scene scene = sand_scene();
-  scene.sample.particles = 100;
-  scene.sample.void_ratio = 0.3;  // looser than 0.32 such a specimen is made or refused by chance
-  scene.sample.layers = 1;
-  scene.bond.stress = scene.test.confining_stress = 1e3;
+  scene.specimen.particles = 100;
+  scene.specimen.void_ratio = 0.3;  // looser than 0.32 such a specimen is made or refused by chance
+  scene.specimen.compaction_layers = 1;
+  scene.specimen.preparation_stress = scene.test.confining_stress = 1e3;
   if (tested_precision() == Precision::mixed) {
     expect_refusal<Refused>("sigma_3 = 1 kPa in mixed precision, k_n/p = 3e5", "does not resolve",
                             [&] { shear(scene, generate_specimen(scene, {}).specimen); });
-    scene.bond.stress = scene.test.confining_stress = 30e3;
+    scene.specimen.preparation_stress = scene.test.confining_stress = 30e3;
   }
   Shear const soft = shear(scene, generate_specimen(scene, {}).specimen);
   std::string const least = "sigma_3 = " + short_text(scene.test.confining_stress / 1e3) + " kPa";
@@ -126,11 +126,12 @@ TEST(ExtremeScenes, AThousandTimesSofterAndStifferUnderStressesToMatch) {
     Scene scene = sand_scene();
     scene.test.axial_strain = 1e-4;
     scene.test.inertial_number = 1e-3;
-    for (double* stress : {&scene.grains.kn, &scene.grains.ks, &scene.test.confining_stress, &scene.bond.stress})
+    for (double* stress : {&scene.grains.normal_stiffness, &scene.grains.shear_stiffness, &scene.test.confining_stress,
+                           &scene.specimen.preparation_stress})
       *stress *= factor;
-    scene.sample.particles = 100;
-    scene.sample.void_ratio = 0.3;  // looser than 0.32 such a specimen is made or refused by chance
-    scene.sample.layers = 1;
+    scene.specimen.particles = 100;
+    scene.specimen.void_ratio = 0.3;  // looser than 0.32 such a specimen is made or refused by chance
+    scene.specimen.compaction_layers = 1;
     ratios[n++] = shear(scene, generate_specimen(scene, {}).specimen).void_ratio;
   }
   expect_row("k_n and stresses 1,000 times less", "void ratio over the usual", ratios[1] / ratios[0], 0.98, 1.02);
@@ -165,7 +166,7 @@ TEST(ExtremeScenes, FiftyPercentStrain) {
   Scene scene = bonded_scene(0.55);
   scene.test.axial_strain = 0.5;
   scene.test.inertial_number = 1e-3;
-  scene.run.force = true;
+  scene.run.ignore_guards = true;
   Shear const s = shear(scene);
   expect_row("50 % axial strain, 55 % hydrate", "energy residual over boundary work", s.residual, 0, 2e-3);
   expect_row("50 % axial strain, 55 % hydrate", "bonds broken", s.broken, 100, 1e99);
@@ -185,8 +186,8 @@ TEST(ExtremeScenes, BrittleFailureKeepsTheConfiningStress) {
 
 TEST(ExtremeScenes, ScaledMassesThatMoveTooFastEndTheTest) {
   Scene scene = sand_scene();
-  scene.run.inertia_scaling = 3;
-  scene.run.mass_scaling = 0.1;
+  scene.run.rotational_inertia_factor = 3;
+  scene.run.mass_scaled_fraction = 0.1;
   expect_row("inertias times 3, the smallest 10 % heavier", "energy residual over boundary work", shear(scene).residual, 0, 2e-3);
   scene.test.inertial_number = 5e-3;
   scene.test.axial_strain = 0.05;

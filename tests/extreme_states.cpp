@@ -265,7 +265,7 @@ double early_ratio(double inertial_number, double nudge) {
   scene.run.precision = tested_precision();
   scene.test.axial_strain = 0.003;
   scene.test.inertial_number = inertial_number;
-  scene.test.wave_number = 0;
+  scene.test.max_platen_wave_stress = 0;
   scene.output.records = 1;
   Specimen s = packing();
   s.x[7] += nudge * s.d50;

@@ -62,7 +62,7 @@ class BatchSignals : public testing::Test {
     std::string const script = (folder / "job.sh").string();
     std::ofstream(script) << before
                           << " '" CLATHRA_BINARY "' run " CLATHRA_EXAMPLES
-                             "/quick.toml --threads 1 --set sample.generator=file --set sample.file=" CLATHRA_GOLDEN
+                             "/quick.toml --threads 1 --set specimen.file=" CLATHRA_GOLDEN
                              "/specimen.h5 --set test.inertial_number=1e-6 --set output.snapshots=0 --output '"
                           << (folder / "out").string() << "' &\nrun=$!\nwhile [ ! -s '"
                           << (folder / "out" / "history.csv").string() << "' ]; do sleep 0.1; done\n"
@@ -98,9 +98,9 @@ class BoundTask : public BatchSignals {};
 
 /// A short run with made-up variables of a launcher. @return threads that it took
 int threads_under(std::string const& variables, fs::path const& folder) {
-  CommandResult const result =
-      run_clathra("--version > /dev/null; env -u OMP_NUM_THREADS -u SLURM_CPUS_ON_NODE " + variables +
-                  " '" CLATHRA_BINARY "' bench --discs 1000 --seconds 0.01 --json > '" + (folder / "card.json").string() + "'");
+  CommandResult const result = run_clathra("--version > /dev/null; env -u OMP_NUM_THREADS -u SLURM_CPUS_ON_NODE " + variables +
+                                           " '" CLATHRA_BINARY "' bench --particles 1000 --seconds 0.01 --json > '" +
+                                           (folder / "card.json").string() + "'");
   EXPECT_EQ(result.code, 0) << result.output;
   std::string const text = read_text_file(folder / "card.json", 1 << 20);
   std::size_t const at = text.find("\"threads\": ");

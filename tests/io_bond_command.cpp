@@ -228,7 +228,7 @@ TEST(CommandLine, PricesThePapersStrainRate) {
 TEST(BenchCommand, PrintsACardOfThisMachine) {
   for (char const* const what : {"rolling", "bonded"}) {
     CommandResult const result =
-        run_clathra(std::string("bench --case ") + what + " --discs 2000 --threads 1 --seconds 0.05 --json 2>/dev/null");
+        run_clathra(std::string("bench --case ") + what + " --particles 2000 --threads 1 --seconds 0.05 --json 2>/dev/null");
     ASSERT_EQ(result.code, 0) << result.output;
     auto const card = nlohmann::json::parse(result.output);
     double const discs = card["disc_steps_per_second"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
@@ -247,7 +247,7 @@ TEST(BenchCommand, PrintsACardOfThisMachine) {
 
 TEST(BenchCommand, PrintsATableOfSizesInBothPrecisions) {
   CommandResult const result =
-      run_clathra("bench --card --case rolling --discs 4000 --threads 1 --seconds 0.05 --json 2>/dev/null");
+      run_clathra("bench --card --case rolling --particles 4000 --threads 1 --seconds 0.05 --json 2>/dev/null");
   ASSERT_EQ(result.code, 0) << result.output;
   auto const rows = nlohmann::json::parse(result.output)["rows"];
   ASSERT_EQ(rows.size(), 4);
@@ -263,7 +263,7 @@ TEST(BenchCommand, PrintsATableOfSizesInBothPrecisions) {
   }
   EXPECT_LT(rows[1]["bytes_per_disc"], rows[0]["bytes_per_disc"]);
   EXPECT_EQ(run_clathra("bench --card --precision mixed").code, 64);
-  EXPECT_EQ(run_clathra("bench --card --discs 1000").code, 64);
+  EXPECT_EQ(run_clathra("bench --card --particles 1000").code, 64);
 }
 
 }  // namespace

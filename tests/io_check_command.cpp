@@ -30,7 +30,7 @@ class CheckCommand : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder);
-    std::ofstream(scene) << "[sample]\nparticles = 300\n[test]\naxial_strain = \"0.2 %\"\n[output]\nrecords = 10\n";
+    std::ofstream(scene) << "[specimen]\nparticles = 300\n[test]\naxial_strain = \"0.2 %\"\n[output]\nrecords = 10\n";
   }
   void TearDown() override { fs::remove_all(folder); }
 
@@ -44,7 +44,7 @@ class CheckCommand : public testing::Test {
 
 TEST_F(CheckCommand, WarnsOfTheSameAsADryRunAndTheRunItself) {
   std::string const worrying =
-      "--force --set hydrate.saturation=0.75 --set grains.kn='40 MPa' --set bond.plate_thickness='1 um' "
+      "--force --set hydrate.saturation=0.75 --set grains.normal_stiffness='40 MPa' --set bond.constant_thickness='1 um' "
       "--set test.inertial_number=2e-2 --set run.threads=1";
   CommandResult const check = clathra("check", worrying);
   ASSERT_EQ(check.code, 0) << check.output;
@@ -64,16 +64,17 @@ TEST_F(CheckCommand, WarnsOfTheSameAsADryRunAndTheRunItself) {
 TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
   CommandResult const free = clathra("check", "--disc-steps-per-second 1e6");
   EXPECT_TRUE(holds(free.output, "inertial number I  0.0002 (quasi-static below 0.00035)\n")) << free.output;
-  std::string const bounded = "--set test.wave_number=1e-3 --set test.inertial_number=1e-3 ";
+  std::string const bounded = "--set test.max_platen_wave_stress=1e-3 --set test.inertial_number=1e-3 ";
   CommandResult const check = clathra("check", bounded + "--disc-steps-per-second 1e6");
-  EXPECT_TRUE(holds(check.output, "(lowered from 0.001 by test.wave_number; quasi-static below 0.00035)\n")) << check.output;
+  EXPECT_TRUE(holds(check.output, "(lowered from 0.001 by test.max_platen_wave_stress; quasi-static below 0.00035)\n"))
+      << check.output;
   EXPECT_TRUE(holds(check.output, "wave number W      0.001 (")) << check.output;
   CommandResult const run =
       clathra("run", bounded + "--set test.axial_strain=1e-4 --threads 1 --output '" + (folder / "out").string() + "'");
   ASSERT_EQ(run.code, 0) << run.output;
   auto const record = nlohmann::json::parse(std::ifstream(folder / "out" / "run.json"));
   EXPECT_EQ(record["stages"]["plan"]["wave_number"].get<double>(), 1e-3);
-  EXPECT_EQ(record["scene"]["test"]["wave_number"].get<double>(), 1e-3);
+  EXPECT_EQ(record["scene"]["test"]["max_platen_wave_stress"].get<double>(), 1e-3);
   double const share = record["stages"]["prepare"]["rate_share"].get<double>();
   EXPECT_NEAR(record["stages"]["plan"]["inertial_number"].get<double>(), share * 1e-3, 1e-15);
   EXPECT_LT(share, 0.3);
@@ -81,23 +82,23 @@ TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
 
 TEST_F(CheckCommand, SaysWhichErrorOfThePeakToExpectOrThatItWasNotMeasured) {
   std::string const row = "  error of peak q    ",
-                    measured = "--set sample.particles=2000 --set test.axial_strain=0.1 --disc-steps-per-second 1e6";
+                    measured = "--set specimen.particles=2000 --set test.axial_strain=0.1 --disc-steps-per-second 1e6";
   CommandResult const usual = clathra("check", measured);
   EXPECT_TRUE(holds(usual.output, row + "+") || holds(usual.output, row + "-")) << usual.output;
   EXPECT_TRUE(holds(usual.output, " % against slow shear in double precision (2000 discs at 1 MPa)\n")) << usual.output;
-  CommandResult const damped = clathra("check", measured + " --set run.damping=0.7");
-  EXPECT_TRUE(holds(damped.output, row + "not measured: run.damping\n")) << damped.output;
+  CommandResult const damped = clathra("check", measured + " --set damping.local=0.7");
+  EXPECT_TRUE(holds(damped.output, row + "not measured: damping.local\n")) << damped.output;
   CommandResult const fast = clathra("check", measured + " --set test.inertial_number=0.05 --force");
   EXPECT_TRUE(holds(fast.output, row + "not measured: only up to I = ")) << fast.output;
   CommandResult const small = clathra("check", "--disc-steps-per-second 1e6");
-  EXPECT_TRUE(holds(small.output, row + "not measured: test.axial_strain, sample.particles\n")) << small.output;
+  EXPECT_TRUE(holds(small.output, row + "not measured: test.axial_strain, specimen.particles\n")) << small.output;
 }
 
 /// As a run writes its scene down with all keys.
 TEST_F(CheckCommand, WarnsOfNoKeyThatIsAsByDefault) {
   std::string const text = "the [bond] section has no effect";
-  EXPECT_FALSE(holds(clathra("check", "--set bond.composite=parallel").output, text));
-  EXPECT_TRUE(holds(clathra("check", "--set bond.composite=memory").output, text));
+  EXPECT_FALSE(holds(clathra("check", "--set bond.contact_coupling=parallel").output, text));
+  EXPECT_TRUE(holds(clathra("check", "--set bond.contact_coupling=replaces_keeping_force").output, text));
 }
 
 TEST_F(CheckCommand, SaysWhatTheRunLeavesOnTheDisk) {
@@ -132,7 +133,7 @@ TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {
 }
 
 TEST_F(CheckCommand, RefusesASpecimenNarrowerThanThreeGrains) {
-  std::string const narrow = "--set sample.width='0.6 mm'";
+  std::string const narrow = "--set specimen.width='0.6 mm'";
   std::string const text = "the specimen is 0.6 mm wide, 2 times its largest grain (0.3 mm): at least 3 times are needed";
   for (char const* const verb : {"check", "run --dry-run", "run", "generate"}) {
     CommandResult const refused = clathra(verb, narrow);
@@ -142,17 +143,17 @@ TEST_F(CheckCommand, RefusesASpecimenNarrowerThanThreeGrains) {
   CommandResult const forced = clathra("check", narrow + " --force");
   EXPECT_EQ(forced.code, 0) << forced.output;
   EXPECT_TRUE(holds(forced.output, "warning: forced: " + text)) << forced.output;
-  EXPECT_EQ(clathra("check", "--set sample.width='0.9 mm'").code, 0);
-  EXPECT_TRUE(holds(clathra("check", "--set sample.height='0.6 mm'").output, "the specimen is 0.6 mm high"));
-  EXPECT_TRUE(holds(clathra("check", "--set sample.width='0.25 mm' --force").output, "no grain of 0.3 mm fits"));
+  EXPECT_EQ(clathra("check", "--set specimen.width='0.9 mm'").code, 0);
+  EXPECT_TRUE(holds(clathra("check", "--set specimen.height='0.6 mm'").output, "the specimen is 0.6 mm high"));
+  EXPECT_TRUE(holds(clathra("check", "--set specimen.width='0.25 mm' --force").output, "no grain of 0.3 mm fits"));
 }
 
 TEST_F(CheckCommand, RefusesASpecimenFileNarrowerThanThreeGrains) {
   std::string const file = "'" + (folder / "narrow.h5").string() + "'";
-  std::string const loose = "--set sample.particles=100 --set sample.width='0.7 mm' --set sample.void_ratio=0.32 --force";
+  std::string const loose = "--set specimen.particles=100 --set specimen.width='0.7 mm' --set specimen.void_ratio=0.32 --force";
   CommandResult const made = clathra("generate", loose + " -o " + file);
   ASSERT_EQ(made.code, 0) << made.output;
-  std::string const read = "--set sample.generator=file --set sample.file=" + file;
+  std::string const read = "--set specimen.file=" + file;
   for (char const* const verb : {"check", "run --dry-run"}) {
     CommandResult const refused = clathra(verb, read);
     EXPECT_EQ(refused.code, 77) << verb << ": " << refused.output;

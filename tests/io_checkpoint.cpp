@@ -24,10 +24,11 @@ namespace fs = std::filesystem;
 
 /// A hand-made specimen, sheared through breakage in some thousand steps.
 char const scene_text[] =
-    "[sample]\nparticles = 144\n[hydrate]\nsaturation = \"41 %\"\n[bond]\nreading = \"first_crack\"\ncoefficients = "
+    "[specimen]\nparticles = 144\n[hydrate]\nsaturation = \"41 %\"\n[bond]\npreset = \"first_crack\"\nstrength_from = "
     "\"printed\"\n[test]\naxial_strain = \"2 "
     "%\"\n"
-    "inertial_number = 5e-3\nwall_friction = 0.2\n[output]\nrecords = 20\nenergy = true\n[run]\nprecision = \"double\"\nforce = "
+    "inertial_number = 5e-3\nwall_friction = 0.2\n[output]\nrecords = 20\nenergy = true\n[run]\nprecision = "
+    "\"double\"\nignore_guards = "
     "true\n";
 
 Scene test_scene() { return parse_scene(scene_text, "golden.toml", ".").scene; }
@@ -154,17 +155,17 @@ TEST_F(CheckpointFile, OfAnotherSceneIsRefusedWithWhatDiffers) {
   (void)two_generations();
   FoundCheckpoint const found = find_checkpoints(folder).usable.at(0);
   Scene other = test_scene();
-  other.run.damping = 0.2;
+  other.damping.local = 0.2;
   other.run.threads = 7;  // these do not matter
-  other.run.force = !other.run.force;
+  other.run.ignore_guards = !other.run.ignore_guards;
   other.output.folder = "elsewhere";
   try {
     (void)read_checkpoint(found, other, {});
     FAIL() << "another scene";
   } catch (FileProblem const& problem) {
     EXPECT_EQ(problem.code, ExitCode::refused);
-    EXPECT_NE(std::string(problem.what()).find("run.damping was 0.3, is 0.2"), std::string::npos) << problem.what();
-    for (char const* const key : {"run.threads", "run.force", "output.folder"})
+    EXPECT_NE(std::string(problem.what()).find("damping.local was 0.3, is 0.2"), std::string::npos) << problem.what();
+    for (char const* const key : {"run.threads", "run.ignore_guards", "output.folder"})
       EXPECT_EQ(std::string(problem.what()).find(key), std::string::npos) << problem.what();
   }
 }

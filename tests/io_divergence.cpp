@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 TEST(DivergedRun, LeavesTheSurroundingsOfTheDiscForParaView) {
   fs::path const folder = fs::temp_directory_path() / ("clathra_diverged_" + std::to_string(::getpid()));
-  std::string const soft = "run " CLATHRA_EXAMPLES
-                           "/quick.toml --threads 1 --set sample.generator=file --set sample.file=" CLATHRA_GOLDEN
+  std::string const soft = "run " CLATHRA_EXAMPLES "/quick.toml --threads 1 --set specimen.file=" CLATHRA_GOLDEN
                            "/specimen.h5 --output '" +
                            folder.string() + "' --set test.axial_strain='0.1 %' ";
-  CommandResult const result = run_clathra(soft + "--force --set grains.kn='1 MPa' --set grains.ks='1 MPa'");
+  CommandResult const result =
+      run_clathra(soft + "--force --set grains.normal_stiffness='1 MPa' --set grains.shear_stiffness='1 MPa'");
   EXPECT_EQ(result.code, 76) << result.output;
   for (char const* const part : {"clathra: diverged: step ", ", since a step after ", "; it is at (",
                                  "the grains are too soft for this stress", "diverged/particles.xdmf (ParaView)"})

@@ -34,23 +34,23 @@ struct KeyTest {
 
 using enum Effect;
 std::vector<KeyTest> const key_tests = {
-    {"sample.generator", "compression", moves, "", true},
-    {"sample.particles", "320", moves, "", true},
-    {"sample.void_ratio", "0.26", moves, "", true},
-    {"sample.void_ratio_at", "test", moves, "", true},
-    {"sample.width", "2 mm", moves, "sample.particles=", true},
-    {"sample.height", "3.8 mm", moves, "sample.particles=", true},
-    {"sample.aspect_ratio", "1.5", moves, "", true},
-    {"sample.layers", "2", moves, "", true},
-    {"sample.file", "specimen.h5", leaves, "", false},
+    {"specimen.generator", "compression", moves, "", true},
+    {"specimen.particles", "320", moves, "", true},
+    {"specimen.void_ratio", "0.26", moves, "", true},
+    {"specimen.void_ratio_at", "test", moves, "", true},
+    {"specimen.width", "2 mm", moves, "specimen.particles=", true},
+    {"specimen.height", "3.8 mm", moves, "specimen.particles=", true},
+    {"specimen.aspect_ratio", "1.5", moves, "", true},
+    {"specimen.compaction_layers", "2", moves, "", true},
+    {"specimen.file", "specimen.h5", leaves, "", false},
     {"grains.density", "2700", moves, "", true},
-    {"grains.kn", "0.4 GPa", moves},
-    {"grains.ks", "0.3 GPa", moves},
-    {"grains.particle_stiffness_ratio", "1", moves},
+    {"grains.normal_stiffness", "0.4 GPa", moves},
+    {"grains.shear_stiffness", "0.3 GPa", moves},
+    {"bond.grain_stiffness_factor", "1", moves},
     {"grains.friction", "0.4", moves},
-    {"grains.shape_factor", "1.5", moves},
-    {"grains.contact_damping", "0.1", moves},
-    {"grading.table", "uniform", moves, "sample.void_ratio=0.22", true},
+    {"grains.rolling_width_factor", "1.5", moves},
+    {"damping.viscous_ratio", "0.1", moves},
+    {"grading.table", "uniform", moves, "specimen.void_ratio=0.22", true},
     {"grading.file", "sizes.csv", moves, "", true},
     {"grading.d50", "0.2 mm", moves, "", true},
     {"hydrate.saturation", "41 %", moves},
@@ -58,37 +58,37 @@ std::vector<KeyTest> const key_tests = {
     {"hydrate.pore_pressure", "6 MPa", moves},
     {"hydrate.density", "850", moves},
     {"hydrate.allow_unstable", "true", leaves},
-    {"bond.reading", "long_lever", moves},
+    {"bond.preset", "long_lever", moves},
     {"bond.law", "constant_thickness", moves},
-    {"bond.composite", "replace", moves},
+    {"bond.contact_coupling", "replaces", moves},
     {"bond.moment_scale", "paper_si", moves},
     {"bond.moment_ratio", "0.1", moves},
-    {"bond.rod_thickness", "scaled", moves},
+    {"bond.thickness_mapping", "scaled", moves},
     {"bond.friction_floor", "true", moves},
-    {"bond.coefficients", "printed", moves},
-    {"bond.mode", "areal_target", moves},
-    {"bond.critical_thickness", "15 um", moves, "bond.mode=given_thickness"},
-    {"bond.plate_thickness", "10 um", moves, "bond.law=constant_thickness"},
-    {"bond.stress", "100 kPa", moves, "", true},
+    {"bond.strength_from", "printed", moves},
+    {"bond.critical_thickness_from", "areal_target", moves},
+    {"bond.critical_thickness", "15 um", moves, "bond.critical_thickness_from=given_thickness"},
+    {"bond.constant_thickness", "10 um", moves, "bond.law=constant_thickness"},
+    {"specimen.preparation_stress", "100 kPa", moves, "", true},
     {"bond.after_consolidation", "false", moves},
     {"test.confining_stress", "1.5 MPa", moves},
     {"test.axial_strain", "0.8 %", moves},
     {"test.inertial_number", "9e-4", moves},
     {"test.strain_rate", "50", moves},
-    {"test.wave_number", "0.02", moves},
+    {"test.max_platen_wave_stress", "0.02", moves},
     {"test.wall_friction", "0.3", moves},
     {"test.consolidation_steps", "100000", leaves},
-    {"run.accuracy", "reference", moves},
+    {"run.preset", "reference", moves},
     {"run.seed", "2", moves, "", true},
     {"run.threads", "2", leaves},
     {"run.precision", "double", moves},
-    {"run.time_step", "bound", moves},
-    {"run.dt_safety", "0.5", moves},
-    {"run.damping", "0.2", moves},
-    {"run.inertia_scaling", "2", moves},
-    {"run.mass_scaling", "0.1", moves},
-    {"run.skin", "0.03 mm", moves},
-    {"run.force", "true", leaves},
+    {"run.time_step_rule", "bound", moves},
+    {"run.time_step_safety", "0.5", moves},
+    {"damping.local", "0.2", moves},
+    {"run.rotational_inertia_factor", "2", moves},
+    {"run.mass_scaled_fraction", "0.1", moves},
+    {"run.verlet_skin", "0.03 mm", moves},
+    {"run.ignore_guards", "true", leaves},
     {"output.folder", "elsewhere", leaves},
     {"output.records", "7", leaves},
     {"output.snapshots", "2", leaves},
@@ -96,7 +96,7 @@ std::vector<KeyTest> const key_tests = {
     {"output.energy", "true", leaves},
     {"output.events", "false", leaves},
     {"output.event_details", "true", leaves},
-    {"output.full_precision", "true", leaves, "output.snapshots=2"},
+    {"output.lossless_snapshots", "true", leaves, "output.snapshots=2"},
     {"output.keep_checkpoint", "false", leaves},
 };
 
@@ -105,7 +105,7 @@ class EveryKey : public testing::Test {
   static void SetUpTestSuite() {
     fs::create_directories(folder());
     std::ofstream(folder() / "base.toml")
-        << "[sample]\nparticles = 300\n[hydrate]\nsaturation = \"55 %\"\n[test]\naxial_strain = \"1 %\"\n"
+        << "[specimen]\nparticles = 300\n[hydrate]\nsaturation = \"55 %\"\n[test]\naxial_strain = \"1 %\"\n"
            "inertial_number = 8e-4\n[bond]\nmoment_ratio = 0.02\n[output]\nrecords = 5\nsnapshots = 0\n";
     std::ofstream(folder() / "sizes.csv") << "d_mm,percent_finer\n0.12,0\n0.16,50\n0.28,100\n";
     ASSERT_EQ(run_clathra("generate " + scene() + " -o " + (folder() / "specimen.h5").string()).code, 0);
@@ -120,8 +120,8 @@ class EveryKey : public testing::Test {
     fs::path const out = folder() / (test.key.empty() ? "base" : test.key);
     std::string const specimen = (folder() / "specimen.h5").string();
     std::string command = "run " + scene() + " --output " + out.string() + set(test.with);
-    if (!test.new_specimen) command += set("sample.generator=file") + set("sample.file=" + specimen);
-    bool const is_file = test.key == "sample.file" || test.key == "grading.file";
+    if (!test.new_specimen) command += set("specimen.file=" + specimen);
+    bool const is_file = test.key == "specimen.file" || test.key == "grading.file";
     if (!test.key.empty()) command += set(test.key + "=" + (is_file ? (folder() / test.value).string() : test.value));
     CommandResult const result = run_clathra(command);
     EXPECT_EQ(result.code, 0) << command << "\n" << result.output;

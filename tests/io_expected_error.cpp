@@ -11,7 +11,7 @@ namespace {
 Scene scene_of(double saturation) {
   Scene scene;
   scene.hydrate.saturation = saturation;
-  scene.run.inertia_scaling = 1;
+  scene.run.rotational_inertia_factor = 1;
   scene.run.precision = Precision::full;
   return scene;
 }
@@ -51,7 +51,7 @@ TEST(ExpectedError, AddsThatOfHeavierRotationAtItsRate) {
   for (RateEffect const& row : inertia_effects()) {
     MeasuredError const own = *expected_error(scene_of(0.55), at(row)).peak_q;
     for (double const inertia : {1.5, 3.0}) {
-      scene.run.inertia_scaling = inertia;
+      scene.run.rotational_inertia_factor = inertia;
       EXPECT_NEAR(expected_error(scene, at(row)).peak_q->error, own.error + row.bonded.error, 1e-9);
       EXPECT_NEAR(expected_error(scene, at(row)).peak_q->half_width, std::hypot(own.half_width, row.bonded.half_width), 1e-9);
     }
@@ -85,11 +85,11 @@ TEST(ExpectedError, IsTheWorseOfBothMaterialsBetweenThem) {
 /// Every key of the model, each alone other than in the tests of the table.
 constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
     {"grains.density", [](Scene& s) { s.grains.density = 2700; }},
-    {"grains.kn", [](Scene& s) { s.grains.kn = 1e8; }},
-    {"grains.ks", [](Scene& s) { s.grains.ks = 1e6; }},
-    {"grains.particle_stiffness_ratio", [](Scene& s) { s.grains.particle_stiffness_ratio = 1; }},
-    {"grains.shape_factor", [](Scene& s) { s.grains.shape_factor = 0; }},
-    {"grains.contact_damping", [](Scene& s) { s.grains.contact_damping = 0.2; }},
+    {"grains.normal_stiffness", [](Scene& s) { s.grains.normal_stiffness = 1e8; }},
+    {"grains.shear_stiffness", [](Scene& s) { s.grains.shear_stiffness = 1e6; }},
+    {"bond.grain_stiffness_factor", [](Scene& s) { s.bond.grain_stiffness_factor = 1; }},
+    {"grains.rolling_width_factor", [](Scene& s) { s.grains.rolling_width_factor = 0; }},
+    {"damping.viscous_ratio", [](Scene& s) { s.damping.viscous_ratio = 0.2; }},
     {"grading.table", [](Scene& s) { s.grading.table = "uniform"; }},
     {"grading.file", [](Scene& s) { s.grading.file = "sand.csv"; }},
     {"grading.d50", [](Scene& s) { s.grading.d50 = 1e-3; }},
@@ -97,27 +97,27 @@ constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
     {"hydrate.pore_pressure", [](Scene& s) { s.hydrate.pore_pressure = 1e7; }},
     {"hydrate.density", [](Scene& s) { s.hydrate.density = 850; }},
     {"bond.law", [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; }},
-    {"bond.composite", [](Scene& s) { s.bond.composite = Composite::memory; }},
+    {"bond.contact_coupling", [](Scene& s) { s.bond.contact_coupling = Composite::memory; }},
     {"bond.moment_scale", [](Scene& s) { s.bond.moment_scale = MomentScale::paper_si; }},
     {"bond.moment_ratio", [](Scene& s) { s.bond.moment_ratio = 0.1; }},
-    {"bond.rod_thickness", [](Scene& s) { s.bond.rod_thickness = RodThickness::scaled; }},
+    {"bond.thickness_mapping", [](Scene& s) { s.bond.thickness_mapping = RodThickness::scaled; }},
     {"bond.friction_floor", [](Scene& s) { s.bond.friction_floor = true; }},
-    {"bond.coefficients", [](Scene& s) { s.bond.coefficients = CoefficientSource::printed; }},
-    {"bond.mode", [](Scene& s) { s.bond.mode = BondingMode::areal_target; }},
+    {"bond.strength_from", [](Scene& s) { s.bond.strength_from = CoefficientSource::printed; }},
+    {"bond.critical_thickness_from", [](Scene& s) { s.bond.critical_thickness_from = BondingMode::areal_target; }},
     {"bond.after_consolidation", [](Scene& s) { s.bond.after_consolidation = false; }},
-    {"bond.stress", [](Scene& s) { s.bond.stress = 1e5; }},
+    {"specimen.preparation_stress", [](Scene& s) { s.specimen.preparation_stress = 1e5; }},
     {"test.confining_stress", [](Scene& s) { s.test.confining_stress = 5e7; }},
     {"test.wall_friction", [](Scene& s) { s.test.wall_friction = 0.5; }},
-    {"run.damping", [](Scene& s) { s.run.damping = 0.7; }},
-    {"run.mass_scaling", [](Scene& s) { s.run.mass_scaling = 0.1; }},
-    {"sample.file", [](Scene& s) { s.sample.generator = Generator::file; }},
-    {"sample.particles", [](Scene& s) { s.sample.particles = 300; }},
-    {"sample.width", [](Scene& s) { s.sample.width = 0.026; }},
-    {"sample.height", [](Scene& s) { s.sample.height = 1e-3; }},
-    {"sample.aspect_ratio", [](Scene& s) { s.sample.aspect_ratio = 0.1; }},
-    {"sample.generator", [](Scene& s) { s.sample.generator = Generator::compression; }},
-    {"sample.layers", [](Scene& s) { s.sample.layers = 1; }},
-    {"sample.void_ratio_at", [](Scene& s) { s.sample.void_ratio_at = VoidRatioAt::test; }},
+    {"damping.local", [](Scene& s) { s.damping.local = 0.7; }},
+    {"run.mass_scaled_fraction", [](Scene& s) { s.run.mass_scaled_fraction = 0.1; }},
+    {"specimen.file", [](Scene& s) { s.specimen.file = "specimen.h5"; }},
+    {"specimen.particles", [](Scene& s) { s.specimen.particles = 300; }},
+    {"specimen.width", [](Scene& s) { s.specimen.width = 0.026; }},
+    {"specimen.height", [](Scene& s) { s.specimen.height = 1e-3; }},
+    {"specimen.aspect_ratio", [](Scene& s) { s.specimen.aspect_ratio = 0.1; }},
+    {"specimen.generator", [](Scene& s) { s.specimen.generator = Generator::compression; }},
+    {"specimen.compaction_layers", [](Scene& s) { s.specimen.compaction_layers = 1; }},
+    {"specimen.void_ratio_at", [](Scene& s) { s.specimen.void_ratio_at = VoidRatioAt::test; }},
     {"test.consolidation_steps", [](Scene& s) { s.test.consolidation_steps = 10; }},
     {"test.axial_strain", [](Scene& s) { s.test.axial_strain = 0.003; }},
 };
@@ -135,13 +135,14 @@ TEST(ExpectedError, IsNotGivenForWhatWasNotMeasured) {
   EXPECT_NE(why(none, at(1, 0)).find("only up to I = "), std::string::npos);
   EXPECT_EQ(why(none, at(1e-6, 100)), "only up to W = 2");
   EXPECT_EQ(why([](Scene& s) { s.hydrate.saturation = 0.8; }, slow), "only up to a saturation of 55 %");
-  EXPECT_EQ(why([](Scene& s) { s.run.inertia_scaling = 4; }, slow), "only up to moments of inertia times 3");
-  EXPECT_EQ(why([](Scene& s) { s.sample.void_ratio = 0.3, s.grains.friction = 0; }, slow), "sample.void_ratio, grains.friction");
+  EXPECT_EQ(why([](Scene& s) { s.run.rotational_inertia_factor = 4; }, slow), "only up to moments of inertia times 3");
+  EXPECT_EQ(why([](Scene& s) { s.specimen.void_ratio = 0.3, s.grains.friction = 0; }, slow),
+            "specimen.void_ratio, grains.friction");
   for (auto const& [key, change] : others) EXPECT_EQ(why(change, slow), key);
   Scene sand = scene_of(0);
   sand.hydrate.temperature = 7, sand.bond.moment_ratio = 0.1;
   EXPECT_TRUE(expected_error(sand, slow).peak_q) << "of bonds that there are not";
-  sand.sample.void_ratio = 0.24, sand.grading.d50 = 0.1694e-3;
+  sand.specimen.void_ratio = 0.24, sand.grading.d50 = 0.1694e-3;
   EXPECT_TRUE(expected_error(sand, slow).peak_q);
 }
 

@@ -23,9 +23,8 @@ class ExtendedRun : public testing::Test {
   void SetUp() override { fs::create_directories(folder); }
   void TearDown() override { fs::remove_all(folder); }
   CommandResult run(std::string const& name, std::string const& more) const {
-    return run_clathra("run " CLATHRA_EXAMPLES
-                       "/quick.toml --threads 1 --set sample.generator=file --set sample.file=" CLATHRA_GOLDEN
-                       "/specimen.h5 --set bond.reading=first_crack --set output.records=7 --set output.snapshots=2 --output '" +
+    return run_clathra("run " CLATHRA_EXAMPLES "/quick.toml --threads 1 --set specimen.file=" CLATHRA_GOLDEN
+                       "/specimen.h5 --set bond.preset=first_crack --set output.records=7 --set output.snapshots=2 --output '" +
                        (folder / name).string() + "' " + more);
   }
   nlohmann::json record(std::string const& name) const {
@@ -129,7 +128,7 @@ TEST_F(ExtendedRun, EndsInTheStateOfATestThatWentThatFarAtOnce) {
 TEST_F(ExtendedRun, IsRefusedWhereItIsAnotherTestOrLiesBehind) {
   ASSERT_EQ(run("out", one).code, 0);
   std::string const before = text("out", "history.csv");
-  CommandResult const other = run("out", two + "--resume --set run.damping=0.2");
+  CommandResult const other = run("out", two + "--resume --set damping.local=0.2");
   EXPECT_EQ(other.code, 77);
   EXPECT_NE(other.output.find("finished run of another scene"), std::string::npos) << other.output;
   EXPECT_EQ(run("out", "--resume --set test.axial_strain='0.5 %'").code, 77);

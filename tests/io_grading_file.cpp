@@ -9,7 +9,7 @@
 
 #include "command.hpp"
 #include "domain/scene/grading_file.hpp"
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 
 namespace clathra {
 namespace {
@@ -184,7 +184,7 @@ class GradingFileOfAScene : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder);
-    std::ofstream(folder / "sand.toml") << "[sample]\nparticles = 300\n[grading]\nfile = \"sand.csv\"\n";
+    std::ofstream(folder / "sand.toml") << "[specimen]\nparticles = 300\n[grading]\nfile = \"sand.csv\"\n";
   }
   void TearDown() override { fs::remove_all(folder); }
 
@@ -227,7 +227,7 @@ TEST_F(GradingFileOfAScene, IsWarnedOfWhereItsMedianHangsOnAPlateau) {
               "warning: the grading has hardly any grains around 50 %:")
         << share;
   EXPECT_EQ(warned(check("d_mm,finer\n0.4,0\n0.5,45\n2.08,45\n2.4,100\n")), "") << "flat elsewhere";
-  EXPECT_EQ(warned(check("d_mm,finer\n0.05,0\n1,100\n", "--set sample.particles=30000")), "") << "wide, but not flat";
+  EXPECT_EQ(warned(check("d_mm,finer\n0.05,0\n1,100\n", "--set specimen.particles=30000")), "") << "wide, but not flat";
 }
 
 TEST_F(GradingFileOfAScene, IsWarnedOfWhereItsDiscsAreEqual) {

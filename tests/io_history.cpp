@@ -273,18 +273,18 @@ TEST_F(Folder, ThatBelongsToOthersIsRefused) {
 TEST_F(Record, HoldsWhatARunNeedsToBeRepeated) {
   RunRecord record;
   record.version = "0.1.0";
-  record.input = parse_scene("[sample]\nparticles = 2000\n", "my.toml", "", {"run.seed=7"});
+  record.input = parse_scene("[specimen]\nparticles = 2000\n", "my.toml", "", {"run.seed=7"});
   record.stages["generate"]["void_ratio"] = 0.24;
   record.state_hash = 0xabcull;
   record.exit_reason = "finished";
   record.warnings = {"a \xff byte"};
   write_run_record(folder / "run.json", record);
   auto const json = nlohmann::json::parse(content(folder / "run.json"));
-  EXPECT_EQ(json["input"]["digest_xxh3_128"], text_digest("[sample]\nparticles = 2000\n"));
+  EXPECT_EQ(json["input"]["digest_xxh3_128"], text_digest("[specimen]\nparticles = 2000\n"));
   EXPECT_EQ(json["input"]["overrides"][0], "run.seed=7");
   EXPECT_EQ(json["seed"], 7);
-  EXPECT_EQ(json["scene"]["sample"]["particles"], 2000);
-  EXPECT_EQ(json["scene"]["bond"]["composite"], "parallel");
+  EXPECT_EQ(json["scene"]["specimen"]["particles"], 2000);
+  EXPECT_EQ(json["scene"]["bond"]["contact_coupling"], "parallel");
   EXPECT_EQ(json["state_hash"], "0x0000000000000abc");
   EXPECT_EQ(json["exit"]["reason"], "finished");
   EXPECT_EQ(json["program"]["backend"], ExecutionSpace::name());

@@ -34,7 +34,7 @@ class KeptResults : public testing::Test {
   void SetUp() override {
     fs::create_directories(folder);
     put(folder / "made.toml",
-        "[sample]\nparticles = 100\nvoid_ratio = 0.28\n[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.2 %\"\n"
+        "[specimen]\nparticles = 100\nvoid_ratio = 0.28\n[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.2 %\"\n"
         "[output]\nrecords = 20\nsnapshots = 1\n");
   }
   void TearDown() override { fs::remove_all(folder); }
@@ -70,32 +70,32 @@ class KeptResults : public testing::Test {
 TEST_F(KeptResults, OfAFinishedRunGoOnlyWhenAskedAndWhenThereAreNewOnes) {
   ASSERT_EQ(run().code, 0);
   auto const before = contents(out);
-  CommandResult const again = run("--set run.damping=0.2");
+  CommandResult const again = run("--set damping.local=0.2");
   EXPECT_EQ(again.code, 77) << again.output;
   EXPECT_TRUE(says(again, "out: holds a finished run: --output names another folder"));
   EXPECT_EQ(contents(out), before);
   // Refused a moment later: when the folder is taken hold of, and while its specimen is made.
-  for (std::string const refused : {"--set test.inertial_number=0.5", "--set sample.void_ratio=0.1"}) {
+  for (std::string const refused : {"--set test.inertial_number=0.5", "--set specimen.void_ratio=0.1"}) {
     CommandResult const result = run("--overwrite " + refused);
     EXPECT_EQ(result.code, 77) << result.output;
     EXPECT_EQ(contents(out), before) << refused;
   }
-  EXPECT_TRUE(says(run("--overwrite --set sample.void_ratio=0.1"), "as it was"));
+  EXPECT_TRUE(says(run("--overwrite --set specimen.void_ratio=0.1"), "as it was"));
   // Or when the new specimen is made, which such short steps do not bring to rest.
-  CommandResult const unconsolidated = run("--overwrite --set run.dt_safety=1e-3 --set sample.void_ratio=0.3");
+  CommandResult const unconsolidated = run("--overwrite --set run.time_step_safety=1e-3 --set specimen.void_ratio=0.3");
   EXPECT_EQ(unconsolidated.code, 77) << unconsolidated.output;
   EXPECT_TRUE(says(unconsolidated, "consolidation did not come to rest"));
   EXPECT_EQ(contents(out), before);
-  CommandResult const other = run("--overwrite --set run.damping=0.2");
+  CommandResult const other = run("--overwrite --set damping.local=0.2");
   EXPECT_EQ(other.code, 0) << other.output;
-  EXPECT_EQ(record()["scene"]["run"]["damping"], 0.2);
+  EXPECT_EQ(record()["scene"]["damping"]["local"], 0.2);
   EXPECT_FALSE(fs::exists(out / "specimen.h5.next"));
   EXPECT_EQ(content(out / "specimen.h5").substr(1, 3), "HDF");
   EXPECT_EQ(run_clathra("verify '" + out.string() + "'").code, 0);
 }
 
 TEST_F(KeptResults, AreNoneOfARunThatWasRefusedAtOnce) {
-  EXPECT_EQ(run("--set sample.void_ratio=0.1").code, 77);
+  EXPECT_EQ(run("--set specimen.void_ratio=0.1").code, 77);
   EXPECT_TRUE(fs::exists(out / "run.json")) << "says why";
   EXPECT_EQ(run().code, 0);
 }
@@ -107,9 +107,9 @@ TEST_F(KeptResults, OfARunKilledBeforeItsFirstCheckpoint) {
   EXPECT_EQ(again.code, 77) << again.output;
   EXPECT_TRUE(says(again, "holds a run that is not finished (it was killed)"));
   EXPECT_EQ(contents(out), before);
-  CommandResult const other = run("--resume --set run.damping=0.2");
+  CommandResult const other = run("--resume --set damping.local=0.2");
   EXPECT_EQ(other.code, 77) << other.output;
-  EXPECT_TRUE(says(other, "run.damping was 0.3, is 0.2"));
+  EXPECT_TRUE(says(other, "damping.local was 0.3, is 0.2"));
   EXPECT_EQ(contents(out), before);
   // The same scene begins anew: its rows will be the same.
   std::string const same = "--set test.inertial_number=1e-6 --set output.records=4000";
@@ -180,8 +180,8 @@ TEST_F(KeptResults, WhoseRecordIsOfTheWrongKindInsideAreDamagedToo) {
                                                                      {"/exit/code", "0"},
                                                                      {"/scene", nlohmann::json::array()},
                                                                      {"/scene/test", 5},
-                                                                     {"/scene/sample/particles", 1e300},
-                                                                     {"/scene/sample/particles", "100"},
+                                                                     {"/scene/specimen/particles", 1e300},
+                                                                     {"/scene/specimen/particles", "100"},
                                                                      {"/scene/run/seed", -1},
                                                                      {"/scene/output/events", 1}};
   for (auto const& [at, value] : wrong) {
@@ -198,7 +198,7 @@ TEST_F(KeptResults, WhoseRecordIsOfTheWrongKindInsideAreDamagedToo) {
 TEST_F(KeptResults, ThatTheNewRunReadsAreNotTakenThePlaceOf) {
   ASSERT_EQ(run().code, 0);
   auto const before = contents(out);
-  std::string const from = "--overwrite --set sample.generator=file --set sample.file='" + out.string();
+  std::string const from = "--overwrite --set specimen.file='" + out.string();
   CommandResult const result = run(from + "/final.h5'");
   EXPECT_EQ(result.code, 77) << result.output;
   EXPECT_TRUE(says(result, "final.h5: is a result that the new run would take the place of"));
@@ -262,7 +262,7 @@ TEST_F(KeptResults, WithoutLocksAllWhoWriteIntoAFolderWarn) {
   for (std::string const& command :
        {"run " + scene + " --output '" + out.string() + "'",
         "study '" + (folder / "study.toml").string() + "' --output '" + (folder / "study").string() + "'",
-        "tune " + scene + " --discs 100 --budget 20s --folder '" + (folder / "tune").string() + "' -o '" +
+        "tune " + scene + " --particles 100 --budget 20s --folder '" + (folder / "tune").string() + "' -o '" +
             (folder / "tuned.toml").string() + "'",
         "reproduce --particles 100 --seeds 1 --max-walltime 0.1s --output '" + (folder / "reproduce").string() + "'"}) {
     CommandResult const result = run_clathra(preload + command);

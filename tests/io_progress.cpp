@@ -19,7 +19,7 @@ class ProgressOutput : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder);
-    std::ofstream(folder / "small.toml") << "[sample]\nparticles = 300\n[test]\naxial_strain = \"0.5 %\"\n"
+    std::ofstream(folder / "small.toml") << "[specimen]\nparticles = 300\n[test]\naxial_strain = \"0.5 %\"\n"
                                             "confining_stress = \"10 MPa\"\n[output]\nrecords = 40\n";
   }
   void TearDown() override { fs::remove_all(folder); }

@@ -115,8 +115,8 @@ class ReportLikeness : public ReportPageTest {
 
 TEST_F(ReportLikeness, WhatOnlyChoosesHowItIsComputedOrWrittenDoesNotPartTests) {
   std::string const page = page_on_pairs({{"a",
-                                           {"run.seed=7", "run.threads=2", "run.force=true", "run.skin=10 um",
-                                            "output.records=20", "output.energy=true", "output.full_precision=true"}}});
+                                           {"run.seed=7", "run.threads=2", "run.ignore_guards=true", "run.verlet_skin=10 um",
+                                            "output.records=20", "output.energy=true", "output.lossless_snapshots=true"}}});
   EXPECT_NE(page.find("c = 0.8 MPa and φ = 28.6°"), std::string::npos);
   EXPECT_EQ(page.find("have no common envelope"), std::string::npos);
 }
@@ -124,14 +124,14 @@ TEST_F(ReportLikeness, WhatOnlyChoosesHowItIsComputedOrWrittenDoesNotPartTests) 
 TEST_F(ReportLikeness, AnyOtherDifferencePartsThemAndIsNamed) {
   for (auto const& [override, words] : std::vector<std::pair<std::string, std::string>>{
            {"grains.friction=0.3", "friction 0.3"},
-           {"grains.shape_factor=1.5", "shape factor 1.5"},
+           {"grains.rolling_width_factor=1.5", "rolling width factor 1.5"},
            {"hydrate.temperature=6 degC", "temperature 6 degC"},
            {"hydrate.density=910 kg/m^3", "hydrate density 910 kg/m^3"},
-           {"test.inertial_number=5e-5", "inertial number 5e-05, wave number not given"},
-           {"sample.void_ratio=0.22", "void ratio 0.22"},
-           {"bond.composite=memory", "bond composite memory"},
-           {"bond.stress=60 kPa", "bond stress 60 kPa"},
-           {"run.damping=0.2", "damping 0.2"}}) {
+           {"test.inertial_number=5e-5", "inertial number 5e-05, max platen wave stress not given"},
+           {"specimen.void_ratio=0.22", "void ratio 0.22"},
+           {"bond.contact_coupling=replaces_keeping_force", "bond contact coupling replaces_keeping_force"},
+           {"specimen.preparation_stress=60 kPa", "preparation stress 60 kPa"},
+           {"damping.local=0.2", "damping local 0.2"}}) {
     std::string const page = page_on_pairs({{"a", {override}}});
     EXPECT_EQ(page.find("Mohr circles"), std::string::npos) << override;
     EXPECT_NE(page.find("differ in more than confining stress and seed and have no common envelope: a-1 ("), std::string::npos)
@@ -141,9 +141,10 @@ TEST_F(ReportLikeness, AnyOtherDifferencePartsThemAndIsNamed) {
 }
 
 TEST_F(ReportLikeness, OfCleanSandHydrateAndBondsDoNotMatterButTheStressOfItsMakingDoes) {
-  EXPECT_NE(page_on_pairs({{"a", {"hydrate.temperature=6 degC", "bond.composite=replace"}, false, 0}}).find("Mohr circles"),
-            std::string::npos);
-  EXPECT_EQ(page_on_pairs({{"b", {"bond.stress=60 kPa"}, false, 0}}).find("Mohr circles"), std::string::npos);
+  EXPECT_NE(
+      page_on_pairs({{"a", {"hydrate.temperature=6 degC", "bond.contact_coupling=replaces"}, false, 0}}).find("Mohr circles"),
+      std::string::npos);
+  EXPECT_EQ(page_on_pairs({{"b", {"specimen.preparation_stress=60 kPa"}, false, 0}}).find("Mohr circles"), std::string::npos);
 }
 
 TEST_F(ReportLikeness, HeadingsSayWhatMaterialsOfTheSameSaturationDifferIn) {
@@ -178,8 +179,7 @@ TEST_F(ReportLikeness, AReadSpecimenCountsByItsDiscsAndVoidRatioNotByItsPath) {
   std::vector<fs::path> const runs = pair({"a"});
   auto const made_from_file = [&](std::size_t i, std::string const& file, double ratio) {
     nlohmann::json record = nlohmann::json::parse(content_of(runs[i] / "run.json"));
-    record["scene"]["sample"]["generator"] = "file";
-    record["scene"]["sample"]["file"] = file;
+    record["scene"]["specimen"]["file"] = file;
     record["stages"]["prepare"]["void_ratio_before_consolidation"] = ratio;
     std::ofstream(runs[i] / "run.json") << record;
   };

@@ -19,7 +19,7 @@ class ReproduceCommand : public testing::Test {
   void TearDown() override { fs::remove_all(folder); }
   CommandResult reproduce(std::string const& name, std::string const& more = "") const {
     return run_clathra(
-        "reproduce --particles 200 --set sample.void_ratio=0.26 --set test.inertial_number=9e-4 --set run.force=true "
+        "reproduce --particles 200 --set specimen.void_ratio=0.26 --set test.inertial_number=9e-4 --set run.ignore_guards=true "
         "--output '" +
         (folder / name).string() + "' " + more);
   }

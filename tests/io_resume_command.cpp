@@ -32,7 +32,7 @@ class RunFolder : public testing::Test {
   static void SetUpTestSuite() {
     fs::create_directories(base());
     put(base() / "scene.toml",
-        "[sample]\nparticles = 100\nvoid_ratio = 0.28\n[grading]\nfile = \"sizes.csv\"\n[hydrate]\nsaturation = \"55 "
+        "[specimen]\nparticles = 100\nvoid_ratio = 0.28\n[grading]\nfile = \"sizes.csv\"\n[hydrate]\nsaturation = \"55 "
         "%\"\n[test]\n"
         "axial_strain = \"0.3 %\"\n[output]\nrecords = 200\nsnapshots = 2\nkeep_checkpoint = false\n");
     put(base() / "sizes.csv", "d_mm,percent_finer\n0.12,0\n0.15,30\n0.17,50\n0.2,80\n0.24,100\n");
@@ -227,10 +227,10 @@ TEST_F(RunFolder, OfAnotherSceneIsLeftAloneAndToldBeforeAnythingElse) {
   for (char const* const name : {"alone", "stopped"}) {
     fs::path const folder = copy_of(name);
     std::string const before = content(folder / "run.json");
-    CommandResult const other = run("copy", "--resume --set run.damping=0.2");
+    CommandResult const other = run("copy", "--resume --set damping.local=0.2");
     EXPECT_EQ(other.code, 77) << other.output;
     EXPECT_TRUE(says(other, "of another scene"));
-    EXPECT_TRUE(says(other, "run.damping was 0.3, is 0.2"));
+    EXPECT_TRUE(says(other, "damping.local was 0.3, is 0.2"));
     EXPECT_EQ(other.output.find("goes on from step"), std::string::npos) << other.output;
     EXPECT_TRUE(says(run("copy", "--resume --set grading.file=" + (base() / "same.csv").string()), "grading.file was "));
     EXPECT_EQ(content(folder / "run.json"), before);
@@ -246,7 +246,7 @@ TEST_F(RunFolder, GoesOnInItsOwnPrecisionOnly) {
 }
 
 TEST_F(RunFolder, OfAFinishedRunKnowsItsSpecimenByItsContent) {
-  auto const from = [](fs::path const& file) { return " --set sample.generator=file --set sample.file=" + file.string(); };
+  auto const from = [](fs::path const& file) { return " --set specimen.file=" + file.string(); };
   fs::copy_file(base() / "alone" / "specimen.h5", base() / "one.h5", fs::copy_options::overwrite_existing);
   fs::copy_file(base() / "alone" / "specimen.h5", base() / "two.h5", fs::copy_options::overwrite_existing);
   ASSERT_EQ(run("copy", from(base() / "one.h5")).code, 0);

@@ -26,7 +26,7 @@ class RunCommand : public testing::Test {
   void SetUp() override {
     fs::create_directories(folder);
     std::ofstream(scene)
-        << "# a small one\n[sample]\nparticles = 300\n[hydrate]\nsaturation = \"55 %\"\n[test]\naxial_strain = \"0.5 %\"\n"
+        << "# a small one\n[specimen]\nparticles = 300\n[hydrate]\nsaturation = \"55 %\"\n[test]\naxial_strain = \"0.5 %\"\n"
            "[output]\nrecords = 20\nenergy = true\n";
   }
   void TearDown() override { fs::remove_all(folder); }
@@ -87,7 +87,7 @@ TEST_F(RunCommand, GenerateFindsOutThatItCannotWriteBeforeItStarts) {
 }
 
 TEST_F(RunCommand, FullPrecisionIsAKeyOfTheScene) {
-  ASSERT_EQ(run("out", "--set output.full_precision=true --set output.snapshots=2").code, 0);
+  ASSERT_EQ(run("out", "--set output.lossless_snapshots=true --set output.snapshots=2").code, 0);
   EXPECT_NE(content(folder / "out" / "contacts.xdmf")
                 .find("Precision=\"8\" Format=\"HDF\">snap/000000000000.h5:/contacts/normal_force"),
             std::string::npos);
@@ -113,12 +113,12 @@ TEST_F(RunCommand, TheResolvedSceneAndTheKeptSpecimenGiveTheSameBits) {
   EXPECT_EQ(record("second")["state_hash"], record("first")["state_hash"]);
   EXPECT_EQ(content(folder / "second" / "history.csv"), content(folder / "first" / "history.csv"));
   std::string const kept = (folder / "first" / "specimen.h5").string();
-  ASSERT_EQ(run("third", "--set sample.generator=file --set sample.file=" + kept).code, 0);
+  ASSERT_EQ(run("third", "--set specimen.file=" + kept).code, 0);
   EXPECT_EQ(record("third")["state_hash"], record("first")["state_hash"]);
   EXPECT_FALSE(record("third")["input"]["specimen_digest_xxh3_128"].get<std::string>().empty());
   EXPECT_FALSE(fs::exists(folder / "third" / "specimen.h5"));
   // The specimen of the folder itself may be read; it stays.
-  ASSERT_EQ(run("first", "--overwrite --set sample.generator=file --set sample.file=" + kept).code, 0);
+  ASSERT_EQ(run("first", "--overwrite --set specimen.file=" + kept).code, 0);
   EXPECT_TRUE(fs::exists(kept));
 }
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -36,35 +36,36 @@ void expect_problem(std::string const& text, std::string const& message, ExitCod
   EXPECT_NE(all.find(message), std::string::npos) << "got:\n" << all << "\nwanted: " << message;
 }
 
-std::string const sized = "[sample]\nparticles = 2000\n";
+std::string const sized = "[specimen]\nparticles = 2000\n";
 
 TEST(SceneFile, StatesOnlyWhatDiffersFromTheDefaults) {
   Scene const scene = load(sized + "[hydrate]\nsaturation = \"55 %\"\n[test]\nconfining_stress = \"2 MPa\"\n").scene;
-  EXPECT_EQ(scene.sample.particles, 2000);
+  EXPECT_EQ(scene.specimen.particles, 2000);
   EXPECT_EQ(scene.hydrate.saturation, 0.55);
   EXPECT_EQ(scene.test.confining_stress, 2e6);
   EXPECT_EQ(scene.test.inertial_number, Scene{}.test.inertial_number);
-  EXPECT_EQ(scene.grains.kn, Scene{}.grains.kn);
+  EXPECT_EQ(scene.grains.normal_stiffness, Scene{}.grains.normal_stiffness);
 }
 
 TEST(SceneFile, TakesQuantitiesNumbersChoicesAndTruthValues) {
-  Scene const scene = load(
-                          "sample.particles = 2e3\n"
-                          "[bond]\nlaw = 'constant_thickness'\ncomposite = \"memory\"\nafter_consolidation = true\n"
-                          "[hydrate]\nsaturation = 0.41\ntemperature = \"278.15 K\"\n[run]\nseed = 9223372036854775807\n")
-                          .scene;
-  EXPECT_EQ(scene.sample.particles, 2000);
+  Scene const scene =
+      load(
+          "specimen.particles = 2e3\n"
+          "[bond]\nlaw = 'constant_thickness'\ncontact_coupling = \"replaces_keeping_force\"\nafter_consolidation = true\n"
+          "[hydrate]\nsaturation = 0.41\ntemperature = \"278.15 K\"\n[run]\nseed = 9223372036854775807\n")
+          .scene;
+  EXPECT_EQ(scene.specimen.particles, 2000);
   EXPECT_EQ(scene.bond.law, BondLawKind::constant_thickness);
-  EXPECT_EQ(scene.bond.composite, Composite::memory);
+  EXPECT_EQ(scene.bond.contact_coupling, Composite::memory);
   EXPECT_TRUE(scene.bond.after_consolidation);
   EXPECT_DOUBLE_EQ(scene.hydrate.temperature, 5);
   EXPECT_EQ(scene.run.seed, 9223372036854775807u);
 }
 
 TEST(SceneFile, NamesPlaceCauseAndRemedyOfAProblem) {
-  expect_problem("[sample]\nparticles = 2000\n\n[run]\n# speed\n  seed = 3\ndt_saftey = 0.5\n",
-                 "my.toml:7:1: error: unknown key 'dt_saftey' in [run]; did you mean 'dt_safety'?");
-  expect_problem("[sample]\nparticles = 2000\n[test]\nconfining_stress   = \"1 mm\"\n",
+  expect_problem("[specimen]\nparticles = 2000\n\n[run]\n# speed\n  seed = 3\ntime_step_saftey = 0.5\n",
+                 "my.toml:7:1: error: unknown key 'time_step_saftey' in [run]; did you mean 'time_step_safety'?");
+  expect_problem("[specimen]\nparticles = 2000\n[test]\nconfining_stress   = \"1 mm\"\n",
                  "my.toml:4:22: error: 'confining_stress' needs a pressure, got a length ('1 mm'); example: \"1 MPa\"");
 }
 
@@ -77,17 +78,17 @@ TEST(SceneFile, AHintIsGivenOnlyWhereItHelps) {
 
 TEST(SceneFile, ReportsAllProblemsAtOnceInTheOrderOfTheFile) {
   std::string const all = problems_of(
-      "[sample]\nparticles = -5\nwidht = \"3 mm\"\n[hydrate]\nsaturation = 26\n[grain]\nkn = 3\n[test]\nconfining_stress = "
+      "[specimen]\nparticles = -5\nwidht = \"3 mm\"\n[hydrate]\nsaturation = 26\n[grain]\nkn = 3\n[test]\nconfining_stress = "
       "true\n",
-      {"run.threads=many", "run.damping"});
+      {"run.threads=many", "damping.local"});
   Texts const wanted = {
       "my.toml:2:13: error: 'particles' must lie between 16 and 1000000000, got -5",
-      "my.toml:3:1: error: unknown key 'widht' in [sample]; did you mean 'width'?",
+      "my.toml:3:1: error: unknown key 'widht' in [specimen]; did you mean 'width'?",
       "my.toml:5:14: error: 'saturation' must lie between 0 and 1, got 26; this looks like percent: write 0.26 or \"26 %\"",
       "my.toml:6:2: error: unknown section [grain]; did you mean 'grains'?",
       "my.toml:9:20: error: 'confining_stress' needs a pressure, got true",
       "--set run.threads=many: error: 'run.threads' needs a number, got 'many'",
-      "--set run.damping: error: needs the form key=value"};
+      "--set damping.local: error: needs the form key=value"};
   std::size_t at = 0;
   for (std::string const& message : wanted) {
     std::size_t const found = all.find(message, at);
@@ -97,10 +98,10 @@ TEST(SceneFile, ReportsAllProblemsAtOnceInTheOrderOfTheFile) {
 }
 
 TEST(SceneFile, SuggestsTheNearestNameWhereverItIs) {
-  expect_problem(sized + "friction = 0.5\n", "unknown key 'friction' in [sample]; did you mean 'grains.friction'?");
-  expect_problem("particles = 2000\n", "unknown key 'particles' outside any section; did you mean 'sample.particles'?");
-  expect_problem(sized + "[bond]\ncomposite = \"paralel\"\n",
-                 "must be one of 'replace', 'parallel', 'memory', got 'paralel'; did you mean 'parallel'?");
+  expect_problem(sized + "friction = 0.5\n", "unknown key 'friction' in [specimen]; did you mean 'grains.friction'?");
+  expect_problem("particles = 2000\n", "unknown key 'particles' outside any section; did you mean 'specimen.particles'?");
+  expect_problem(sized + "[bond]\ncontact_coupling = \"paralel\"\n",
+                 "must be one of 'replaces', 'parallel', 'replaces_keeping_force', got 'paralel'; did you mean 'parallel'?");
   EXPECT_EQ(problems_of(sized + "[run]\nqqqqqqqqqq = 1\n").find("did you mean"), std::string::npos);
 }
 
@@ -113,35 +114,35 @@ TEST(SceneFile, AForgottenUnitIsFoundByTheRange) {
 }
 
 TEST(SceneFile, MissingQuotesAreNamedAndNothingIsSaidOfWhatCouldNotBeRead) {
-  EXPECT_EQ(problems_of("[sample]\nvoid_ratio = 24 %  # loose\n"),
+  EXPECT_EQ(problems_of("[specimen]\nvoid_ratio = 24 %  # loose\n"),
             "my.toml:2:17: error: a number with its unit goes in quotes: \"24 %\"");
   EXPECT_EQ(problems_of(sized + "[test]\nconfining_stress = \"2 MPa\n"),
             "my.toml:4:26: error: a quotation mark (\") is missing in this line");
-  expect_problem(sized + "layers = 5 6\n", "my.toml:3:12: error: cannot be understood: ");
-  EXPECT_EQ(problems_of("[sample]\nparticels = 2000\n"),
-            "my.toml:2:1: error: unknown key 'particels' in [sample]; did you mean 'particles'?");
+  expect_problem(sized + "compaction_layers = 5 6\n", "my.toml:3:23: error: cannot be understood: ");
+  EXPECT_EQ(problems_of("[specimen]\nparticels = 2000\n"),
+            "my.toml:2:1: error: unknown key 'particels' in [specimen]; did you mean 'particles'?");
 }
 
 TEST(SceneFile, ASpecimenFileTakesThePlaceOfTheSizesInTheScene) {
   auto const file = std::filesystem::temp_directory_path() / ("clathra_place_" + std::to_string(::getpid()));
   std::ofstream(file) << "any";
-  Texts const from_file = {"sample.generator=file", "sample.file=" + file.string()};
+  Texts const from_file = {"specimen.file=" + file.string()};
   LoadedScene const loaded = load(sized + "void_ratio = 0.24\n[grading]\nd50 = \"0.17 mm\"\n", from_file);
   EXPECT_TRUE(loaded.warnings.empty());
-  EXPECT_EQ(loaded.scene.sample.particles, 0);
-  EXPECT_EQ(load(sized, {from_file[0], from_file[1], "sample.particles=300"}).warnings.size(), 1u) << "said beside it";
+  EXPECT_EQ(loaded.scene.specimen.particles, 0);
+  EXPECT_EQ(load(sized, {from_file[0], "specimen.particles=300"}).warnings.size(), 1u) << "said beside it";
   std::filesystem::remove(file);
 }
 
 TEST(SceneFile, HostileValuesAreRefused) {
-  expect_problem("[sample]\nparticles = 9000000000000000000\n", "'particles' must lie between");
-  expect_problem("[sample]\nparticles = 9e18\n", "'particles' must lie between");
-  expect_problem("[sample]\nparticles = 2000.5\n", "'particles' needs a whole number");
-  expect_problem("[sample]\nparticles = 99999999999999999999\n", "my.toml:2");
+  expect_problem("[specimen]\nparticles = 9000000000000000000\n", "'particles' must lie between");
+  expect_problem("[specimen]\nparticles = 9e18\n", "'particles' must lie between");
+  expect_problem("[specimen]\nparticles = 2000.5\n", "'particles' needs a whole number");
+  expect_problem("[specimen]\nparticles = 99999999999999999999\n", "my.toml:2");
   expect_problem(sized + "[test]\nconfining_stress = \"1e400 Pa\"\n", "'confining_stress' is out of range");
   expect_problem(sized + "[test]\nconfining_stress = 1e400\n", "my.toml:4");
   expect_problem(sized + "[grains]\ndensity = \"-1 g/cm^3\"\n", "'density' must lie between");
-  expect_problem("[sample]\nwidth = \"1 km\"\nheight = \"1 km\"\n", "discs of this grading; between 16 and 1e9 are possible");
+  expect_problem("[specimen]\nwidth = \"1 km\"\nheight = \"1 km\"\n", "discs of this grading; between 16 and 1e9 are possible");
   for (char const* const folder : {"..", "../..", "/", ".", "", "out/.."})
     expect_problem(sized + "[output]\nfolder = \"" + folder + "\"\n", "'output.folder' must name a folder of its own");
 }
@@ -151,25 +152,25 @@ TEST(SceneFile, TheGuardKeepsHostileTextFromTheParser) {
   expect_problem(sized + "# " + std::string(1 << 16, 'x') + "\n",
                  "my.toml:3:65537: error: the line has 65538 bytes, at most 65536 are allowed");
   expect_problem(
-      "[sample]\nparticles = 2\xc2\xa0"
+      "[specimen]\nparticles = 2\xc2\xa0"
       "000\n",
       "my.toml:2:14: error: only ASCII characters are allowed outside quotes and comments");
-  expect_problem(std::string("[sample]\nparticles = 20\0 0\n", 24), "control characters");
-  expect_problem("[sample]\nvoid_ratio = nan\n", "my.toml:2:14: error: nan and inf are not allowed");
-  expect_problem("[sample]\nvoid_ratio = -inf\n", "nan and inf are not allowed");
-  expect_problem("[sample]\nfile = \"\"\"a\"\"\"\n", "multi-line");
+  expect_problem(std::string("[specimen]\nparticles = 20\0 0\n", 26), "control characters");
+  expect_problem("[specimen]\nvoid_ratio = nan\n", "my.toml:2:14: error: nan and inf are not allowed");
+  expect_problem("[specimen]\nvoid_ratio = -inf\n", "nan and inf are not allowed");
+  expect_problem("[specimen]\nfile = \"\"\"a\"\"\"\n", "multi-line");
   // In quotes any UTF-8: a folder may have any name. Not what only looks like it.
-  EXPECT_EQ(load(sized + "file = \"sable fonc\xc3\xa9 \xe6\xb2\x99/\xf0\x9f\x8f\x96.h5\"\n").scene.sample.file,
-            "folder/sable fonc\xc3\xa9 \xe6\xb2\x99/\xf0\x9f\x8f\x96.h5");
+  EXPECT_EQ(load(sized + "[output]\nfolder = \"sable fonc\xc3\xa9 \xe6\xb2\x99/\xf0\x9f\x8f\x96\"\n").scene.output.folder,
+            "sable fonc\xc3\xa9 \xe6\xb2\x99/\xf0\x9f\x8f\x96");
   for (char const* const bytes : {"a\\\xff", "\xc3", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xa9"})
-    expect_problem(std::string("[sample]\nfile = \"") + bytes + "\"\n", "my.toml:2:");
-  expect_problem("[sample]\nfile = \"a\xa9\"\n", "my.toml:2:10: error: the text is not UTF-8");
+    expect_problem(std::string("[specimen]\nfile = \"") + bytes + "\"\n", "my.toml:2:");
+  expect_problem("[specimen]\nfile = \"a\xa9\"\n", "my.toml:2:10: error: the text is not UTF-8");
   std::string list = "[output]\nsnapshots_at = [";
   for (int i = 1; i < 3000; ++i) list += "0." + std::to_string(10000 + i) + ", ";
   EXPECT_EQ(load(sized + list + "]\n").scene.output.snapshots_at.size(), 2999u);
-  EXPECT_EQ(load("# sable \xc3\xa0 la m\xc3\xa9thode, \xff nan\r\n" + sized + "layers = 7 # \"nan\" '''\r\n").scene.sample.layers,
-            7);
-  EXPECT_EQ(load(sized + "file = \"a#nan.h5\"\n").scene.sample.file, "folder/a#nan.h5");
+  std::string const comment = "# sable \xc3\xa0 la m\xc3\xa9thode, \xff nan\r\n";
+  EXPECT_EQ(load(comment + sized + "compaction_layers = 7 # \"nan\" '''\r\n").scene.specimen.compaction_layers, 7);
+  EXPECT_EQ(load(sized + "[output]\nfolder = \"a#nan\"\n").scene.output.folder, "a#nan");
 }
 
 TEST(SceneFile, AMedianDiameterThatIsStatedAsItIsChangesNoBit) {
@@ -182,7 +183,7 @@ TEST(SceneFile, AMedianDiameterThatIsStatedAsItIsChangesNoBit) {
 }
 
 TEST(SceneFile, AByteOrderMarkIsOneErrorThatSaysWhatToDo) {
-  EXPECT_EQ(problems_of("\xef\xbb\xbf[sample]\n"),
+  EXPECT_EQ(problems_of("\xef\xbb\xbf[specimen]\n"),
             "my.toml:1:1: error: begins with a byte order mark: save it as UTF-8 without one, or as ASCII");
   for (std::string const mark : {"\xff\xfe", "\xfe\xff"})
     EXPECT_EQ(problems_of(mark + std::string("[\0s\0\n\0", 6)),
@@ -194,40 +195,41 @@ TEST(SceneFile, DeeplyNestedAndWronglyShapedTextEndsInAMessage) {
   for (int i = 0; i < 200000; ++i) nested += "a.b.c\n";
   expect_problem(nested, "my.toml: error: has 1200000 bytes, at most 1048576 are allowed");
   std::string const depth = "exceeded maximum nested value depth of 256";
-  expect_problem(sized + "layers = " + std::string(400, '[') + "\n",
-                 "my.toml:3:266: error: cannot be understood: Error while parsing value: " + depth);
+  expect_problem(sized + "compaction_layers = " + std::string(400, '[') + "\n",
+                 "my.toml:3:277: error: cannot be understood: Error while parsing value: " + depth);
   std::string lines;
   for (int i = 0; i < 2000; ++i) lines += std::string(500, '[') + "\n";
-  expect_problem(sized + "layers = [\n" + lines,
+  expect_problem(sized + "compaction_layers = [\n" + lines,
                  "my.toml:4:256: error: cannot be understood: Error while parsing value: " + depth);
   std::string dotted, tables;
   for (int i = 0; i < 8; ++i) dotted += "a.";
-  expect_problem(sized + dotted + "a = 1\n", "my.toml:3:1: error: unknown key 'a' in [sample]");
+  expect_problem(sized + dotted + "a = 1\n", "my.toml:3:1: error: unknown key 'a' in [specimen]");
   expect_problem("[" + dotted + "a]\n" + sized, "my.toml:1:2: error: unknown section [a]");
   expect_problem(sized + dotted + "a.a = 1\n", "my.toml:3:18: error: a name has at most 8 dots");
   for (int i = 0; i < 250; ++i) tables += dotted + "a = {";
-  expect_problem(sized + tables + std::string(250, '}') + "\n", "my.toml:3:1: error: unknown key 'a' in [sample]");
-  expect_problem(sized + "layers = [5]\n", "'layers' needs one value, not a list or a date");
-  expect_problem(sized + "layers = 1979-05-27\n", "'layers' needs one value");
-  expect_problem(sized + "layers.deep = 5\n", "'layers' is one value, not a section");
-  expect_problem("sample = 5\n", "'sample' is a section");
-  expect_problem("[sample]\nparticles = 2000\nparticles = 3000\n", "my.toml:3");
-  expect_problem("[sample\n", "my.toml:1");
+  expect_problem(sized + tables + std::string(250, '}') + "\n", "my.toml:3:1: error: unknown key 'a' in [specimen]");
+  expect_problem(sized + "compaction_layers = [5]\n", "'compaction_layers' needs one value, not a list or a date");
+  expect_problem(sized + "compaction_layers = 1979-05-27\n", "'compaction_layers' needs one value");
+  expect_problem(sized + "compaction_layers.deep = 5\n", "'compaction_layers' is one value, not a section");
+  expect_problem("specimen = 5\n", "'specimen' is a section");
+  expect_problem("[specimen]\nparticles = 2000\nparticles = 3000\n", "my.toml:3");
+  expect_problem("[specimen\n", "my.toml:1");
   expect_problem("", "the size of the specimen is open");
 }
 
 TEST(SceneFile, OverridesWinOverTheFile) {
-  Scene const scene = load(sized, {"sample.particles=200000", "test.confining_stress=3 MPa", "bond.law=none",
+  Scene const scene = load(sized, {"specimen.particles=200000", "test.confining_stress=3 MPa", "bond.law=none",
                                    "output.energy=true", "output.folder=\"out/a b\""})
                           .scene;
-  EXPECT_EQ(scene.sample.particles, 200000);
+  EXPECT_EQ(scene.specimen.particles, 200000);
   EXPECT_EQ(scene.test.confining_stress, 3e6);
   EXPECT_EQ(scene.bond.law, BondLawKind::none);
   EXPECT_TRUE(scene.output.energy);
   EXPECT_EQ(scene.output.folder, "out/a b");
-  EXPECT_NE(problems_of(sized, {"run.dt_saftey=1"})
-                .find("--set run.dt_saftey=1: error: unknown key 'run.dt_saftey'; did you mean 'dt_safety'?"),
-            std::string::npos);
+  EXPECT_NE(
+      problems_of(sized, {"run.time_step_saftey=1"})
+          .find("--set run.time_step_saftey=1: error: unknown key 'run.time_step_saftey'; did you mean 'time_step_safety'?"),
+      std::string::npos);
 }
 
 TEST(SceneFile, AStrainRateReplacesTheDefaultInertialNumberButNotAStatedOne) {
@@ -246,32 +248,33 @@ TEST(SceneFile, AStrainRateReplacesTheDefaultInertialNumberButNotAStatedOne) {
 }
 
 TEST(SceneFile, AWaveNumberBoundsTheRateOfAnInertialNumberNotAStatedRate) {
-  std::string const bounded = sized + "[test]\nwave_number = 0.1\n";
-  EXPECT_EQ(load(sized).scene.test.wave_number, 0.13);
-  EXPECT_EQ(load(sized + "[test]\ninertial_number = 1e-3\n").scene.test.wave_number, 0) << "a stated rate is kept";
-  EXPECT_EQ(load(sized, {"test.inertial_number=1e-3", "run.accuracy=draft"}).scene.test.wave_number, 0);
-  EXPECT_EQ(load(bounded + "inertial_number = 1e-3\n").scene.test.wave_number, 0.1);
-  expect_problem(bounded + "strain_rate = \"5 %/min\"\n",
-                 "my.toml:4:15: error: 'test.wave_number' lowers the rate of 'test.inertial_number': it cannot change a stated "
-                 "'test.strain_rate'");
+  std::string const bounded = sized + "[test]\nmax_platen_wave_stress = 0.1\n";
+  EXPECT_EQ(load(sized).scene.test.max_platen_wave_stress, 0.13);
+  EXPECT_EQ(load(sized + "[test]\ninertial_number = 1e-3\n").scene.test.max_platen_wave_stress, 0) << "a stated rate is kept";
+  EXPECT_EQ(load(sized, {"test.inertial_number=1e-3", "run.preset=draft"}).scene.test.max_platen_wave_stress, 0);
+  EXPECT_EQ(load(bounded + "inertial_number = 1e-3\n").scene.test.max_platen_wave_stress, 0.1);
+  expect_problem(
+      bounded + "strain_rate = \"5 %/min\"\n",
+      "my.toml:4:26: error: 'test.max_platen_wave_stress' lowers the rate of 'test.inertial_number': it cannot change a stated "
+      "'test.strain_rate'");
   Scene const stated = load(bounded, {"test.strain_rate=5 %/min"}).scene;
-  EXPECT_EQ(stated.test.wave_number, 0) << "an override of the rate takes the place of its bound, too";
-  problems_of(sized, {"test.wave_number=0.1", "test.strain_rate=5 %/min"});
-  EXPECT_EQ(
-      load(sized + "[test]\nstrain_rate = 10\n", {"test.inertial_number=1e-3", "test.wave_number=0.1"}).scene.test.strain_rate,
-      0);
+  EXPECT_EQ(stated.test.max_platen_wave_stress, 0) << "an override of the rate takes the place of its bound, too";
+  problems_of(sized, {"test.max_platen_wave_stress=0.1", "test.strain_rate=5 %/min"});
+  EXPECT_EQ(load(sized + "[test]\nstrain_rate = 10\n", {"test.inertial_number=1e-3", "test.max_platen_wave_stress=0.1"})
+                .scene.test.strain_rate,
+            0);
 }
 
 TEST(SceneFile, ThreeOfFourFixTheSpecimen) {
-  std::string const box = "[sample]\nwidth = \"10 mm\"\nheight = \"20 mm\"\n";
+  std::string const box = "[specimen]\nwidth = \"10 mm\"\nheight = \"20 mm\"\n";
   EXPECT_NO_THROW(load(box));
   EXPECT_NO_THROW(load(box + "particles = 8000\n"));
   EXPECT_NO_THROW(load(box + "particles = 8000\nvoid_ratio = 0.22\n"));
   expect_problem(box + "particles = 8000\nvoid_ratio = 0.22\n[grading]\nd50 = \"0.17 mm\"\n", "three of them fix the fourth");
-  EXPECT_NO_THROW(load("[sample]\nwidth = \"10 mm\"\nparticles = 8000\nvoid_ratio_at = \"test\"\n"));
+  EXPECT_NO_THROW(load("[specimen]\nwidth = \"10 mm\"\nparticles = 8000\nvoid_ratio_at = \"test\"\n"));
   expect_problem(box + "void_ratio_at = \"test\"\n", "those of the specimen as it is made");
   expect_problem(box + "aspect_ratio = 3\n", "contradict each other");
-  EXPECT_DOUBLE_EQ(load("[sample]\nwidth = \"10 mm\"\n").scene.sample.height, 0.02);
+  EXPECT_DOUBLE_EQ(load("[specimen]\nwidth = \"10 mm\"\n").scene.specimen.height, 0.02);
   expect_problem(box + "particles = 80000\n", "do not fit");
 }
 
@@ -293,20 +296,21 @@ TEST(SceneFile, ASandTooFineForAnyBondIsRefused) {
 }
 
 TEST(SceneFile, ReplaceAfterConsolidationIsRefusedUnlessForced) {
-  std::string const text = sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncomposite = \"replace\"\nafter_consolidation = true\n";
+  std::string const text =
+      sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncontact_coupling = \"replaces\"\nafter_consolidation = true\n";
   expect_problem(text, "my.toml:7:23: refused: composite 'replace' with 'after_consolidation'", ExitCode::refused);
-  EXPECT_EQ(load(text, {"run.force=true"}).warnings.size(), 1u);
+  EXPECT_EQ(load(text, {"run.ignore_guards=true"}).warnings.size(), 1u);
 }
 
 TEST(SceneFile, ABondThatReplacesTheContactFormsAtTheBondingStressUnlessToldOtherwise) {
   EXPECT_TRUE(load(sized + "[hydrate]\nsaturation = 0.55\n").scene.bond.after_consolidation);
-  EXPECT_FALSE(load(sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncomposite = \"replace\"\n").scene.bond.after_consolidation);
+  EXPECT_FALSE(
+      load(sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncontact_coupling = \"replaces\"\n").scene.bond.after_consolidation);
 }
 
 TEST(SceneFile, FilesOfASceneAreFoundBesideItAndMissedWithTheirOwnCode) {
-  expect_problem("[sample]\ngenerator = \"file\"\n", "generator 'file' needs 'sample.file'");
-  expect_problem("[sample]\ngenerator = \"file\"\nfile = \"none.h5\"\n",
-                 "'sample.file' names a file that is not there: folder/none.h5", ExitCode::file_missing);
+  expect_problem("[specimen]\nfile = \"none.h5\"\n", "'specimen.file' names a file that is not there: folder/none.h5",
+                 ExitCode::file_missing);
   expect_problem(sized + "[grading]\nfile = \"none.csv\"\n", "'grading.file' names a file that is not there: folder/none.csv",
                  ExitCode::file_missing);
   EXPECT_THROW(load_scene("no/such/scene.toml"), FileProblem);
@@ -326,7 +330,7 @@ TEST(SceneFile, FilesOfASceneAreFoundBesideItAndMissedWithTheirOwnCode) {
 }
 
 TEST(SceneFile, KeysWithoutEffectAreWarnedOf) {
-  EXPECT_EQ(load(sized + "[bond]\ncomposite = \"memory\"\n").warnings.size(), 1u);
+  EXPECT_EQ(load(sized + "[bond]\ncontact_coupling = \"replaces_keeping_force\"\n").warnings.size(), 1u);
   EXPECT_EQ(load(sized + "[hydrate]\nsaturation = 0.15\n").warnings.size(), 1u);
   EXPECT_EQ(load(sized + "[hydrate]\nsaturation = 0.55\n[bond]\ncritical_thickness = \"10 um\"\n").warnings.size(), 1u);
   EXPECT_TRUE(load(sized).warnings.empty());
@@ -334,7 +338,8 @@ TEST(SceneFile, KeysWithoutEffectAreWarnedOf) {
 
 TEST(SceneFile, TheResolvedEchoLoadsToTheSameScene) {
   LoadedScene const first = load(
-      "[sample]\nwidth = \"10.1 mm\"\n[hydrate]\nsaturation = 0.407\n[test]\nstrain_rate = \"5 %/min\"\n[grains]\nkn = "
+      "[specimen]\nwidth = \"10.1 mm\"\n[hydrate]\nsaturation = 0.407\n[test]\nstrain_rate = \"5 "
+      "%/min\"\n[grains]\nnormal_stiffness = "
       "123456789.1\n"
       "[output]\nfolder = \"a \\\"b\\\"\"\n");
   std::string const echo = resolved_scene(first.scene, "elsewhere");
@@ -343,7 +348,7 @@ TEST(SceneFile, TheResolvedEchoLoadsToTheSameScene) {
 }
 
 TEST(SceneFile, ANegativeZeroIsZero) {
-  Scene const scene = load("[sample]\nparticles = 110\n[hydrate]\nsaturation = \"-0 %\"\n").scene;
+  Scene const scene = load("[specimen]\nparticles = 110\n[hydrate]\nsaturation = \"-0 %\"\n").scene;
   EXPECT_FALSE(std::signbit(scene.hydrate.saturation));
   EXPECT_EQ(scene.hydrate.saturation, 0);
 }
@@ -374,11 +379,11 @@ consteval int member_count() {
 }
 
 TEST(Schema, HasAKeyForEveryFieldOfTheScene) {
-  int const fields = member_count<SampleScene>() + member_count<GrainScene>() + member_count<GradingScene>() +
-                     member_count<HydrateScene>() + member_count<BondScene>() + member_count<TestScene>() +
-                     member_count<RunScene>() + member_count<OutputScene>();
+  int const fields = member_count<SpecimenScene>() + member_count<GrainScene>() + member_count<GradingScene>() +
+                     member_count<HydrateScene>() + member_count<BondScene>() + member_count<DampingScene>() +
+                     member_count<TestScene>() + member_count<RunScene>() + member_count<OutputScene>();
   EXPECT_EQ(fields, static_cast<int>(schema().size()));
-  EXPECT_EQ(member_count<Scene>(), 8);
+  EXPECT_EQ(member_count<Scene>(), 9);
 }
 
 TEST(Schema, ItsKeysReachDifferentFieldsAndItsDefaultsAreAllowed) {
@@ -386,8 +391,7 @@ TEST(Schema, ItsKeysReachDifferentFieldsAndItsDefaultsAreAllowed) {
   for (Key const& key : schema()) {
     EXPECT_FALSE(key.help.empty()) << key.name;
     Scene scene;
-    std::string text = value_text(key, defaults);
-    if (text.front() == '"') text = text.substr(1, text.size() - 2);
+    std::string const text(unquoted(value_text(key, defaults)));
     EXPECT_NO_THROW(set_from_text(key, scene, text)) << key.name << " = " << text;
   }
 }

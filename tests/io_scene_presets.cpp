@@ -24,21 +24,21 @@ LoadedScene load(std::string const& text, Texts const& overrides = {}) {
   return parse_scene(text, "my.toml", "folder", overrides);
 }
 
-std::string const sized = "[sample]\nparticles = 2000\n";
+std::string const sized = "[specimen]\nparticles = 2000\n";
 
 TEST(ScenePresets, APresetStandsInForTheDefaultsThatAreNotStated) {
   for (PresetGroup const* const group : {&readings(), &accuracies()})
     for (Preset const& preset : group->presets) {
       std::string const named = std::string(group->key) + "=" + std::string(preset.name);
-      Texts const stated = {"bond.moment_ratio=0.3", "bond.composite=memory", "run.inertia_scaling=2",
-                            "test.inertial_number=3e-4", "test.wave_number=0.3"};
+      Texts const stated = {"bond.moment_ratio=0.3", "bond.contact_coupling=replaces_keeping_force",
+                            "run.rotational_inertia_factor=2", "test.inertial_number=3e-4", "test.max_platen_wave_stress=0.3"};
       Scene const scene = load(sized, {named}).scene;
       Texts overrides = stated;
       overrides.push_back(named);
       Scene const other = load(sized, overrides).scene;
       EXPECT_EQ(other.bond.moment_ratio, 0.3);
-      EXPECT_EQ(other.bond.composite, Composite::memory);
-      EXPECT_EQ(other.run.inertia_scaling, 2);
+      EXPECT_EQ(other.bond.contact_coupling, Composite::memory);
+      EXPECT_EQ(other.run.rotational_inertia_factor, 2);
       EXPECT_EQ(other.test.inertial_number, 3e-4);
       ASSERT_EQ(preset.keys.size(), group->presets.front().keys.size());
       for (PresetKey const& said : preset.keys) {
@@ -56,12 +56,12 @@ TEST(ScenePresets, APresetStandsInForTheDefaultsThatAreNotStated) {
 
 TEST(ScenePresets, TheFirstPresetsAreTheDefaults) {
   Scene const defaults, usual = load(sized).scene;
-  EXPECT_EQ(defaults.bond.reading, readings().presets.front().name);
-  EXPECT_EQ(defaults.run.accuracy, accuracies().presets.front().name);
+  EXPECT_EQ(defaults.bond.preset, readings().presets.front().name);
+  EXPECT_EQ(defaults.run.preset, accuracies().presets.front().name);
   for (PresetGroup const* const group : {&readings(), &accuracies()})
     for (PresetKey const& said : group->presets.front().keys)
       EXPECT_EQ(value_text(*find_key(said.key), defaults), value_text(*find_key(said.key), usual)) << said.key;
-  for (auto const& [text, hint] : {std::pair("bond.reading=litteral", "literal"), std::pair("run.accuracy=standart", "standard")})
+  for (auto const& [text, hint] : {std::pair("bond.preset=litteral", "literal"), std::pair("run.preset=standart", "standard")})
     try {
       load(sized, {text});
       ADD_FAILURE() << text;
@@ -73,35 +73,36 @@ TEST(ScenePresets, TheFirstPresetsAreTheDefaults) {
 
 TEST(ScenePresets, AStatedStrainRateIsNoAffairOfAnAccuracy) {
   for (std::string_view const name : accuracies().names) {
-    std::string const accuracy = "[run]\naccuracy = \"" + std::string(name) + "\"\n";
+    std::string const accuracy = "[run]\npreset = \"" + std::string(name) + "\"\n";
     Scene const stated = load(sized + accuracy + "[test]\nstrain_rate = \"5 %/min\"\n").scene;
     EXPECT_EQ(stated.test.strain_rate, 0.05 / 60);
     EXPECT_EQ(stated.test.inertial_number, 0);
-    EXPECT_EQ(stated.test.wave_number, 0);
-    EXPECT_EQ(load(sized + accuracy, {"test.strain_rate=5 %/min"}).scene.test.wave_number, 0);
+    EXPECT_EQ(stated.test.max_platen_wave_stress, 0);
+    EXPECT_EQ(load(sized + accuracy, {"test.strain_rate=5 %/min"}).scene.test.max_platen_wave_stress, 0);
     EXPECT_GT(load(sized + accuracy + "[test]\nstrain_rate = 1\n", {"test.inertial_number=1e-3"}).scene.test.inertial_number, 0);
   }
 }
 
 TEST(ScenePresets, GrainsThatAreTooStiffForMixedPrecisionGetDouble) {
-  std::string const stiff = sized + "[grains]\nkn = 1.1e10\n", soft = sized + "[grains]\nkn = 0.9e10\n";
+  std::string const stiff = sized + "[grains]\nnormal_stiffness = 1.1e10\n",
+                    soft = sized + "[grains]\nnormal_stiffness = 0.9e10\n";
   for (std::string const name : {"standard", "draft"}) {
-    EXPECT_EQ(load(stiff, {"run.accuracy=" + name}).scene.run.precision, Precision::full) << name;
-    EXPECT_EQ(load(soft, {"run.accuracy=" + name}).scene.run.precision, Precision::mixed) << name;
-    EXPECT_EQ(load(stiff, {"run.accuracy=" + name, "run.precision=mixed"}).scene.run.precision, Precision::mixed) << "stated";
+    EXPECT_EQ(load(stiff, {"run.preset=" + name}).scene.run.precision, Precision::full) << name;
+    EXPECT_EQ(load(soft, {"run.preset=" + name}).scene.run.precision, Precision::mixed) << name;
+    EXPECT_EQ(load(stiff, {"run.preset=" + name, "run.precision=mixed"}).scene.run.precision, Precision::mixed) << "stated";
   }
 }
 
 TEST(ScenePresets, TheEchoOfAnAccuracyLoadsToItsValues) {
   for (std::string_view const name : accuracies().names) {
-    Scene const scene = load(sized, {"run.accuracy=" + std::string(name)}).scene;
+    Scene const scene = load(sized, {"run.preset=" + std::string(name)}).scene;
     Scene const again = parse_scene(resolved_scene(scene, "."), "resolved.toml", ".").scene;
     for (Key const& key : schema()) EXPECT_EQ(value_text(key, scene), value_text(key, again)) << name << ": " << key.name;
   }
 }
 
 TEST(ScenePresets, TheNameOfAnAccuracyIsNoDifferenceItsValuesAre) {
-  Scene const draft = load(sized, {"run.accuracy=draft"}).scene;
+  Scene const draft = load(sized, {"run.preset=draft"}).scene;
   Texts same;
   for (PresetKey const& said : accuracies().of("draft").keys)
     same.push_back(std::string(said.key) + "=" + std::string(said.value));
@@ -117,17 +118,17 @@ TEST(ScenePresets, EachAccuracyRunsAndIsResumedInItsOwnOnly) {
   fs::create_directories(folder);
   std::string const scene = (folder / "small.toml").string();
   std::ofstream(scene)
-      << "[sample]\ngenerator = \"file\"\nfile = \"" CLATHRA_GOLDEN
+      << "[specimen]\nfile = \"" CLATHRA_GOLDEN
          "/specimen.h5\"\n[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.1 %\"\n[output]\nrecords = 5\n";
   auto const run = [&](std::string const& accuracy, std::string const& more = "") {
-    return run_clathra("run '" + scene + "' --threads 1 --set run.accuracy=" + accuracy + " --output '" +
+    return run_clathra("run '" + scene + "' --threads 1 --set run.preset=" + accuracy + " --output '" +
                        (folder / "out").string() + "' " + more);
   };
   for (std::string const accuracy : {"standard", "draft"}) {
     CommandResult const first = run(accuracy, "--overwrite");
     ASSERT_EQ(first.code, 0) << first.output;
     auto const record = nlohmann::json::parse(std::ifstream(folder / "out" / "run.json"));
-    EXPECT_EQ(record["scene"]["run"]["accuracy"], accuracy);
+    EXPECT_EQ(record["scene"]["run"]["preset"], accuracy);
     for (PresetKey const& said : accuracies().of(accuracy).keys) {
       Scene wanted;
       set_stated(*find_key(said.key), wanted, said.value);

@@ -56,7 +56,7 @@ TEST(SceneReference, EveryCommentedValueIsAllowed) {
       continue;
     ++values;
     try {
-      parse_scene("[sample]\nparticles = 1000\n" + (section == "[sample]" ? "" : section + "\n") + line.substr(2) + "\n",
+      parse_scene("[specimen]\nparticles = 1000\n" + (section == "[specimen]" ? "" : section + "\n") + line.substr(2) + "\n",
                   "one.toml", ".");
     } catch (SceneProblems const& problems) {
       // Some defaults need another key beside them, which is said of the whole scene, not of the value.

@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string state_hash(fs::path const& folder, std::string const& saturation, std::string const& name) {
-  LoadedScene input =
-      parse_scene("[sample]\nparticles = 300\n[test]\naxial_strain = \"0.5 %\"\n[output]\nrecords = 10\n", "small.toml", folder);
+  LoadedScene input = parse_scene("[specimen]\nparticles = 300\n[test]\naxial_strain = \"0.5 %\"\n[output]\nrecords = 10\n",
+                                  "small.toml", folder);
   input.scene.hydrate.saturation = saturation == "clean" ? 0 : 0.41;
   input.scene.output.folder = (folder / name).string();
   TestRun run(std::move(input), std::nullopt, {}, Ranks());

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "domain/generation/periodic_cell.hpp"
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "file_content.hpp"
 #include "io/formats/hdf5_file.hpp"
 #include "io/results/export.hpp"
@@ -228,9 +228,9 @@ TEST_F(SnapshotFile, ExportsUnderNamesOfTheStep) {
 /// A million bonded discs under stress, with the noise of real forces: a packed cell of 2,000 repeated.
 Simulation million_discs() {
   Scene scene = hydrate_scene(0.55, Composite::parallel);
-  scene.sample.particles = 2000;
-  scene.sample.void_ratio = 0.23;
-  scene.bond.stress = 1e6;
+  scene.specimen.particles = 2000;
+  scene.specimen.void_ratio = 0.23;
+  scene.specimen.preparation_stress = 1e6;
   PackedSpecimen const cell = pack_periodic_cell(scene, design_sample(scene), 2000, {});
   double const area = 510 * cell.specimen.width() * cell.specimen.height(), width = std::sqrt(area / 2);
   Specimen s = replicate(cell.specimen, width, 2 * width);

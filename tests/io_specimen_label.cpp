@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 Specimen bonded_by(Scene const& scene) {
   Specimen s = disordered_patch(6, 6);
   s.density = scene.grains.density;
-  s.stress = scene.bond.stress;
+  s.stress = scene.specimen.preparation_stress;
   bond_all(s, scene);
   s.provenance = nlohmann::json{{"made_of", specimen_label(scene, true)}}.dump();
   return s;
@@ -66,19 +66,21 @@ TEST(SpecimenLabel, BondsOfAnotherSceneAreRefusedWithBothValuesWhateverIsForced)
   Specimen const specimen = bonded_by(scene);
   auto const expect = [&](char const* wanted, auto&& change) {
     Scene other = scene;
-    other.run.force = true;
+    other.run.ignore_guards = true;
     change(other);
     EXPECT_TRUE(refuses(verdict(specimen, other), wanted));
   };
   expect("hydrate.saturation was 0.55, is 0.26", [](Scene& s) { s.hydrate.saturation = 0.26; });
   expect("hydrate.density was 900 kg/m^3, is 920 kg/m^3", [](Scene& s) { s.hydrate.density = 920; });
-  expect("bond.composite was parallel, is memory", [](Scene& s) { s.bond.composite = Composite::memory; });
+  expect("bond.contact_coupling was parallel, is replaces_keeping_force",
+         [](Scene& s) { s.bond.contact_coupling = Composite::memory; });
   expect("bond.law was thickness_dependent, is constant_thickness",
          [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; });
-  expect("bond.coefficients was thm, is printed", [](Scene& s) { s.bond.coefficients = CoefficientSource::printed; });
+  expect("bond.strength_from was thm, is printed", [](Scene& s) { s.bond.strength_from = CoefficientSource::printed; });
   expect("bond.moment_scale was similitude, is rod_mm", [](Scene& s) { s.bond.moment_scale = MomentScale::rod_mm; });
   expect("bond.moment_ratio was ", [](Scene& s) { s.bond.moment_ratio = 0.1; });
-  expect("bond.mode was eq3, is areal_target", [](Scene& s) { s.bond.mode = BondingMode::areal_target; });
+  expect("bond.critical_thickness_from was eq3, is areal_target",
+         [](Scene& s) { s.bond.critical_thickness_from = BondingMode::areal_target; });
   expect("hydrate.saturation was 0.55, is 0", [](Scene& s) { s.hydrate.saturation = 0; });
   expect("bond.law was thickness_dependent, is none", [](Scene& s) { s.bond.law = BondLawKind::none; });
   expect("its grains have a density of 2600 kg/m^3, grains.density is 2700 kg/m^3", [](Scene& s) { s.grains.density = 2700; });
@@ -94,9 +96,9 @@ TEST(SpecimenLabel, WhatMayBeChosenAnewIsWarnedOf) {
     EXPECT_EQ(verdict(specimen, other).find("refused"), std::string::npos);
   };
   expect("final.h5: hydrate.temperature was 5 degC, is 8 degC", [](Scene& s) { s.hydrate.temperature = 8; });
-  expect("grains.kn was 0.3 GPa, is 0.1 GPa", [](Scene& s) { s.grains.kn = 1e8; });
-  expect("grains.ks was 0.2 GPa, is 0.1 GPa", [](Scene& s) { s.grains.ks = 1e8; });
-  expect("bond.stress was 50 kPa, is ", [](Scene& s) { s.bond.stress = 2e5; });
+  expect("grains.normal_stiffness was 0.3 GPa, is 0.1 GPa", [](Scene& s) { s.grains.normal_stiffness = 1e8; });
+  expect("grains.shear_stiffness was 0.2 GPa, is 0.1 GPa", [](Scene& s) { s.grains.shear_stiffness = 1e8; });
+  expect("specimen.preparation_stress was 50 kPa, is ", [](Scene& s) { s.specimen.preparation_stress = 2e5; });
   expect("run.seed was 1, is 7", [](Scene& s) { s.run.seed = 7; });
 }
 
@@ -109,10 +111,10 @@ TEST(SpecimenLabel, BondsThatAreNotLabelledAreJudgedByWhatTheyShow) {
   EXPECT_TRUE(refuses(verdict(specimen, other), "which Eq. 3 gives at a saturation of 0.55; hydrate.saturation is 0.26, which"));
   EXPECT_TRUE(refuses(verdict(specimen, scene_at(0)), "the scene makes none (hydrate.saturation is 0"));
   other = scene;
-  other.bond.composite = Composite::replace;
-  EXPECT_TRUE(refuses(verdict(specimen, other), "act in parallel to the grain contacts, bond.composite is replace"));
+  other.bond.contact_coupling = Composite::replace;
+  EXPECT_TRUE(refuses(verdict(specimen, other), "act in parallel to the grain contacts, bond.contact_coupling is replace"));
   other = scene;
-  other.bond.mode = BondingMode::given_thickness;
+  other.bond.critical_thickness_from = BondingMode::given_thickness;
   other.bond.critical_thickness = 1e-5;
   EXPECT_TRUE(refuses(verdict(specimen, other), "bond.critical_thickness is 10 um"));
   other.bond.critical_thickness = specimen.critical_thickness;
@@ -143,13 +145,14 @@ class SpecimenOfARun : public testing::Test {
   void SetUp() override { fs::create_directories(folder); }
   void TearDown() override { fs::remove_all(folder); }
   CommandResult clathra(std::string const& verb, std::string const& more) const {
-    return run_clathra(verb +
-                       " " CLATHRA_EXAMPLES
-                       "/quick.toml --set sample.particles=100 --set sample.void_ratio=0.28 --set test.axial_strain=\"0.3 %\" " +
-                       "--set output.records=5 --set output.snapshots=0 --set hydrate.saturation=\"55 %\" " + more);
+    return run_clathra(
+        verb +
+        " " CLATHRA_EXAMPLES
+        "/quick.toml --set specimen.particles=100 --set specimen.void_ratio=0.28 --set test.axial_strain=\"0.3 %\" " +
+        "--set output.records=5 --set output.snapshots=0 --set hydrate.saturation=\"55 %\" " + more);
   }
   std::string out(std::string const& name) const { return (folder / name).string(); }
-  std::string reading(std::string const& file) const { return " --set sample.generator=file --set sample.file=" + file + " "; }
+  std::string reading(std::string const& file) const { return " --set specimen.file=" + file + " "; }
 
   fs::path const folder = fs::temp_directory_path() / ("clathra_label_" + std::to_string(::getpid()));
 };
@@ -175,7 +178,8 @@ TEST_F(SpecimenOfARun, GoesOnUnderItsOwnLabelOnly) {
   EXPECT_TRUE(says(info, "hydrate.saturation             0.55\n"));
   std::string const whole = reading(out("first") + "/specimen.h5");
   EXPECT_EQ(clathra("check", whole + other).code, 0);
-  EXPECT_TRUE(says(clathra("check", whole + "--set grains.kn=\"200 MPa\"").output, "grains.kn was 0.3 GPa, is 0.2 GPa"));
+  EXPECT_TRUE(says(clathra("check", whole + "--set grains.normal_stiffness=\"200 MPa\"").output,
+                   "grains.normal_stiffness was 0.3 GPa, is 0.2 GPa"));
 }
 
 }  // namespace

@@ -63,10 +63,10 @@ TEST_F(SpecimenCheck, AStressThatTheOverlapsDoNotShowIsWarnedOf) {
   write([](Specimen&) {});
   EXPECT_NE(warnings(1e8).find(wanted), std::string::npos) << warnings(1e8);
   // The stiffness that it came to rest with is what counts, where the file says it.
-  write([](Specimen& s) { s.provenance = R"({"made_of": {"grains.kn": "0.3 GPa"}})"; });
+  write([](Specimen& s) { s.provenance = R"({"made_of": {"grains.normal_stiffness": "0.3 GPa"}})"; });
   EXPECT_EQ(warnings(1e8), "");
   EXPECT_FALSE(says(run_clathra("info '" + file.string() + "'"), "says that it rests"));
-  write([](Specimen& s) { s.provenance = R"({"made_of": {"grains.kn": "3 MPa"}})"; });
+  write([](Specimen& s) { s.provenance = R"({"made_of": {"grains.normal_stiffness": "3 MPa"}})"; });
   EXPECT_TRUE(says(run_clathra("info '" + file.string() + "'"), "says that it rests under 1000 kPa"));
   for (auto const& change : std::vector<std::function<void(Specimen&)>>{[](Specimen& s) { s.axial_strain = 0.01; },
                                                                         [](Specimen& s) { s.critical_thickness = 1e-5; },
@@ -85,10 +85,10 @@ TEST_F(SpecimenCheck, ATestIsForecastFromTheDiscsOfTheFile) {
   std::ofstream(folder / "sand.csv") << "d_mm,percent_finer\n1,0\n2,100\n";
   CommandResult const curve = by_scene("check", "--set grading.file='" + (folder / "sand.csv").string() + "'");
   EXPECT_TRUE(says(curve, "warning: grading.file has no effect: the specimen comes from ")) << curve.output;
-  EXPECT_TRUE(says(curve, "not measured: test.axial_strain, sample.file\n") || says(curve, "not measured: sample.file\n"))
+  EXPECT_TRUE(says(curve, "not measured: test.axial_strain, specimen.file\n") || says(curve, "not measured: specimen.file\n"))
       << curve.output;
   write(two_sizes(2e-4));
-  SampleDesign const design = design_of(read_specimen(file));
+  SpecimenDesign const design = design_of(read_specimen(file));
   EXPECT_EQ(design.particles, 175);
   EXPECT_DOUBLE_EQ(design.grading.d50(), 2e-4);
   EXPECT_NEAR(design.grading.finer_than(5e-4), 165. / 325, 0.01);  // areas: 165 x 1 and 10 x 16
@@ -102,7 +102,8 @@ TEST_F(SpecimenCheck, WhatATestCannotBearIsRefusedAsWhereItIsGenerated) {
   EXPECT_EQ(among.code, 77);
   EXPECT_TRUE(says(among, ranks)) << among.output;
   for (char const* const verb : {"check", "run"}) {
-    CommandResult const skin = by_scene(verb, std::string("--set run.skin='0.6 mm'") + (verb[0] == 'r' ? " --dry-run" : ""));
+    CommandResult const skin =
+        by_scene(verb, std::string("--set run.verlet_skin='0.6 mm'") + (verb[0] == 'r' ? " --dry-run" : ""));
     EXPECT_EQ(skin.code, 77) << skin.output;
     EXPECT_TRUE(says(skin, "of this grading the skin may be")) << skin.output;
   }

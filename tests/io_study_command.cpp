@@ -21,8 +21,8 @@ class StudyCommand : public testing::Test {
     fs::create_directories(folder);
     std::string const rest =
         "[hydrate]\nsaturation = 0.55\n[test]\naxial_strain = \"0.4 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
-    std::ofstream(folder / "base.toml") << "[sample]\nparticles = 100\nvoid_ratio = 0.28\nlayers = 1\n" << rest;
-    std::ofstream(folder / "read.toml") << "[sample]\ngenerator = \"file\"\nfile = \"" CLATHRA_GOLDEN "/specimen.h5\"\n" << rest;
+    std::ofstream(folder / "base.toml") << "[specimen]\nparticles = 100\nvoid_ratio = 0.28\ncompaction_layers = 1\n" << rest;
+    std::ofstream(folder / "read.toml") << "[specimen]\nfile = \"" CLATHRA_GOLDEN "/specimen.h5\"\n" << rest;
   }
   void TearDown() override { fs::remove_all(folder); }
   CommandResult study(std::string const& text, std::string const& more = "", std::string const& scene = "base.toml") const {
@@ -75,7 +75,7 @@ TEST_F(StudyCommand, LeavesATableWithARowForEachMemberAndStatisticsOfEachGroup) 
 }
 
 TEST_F(StudyCommand, NamesAMemberThatFailsAndGoesOnWithTheOthers) {
-  CommandResult const result = study("seeds = 1\n[matrix]\nsample.void_ratio = [0.1, 0.28, 0.29]\n");
+  CommandResult const result = study("seeds = 1\n[matrix]\nspecimen.void_ratio = [0.1, 0.28, 0.29]\n");
   EXPECT_EQ(result.code, 77) << result.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished", "finished"}));
   EXPECT_NE(cells("member", "message")[0].find(" without friction: looser than the 0.1 that was asked for"), std::string::npos)
@@ -109,16 +109,16 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
 
 /// Of the scene as of the forecast.
 TEST_F(StudyCommand, SkipsGroupsWhoseSceneIsRefused) {
-  std::string const sizes = "seeds = 1\n[matrix]\nsample.particles = [20, 100]\n";
+  std::string const sizes = "seeds = 1\n[matrix]\nspecimen.particles = [20, 100]\n";
   CommandResult const asked = study(sizes, "--dry-run");
   EXPECT_EQ(asked.code, 77) << asked.output;
   for (char const* const part :
-       {"the group particles20 would be refused: sample.particles=20: the specimen is ", "1 of 2 groups would be refused"})
+       {"the group particles20 would be refused: specimen.particles=20: the specimen is ", "1 of 2 groups would be refused"})
     EXPECT_NE(asked.output.find(part), std::string::npos) << part << "\n" << asked.output;
   CommandResult const skipped = study(sizes, "--skip-refused");
   EXPECT_EQ(skipped.code, 0) << skipped.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"refused", "finished"}));
-  EXPECT_EQ(study("seeds = 1\n[matrix]\nsample.particles = [5, 100]\n", "--skip-refused").code, 65) << "a mistake is none";
+  EXPECT_EQ(study("seeds = 1\n[matrix]\nspecimen.particles = [5, 100]\n", "--skip-refused").code, 65) << "a mistake is none";
 }
 
 TEST_F(StudyCommand, ShowsTheWarningsOfItsMembers) {
@@ -152,7 +152,7 @@ TEST_F(StudyCommand, HasOnePrecedenceAndSaysWhatItSets) {
 }
 
 TEST_F(StudyCommand, RefusesSeedsThatChangeNothing) {
-  for (std::string const& text : {std::string("seeds = 2\n"), std::string("until = \"peak_q_Pa=1%\"\n")}) {
+  for (std::string const& text : {std::string("seeds = 2\n"), std::string("precision_target = \"peak_q_Pa=1%\"\n")}) {
     CommandResult const result = study(text, "", "read.toml");
     EXPECT_EQ(result.code, 65) << result.output;
     EXPECT_NE(result.output.find("seeds change nothing in the group all, whose specimen comes from a file"), std::string::npos)
@@ -219,7 +219,7 @@ TEST_F(StudyCommand, ThatCannotWriteItsTableStopsItsMembersWithACheckpoint) {
       << "first=$(cat pid); kill -KILL $first\nuntil [ $(cat pid) != $first ]; do sleep 0.05; done\nkill -KILL $(cat pid)\n";
   std::string const in_folder = "'" + folder.string() + "/";
   CommandResult const result = run_clathra("--version > /dev/null; bash " + in_folder + "disturb.sh' & " + program_in_shell +
-                                           " study " + in_folder + "many.toml' --parallel 2 --launcher \"bash " +
+                                           " study " + in_folder + "many.toml' --jobs 2 --launcher \"bash " +
                                            (folder / "launch.sh").string() + "\" --output " + in_folder + "out'");
   EXPECT_TRUE(says(result, "study.csv: cannot"));
   EXPECT_TRUE(says(result, "stopping 1 member with a checkpoint"));
@@ -233,12 +233,12 @@ TEST_F(StudyCommand, GivesItsMembersTheirThreadsBehindALauncherToo) {
 }
 
 TEST_F(StudyCommand, AddsSeedsUntilANumberIsKnown) {
-  CommandResult const result = study("until = \"peak_q_Pa=60%\"\n");
+  CommandResult const result = study("precision_target = \"peak_q_Pa=60%\"\n");
   ASSERT_EQ(result.code, 0) << result.output;
   EXPECT_EQ(cells("mean", "n").front(), "6") << "five are enough, a sixth confirms it";
-  CommandResult const few = study("seeds = 3\nmost_seeds = 3\n", "--until peak_q_Pa=0.0001%");
+  CommandResult const few = study("seeds = 3\nmax_seeds = 3\n", "--precision-target peak_q_Pa=0.0001%");
   EXPECT_NE(few.output.find("with 3 seeds, not to 0.0001 %"), std::string::npos) << few.output;
-  CommandResult const wrong = study("", "--until peek_q_Pa=1%");
+  CommandResult const wrong = study("", "--precision-target peek_q_Pa=1%");
   EXPECT_EQ(wrong.code, 65);
   EXPECT_NE(wrong.output.find("no member has a number 'peek_q_Pa'; did you mean 'peak_q_Pa'?"), std::string::npos)
       << wrong.output;
@@ -315,13 +315,14 @@ TEST_F(StudyCommand, DoesNotExtendMembersOfAShorterTest) {
 TEST_F(StudyCommand, SaysWhereAMistakeIs) {
   std::string const file = "[matrix]\n\"grading.file\" = [\"nofile.csv\"]\n";
   EXPECT_NE(study(file).output.find("many.toml: error: grading.file="), std::string::npos) << study(file).output;
-  for (std::string const option : {"--until peak_q_Pa", "--until peak_q_Pa=0", "--until peak_q_Pa=200%", "--launcher \"'open\"",
-                                   "--max-walltime 0s", "--member 0"}) {
+  for (std::string const option :
+       {"--precision-target peak_q_Pa", "--precision-target peak_q_Pa=0", "--precision-target peak_q_Pa=200%",
+        "--launcher \"'open\"", "--max-walltime 0s", "--member 0"}) {
     CommandResult const result = study("", option);
     EXPECT_TRUE(result.code == 64 || result.code == 65) << result.output;
     EXPECT_NE(result.output.find(option.substr(0, option.find(' '))), std::string::npos) << result.output;
   }
-  CommandResult const loose = study("seeds = 1\n", "--set sample.void_ratio=0.9");
+  CommandResult const loose = study("seeds = 1\n", "--set specimen.void_ratio=0.9");
   EXPECT_EQ(loose.code, 77) << loose.output;
   EXPECT_NE(cells("member", "message")[0].find("could not be made: "), std::string::npos) << csv();
   EXPECT_NE(cells("member", "message")[0].find("denser"), std::string::npos) << csv();
@@ -345,7 +346,7 @@ TEST_F(StudyCommand, StopsItsMembersWithACheckpointAndGoesOn) {
   std::ofstream(folder / "stop.sh")
       << "cd '" << folder.string() << "'\n"
       << program_in_shell
-      << " study many.toml --parallel 2 --output out &\nstudy=$!\nfor seed in 1 2; do until [ -s "
+      << " study many.toml --jobs 2 --output out &\nstudy=$!\nfor seed in 1 2; do until [ -s "
          "out/members/all-seed$seed/history.csv ]; do sleep 0.05; done; done\nkill -TERM $study\nwait $study\n";
   CommandResult const stopped = run_clathra("--version > /dev/null; bash '" + (folder / "stop.sh").string() + "'");
   EXPECT_EQ(stopped.code, 75) << stopped.output;

@@ -16,7 +16,7 @@ class StudyFile : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder);
-    std::ofstream(folder / "base.toml") << "[sample]\nparticles = 300\n";
+    std::ofstream(folder / "base.toml") << "[specimen]\nparticles = 300\n";
   }
   void TearDown() override { fs::remove_all(folder); }
   Study load(std::string const& text) const {
@@ -77,10 +77,10 @@ TEST_F(StudyFile, SpacesRangesEvenly) {
 
 TEST_F(StudyFile, CrossesNamedGroupsWithTheMatrix) {
   Study const study = load(base +
-                           "[groups.dense]\nsample.void_ratio = 0.2\n[groups.loose]\n\"sample.void_ratio\" = 0.26\n"
+                           "[groups.dense]\nspecimen.void_ratio = 0.2\n[groups.loose]\n\"specimen.void_ratio\" = 0.26\n"
                            "[matrix]\n\"hydrate.saturation\" = [\"0 %\", \"55 %\"]\n");
   EXPECT_EQ(names(study), (Names{"dense_0pct", "dense_55pct", "loose_0pct", "loose_55pct"}));
-  EXPECT_EQ(member_scene(study, study.groups[0], 1).scene.sample.void_ratio, 0.2);
+  EXPECT_EQ(member_scene(study, study.groups[0], 1).scene.specimen.void_ratio, 0.2);
 }
 
 TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
@@ -131,45 +131,46 @@ std::string refused(Study study, std::vector<std::string> const& overrides) {
 }
 
 TEST_F(StudyFile, IsOverriddenByTheCommandLineInWhatItsGroupsDoNotDifferIn) {
-  Study study =
-      load(base +
-           "[matrix]\nhydrate.saturation = [\"26 %\", \"55 %\"]\ngrains.friction = 0.4\n"
-           "[groups.a]\nsample.void_ratio = 0.2\n[groups.b]\nsample.void_ratio = \"20 %\"\ntest.confining_stress = \"2 MPa\"\n");
+  Study study = load(
+      base +
+      "[matrix]\nhydrate.saturation = [\"26 %\", \"55 %\"]\ngrains.friction = 0.4\n"
+      "[groups.a]\nspecimen.void_ratio = 0.2\n[groups.b]\nspecimen.void_ratio = \"20 %\"\ntest.confining_stress = \"2 MPa\"\n");
   EXPECT_NE(refused(study, {"hydrate.saturation=0.41"}).find("is what the groups of"), std::string::npos);
   EXPECT_NE(refused(study, {"test.confining_stress=3 MPa"}).find("is what the groups of"), std::string::npos)
       << "only one has it";
-  EXPECT_EQ(refused(study, {"sample.void_ratio=0.21"}), "taken") << "20 % and 0.2 are one value";
+  EXPECT_EQ(refused(study, {"specimen.void_ratio=0.21"}), "taken") << "20 % and 0.2 are one value";
   std::string const all = refused(study, {"run.seed=7", "grains.fricton=1", "grains.friction=1 MPa", "nothing"});
   for (char const* const part :
        {"--set run.seed=7: error: 'run.seed' cannot be set for all members", "unknown key 'grains.fricton'; did you mean",
         "'grains.friction' needs a", "'nothing' needs the form section.key=value"})
     EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
-  override_study(study, {"grains.friction=0.3", "run.damping=20 %"});
+  override_study(study, {"grains.friction=0.3", "damping.local=20 %"});
   for (StudyGroup const& group : study.groups) {
     Scene const scene = member_scene(study, group, 3).scene;
     EXPECT_EQ(scene.grains.friction, 0.3);
-    EXPECT_EQ(scene.run.damping, 0.2);
+    EXPECT_EQ(scene.damping.local, 0.2);
   }
-  EXPECT_EQ(study.keys.back(), "run.damping");
+  EXPECT_EQ(study.keys.back(), "damping.local");
   EXPECT_EQ(group_label(study, study.groups[3]), "55 %, 2 MPa") << "in the order in which keys appear";
   EXPECT_EQ(si_text({"test.confining_stress", "2 MPa"}), "2000000");
-  EXPECT_EQ(si_text({"bond.composite", "replace"}), "replace");
+  EXPECT_EQ(si_text({"bond.contact_coupling", "replaces"}), "replaces");
 }
 
 TEST_F(StudyFile, WrittenOutLoadsToTheSameStudyFromAnywhere) {
   std::ofstream(folder / "sizes.csv") << "d_mm,percent_finer\n0.12,0\n0.17,50\n0.24,100\n";
-  Study study = load(
-      base +
-      "seeds = [4, 9]\nuntil = \"peak_q_Pa=2%\"\nmost_seeds = 12\n[matrix]\n\"test.confining_stress\" = [\"1 MPa\", \"2 MPa\"]\n"
-      "grading.file = \"sizes.csv\"\noutput.snapshots_at = '[\"1 %\"]'\n[groups.a_b]\nmaterial = \"dense \\\"sand\\\"\"\n"
-      "grains.friction = 0.4\n[groups.c]\ngrains.friction = 0.5\n");
-  override_study(study, {"run.damping=20 %"});
+  Study study =
+      load(base +
+           "seeds = [4, 9]\nprecision_target = \"peak_q_Pa=2%\"\nmax_seeds = 12\n[matrix]\n\"test.confining_stress\" = [\"1 "
+           "MPa\", \"2 MPa\"]\n"
+           "grading.file = \"sizes.csv\"\noutput.snapshots_at = '[\"1 %\"]'\n[groups.a_b]\nmaterial = \"dense \\\"sand\\\"\"\n"
+           "grains.friction = 0.4\n[groups.c]\ngrains.friction = 0.5\n");
+  override_study(study, {"damping.local=20 %"});
   fs::create_directories(folder / "elsewhere");
   std::ofstream(folder / "elsewhere" / "written.toml") << resolved_study(study);
   Study const again = load_study(folder / "elsewhere" / "written.toml");
   EXPECT_EQ(again.seeds, study.seeds);
-  EXPECT_EQ(again.most_seeds, 12);
-  EXPECT_EQ(again.until->width, study.until->width);
+  EXPECT_EQ(again.max_seeds, 12);
+  EXPECT_EQ(again.precision_target->width, study.precision_target->width);
   EXPECT_EQ(again.folder, fs::absolute(study.folder));
   EXPECT_EQ(again.keys, study.keys);
   ASSERT_EQ(names(again), names(study));

@@ -56,7 +56,7 @@ class Terminal : public testing::Test {
 };
 
 TEST_F(Terminal, GetsNoControlCharacterOfASceneOrAName) {
-  std::string const right = "[sample]\nparticles = 300\n";
+  std::string const right = "[specimen]\nparticles = 300\n";
   expect_escaped("check " + scene(right + "\"a\\u001b[31mb\\n\" = 2\n"), "unknown key 'a\\x1b[31mb\\x0a'", 65);
   expect_escaped("check " + scene(right + "[\"x\\u001b]0;title\\u0007\"]\nkey = 2\n"), "unknown section [x\\x1b]0;title\\x07]",
                  65);

@@ -78,7 +78,7 @@ TEST_F(TextFile, OfAPipeIsReadToItsEnd) {
 }
 
 TEST_F(TextFile, OfAPipeThatFallsSilentIsGivenUp) {
-  Writer const writer(folder / "pipe", "[sample]\n");
+  Writer const writer(folder / "pipe", "[specimen]\n");
   std::string const text = complaint([&] { read_text_file(folder / "pipe", 1 << 20, 50ms); }, ExitCode::file_missing);
   EXPECT_EQ(text, (folder / "pipe").string() + ": is a pipe that gave nothing for 0.05 s");
 }
@@ -111,7 +111,7 @@ TEST_F(TextFile, CanOnlyBeMadeWhereThereIsAFolderForIt) {
 }
 
 TEST_F(TextFile, OfASceneMayComeThroughAPipeButNotFromADeviceOrFolder) {
-  std::ofstream(folder / "my.toml") << "[sample]\nparticles = 300\n";
+  std::ofstream(folder / "my.toml") << "[specimen]\nparticles = 300\n";
   std::string const scene = (folder / "my.toml").string(), program = CLATHRA_BINARY;
   EXPECT_EQ(run_clathra("--version && cat " + scene + " | " + program + " check /dev/stdin").code, 0);
   EXPECT_EQ(run_clathra("--version && " + program + " check /dev/stdin < " + scene).code, 0);
@@ -126,7 +126,8 @@ TEST_F(TextFile, OfASceneMayComeThroughAPipeButNotFromADeviceOrFolder) {
 
 // A verb that computes starts itself anew when it has read the scene, and the pipe is empty then.
 TEST_F(TextFile, OfASceneThroughAPipeIsThatOfARunToo) {
-  std::ofstream(folder / "my.toml") << "[sample]\nparticles = 77\nvoid_ratio = 0.285\nlayers = 1\n[run]\nthreads = 1\n";
+  std::ofstream(folder / "my.toml")
+      << "[specimen]\nparticles = 77\nvoid_ratio = 0.285\ncompaction_layers = 1\n[run]\nthreads = 1\n";
   std::string const scene = (folder / "my.toml").string(), generate = std::string(CLATHRA_BINARY) + " generate --overwrite ";
   fs::path const named = folder / "named";
   ASSERT_EQ(::mkfifo(named.c_str(), 0600), 0);

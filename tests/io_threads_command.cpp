@@ -29,7 +29,7 @@ class Threads : public testing::Test {
     std::string const free = "env -u OMP_NUM_THREADS -u OMP_PROC_BIND -u OMP_PLACES -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT ";
     return run_clathra("--version >/dev/null; " + free + settings +
                        " " CLATHRA_BINARY " run --overwrite " CLATHRA_EXAMPLES "/quick.toml " +
-                       "--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen.h5 --set output.snapshots=0 " +
+                       "--set specimen.file=" CLATHRA_GOLDEN "/specimen.h5 --set output.snapshots=0 " +
                        "--set test.axial_strain=\"0.01 %\" " + more + " --output " + (folder / name).string());
   }
   /// What OpenMP says of its settings when the program starts for the last time; the run itself is refused.

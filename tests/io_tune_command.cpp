@@ -21,7 +21,7 @@ class TuneCommand : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder);
-    std::ofstream(scene) << "# mine\n[sample]\nparticles = 300\nlayers = 2\n[test]\naxial_strain = \"0.2 %\"\n"
+    std::ofstream(scene) << "# mine\n[specimen]\nparticles = 300\ncompaction_layers = 2\n[test]\naxial_strain = \"0.2 %\"\n"
                             "inertial_number = 2e-4  # as ever\n[output]\nrecords = 10\nsnapshots = 0\n";
   }
   void TearDown() override { fs::remove_all(folder); }
@@ -51,14 +51,14 @@ TEST_F(TuneCommand, WritesASceneWithTheCheapestSettingThatIsWithinTheTolerance) 
       << result.output;
   LoadedScene const loaded = load_scene(tuned);
   EXPECT_GT(loaded.scene.test.inertial_number, 2e-4) << "60 % is soon reached";
-  EXPECT_GT(loaded.scene.test.wave_number, 0);
-  EXPECT_EQ(loaded.scene.sample.particles, 300);
+  EXPECT_GT(loaded.scene.test.max_platen_wave_stress, 0);
+  EXPECT_EQ(loaded.scene.specimen.particles, 300);
   std::string const text = read_text_file(tuned, 1 << 20);
   EXPECT_TRUE(text.starts_with("# mine\n")) << text;
   EXPECT_NE(text.find("# inertial_number = 2e-4  # as ever\n# clathra tune, within 60 %: with all its keys peak_q_Pa "),
             std::string::npos)
       << text;
-  for (char const* const key : {"precision", "dt_safety", "inertia_scaling", "mass_scaling"})
+  for (char const* const key : {"precision", "time_step_safety", "rotational_inertia_factor", "mass_scaled_fraction"})
     EXPECT_TRUE(
         std::regex_search(text, std::regex(std::string("# measured with these keys: [+-]\\S+ \\+- \\S+ %\n") + key + " = ")))
         << key << "\n"
@@ -84,9 +84,10 @@ TEST_F(TuneCommand, SaysSoWhereTheBudgetDoesNotTellAndWritesNothing) {
 
 /// 20,000 discs, six of the largest grains high: a level of 60 would be two high.
 TEST_F(TuneCommand, GivesFlatSpecimensRungsOfEnoughGrainsAcross) {
-  std::ofstream(scene) << "[sample]\nwidth = \"210 mm\"\nheight = \"1.81 mm\"\nvoid_ratio = 0.26\nlayers = 2\n[test]\n"
-                          "axial_strain = \"0.2 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
-  CommandResult const result = tune("--tolerance 0.001% --budget 1s --discs 60");
+  std::ofstream(scene)
+      << "[specimen]\nwidth = \"210 mm\"\nheight = \"1.81 mm\"\nvoid_ratio = 0.26\ncompaction_layers = 2\n[test]\n"
+         "axial_strain = \"0.2 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
+  CommandResult const result = tune("--tolerance 0.001% --budget 1s --particles 60");
   EXPECT_EQ(result.code, 77) << result.output;
   EXPECT_NE(result.output.find("undetermined: the first 5 seeds need about "), std::string::npos) << result.output;
 }
@@ -99,7 +100,7 @@ TEST_F(TuneCommand, RefusesWhatItCannotTune) {
   EXPECT_EQ(quantity.code, 65);
   EXPECT_NE(quantity.output.find("a test has no number 'peek_q'; did you mean 'peak_q'?"), std::string::npos) << quantity.output;
   EXPECT_EQ(tune("--budget soon").code, 64);
-  CommandResult const file = tune("--set sample.generator=file --set sample.file=" CLATHRA_GOLDEN "/specimen.h5");
+  CommandResult const file = tune("--set specimen.file=" CLATHRA_GOLDEN "/specimen.h5");
   EXPECT_EQ(file.code, 77);
   EXPECT_NE(file.output.find("tune needs specimens of several seeds"), std::string::npos) << file.output;
   EXPECT_EQ(run_clathra("tune '" + (folder / "none.toml").string() + "'").code, 66);

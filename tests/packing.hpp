@@ -10,9 +10,9 @@ namespace clathra {
 inline Specimen const& packing() {
   static Specimen const specimen = [] {
     Scene scene;
-    scene.sample.particles = 400;
-    scene.sample.void_ratio = 0.3;
-    scene.sample.layers = 2;
+    scene.specimen.particles = 400;
+    scene.specimen.void_ratio = 0.3;
+    scene.specimen.compaction_layers = 2;
     return generate_specimen(scene, {}).specimen;
   }();
   return specimen;

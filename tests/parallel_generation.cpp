@@ -16,7 +16,7 @@
 #include "domain/generation/packing.hpp"
 #include "domain/measurement/disc_grading.hpp"
 #include "domain/parallel/near_pairs.hpp"
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "printed_number.hpp"
 #include "scenes.hpp"
 
@@ -27,22 +27,22 @@ namespace fs = std::filesystem;
 
 Scene scene_of(Generator generator, double void_ratio, std::int64_t particles = 300) {
   Scene scene;
-  scene.sample.generator = generator;
-  scene.sample.particles = particles;
-  scene.sample.void_ratio = void_ratio;
+  scene.specimen.generator = generator;
+  scene.specimen.particles = particles;
+  scene.specimen.void_ratio = void_ratio;
   return scene;
 }
 
 void expect_as_asked(Scene const& scene) {
   GeneratedSpecimen const made = generate_specimen(scene, {});
-  double const stress = scene.bond.stress;
-  EXPECT_NEAR(made.record.at("void_ratio"), scene.sample.void_ratio, 0.001);
+  double const stress = scene.specimen.preparation_stress;
+  EXPECT_NEAR(made.record.at("void_ratio"), scene.specimen.void_ratio, 0.001);
   EXPECT_NEAR(made.record.at("stress_x_Pa"), stress, 0.01 * stress);
   EXPECT_NEAR(made.record.at("stress_y_Pa"), stress, 0.01 * stress);
   EXPECT_LT(made.record.at("unbalanced"), 1e-3);
   EXPECT_LT(made.record.at("grading_distance"), 1e-3);
-  EXPECT_EQ(made.specimen.size(), static_cast<std::size_t>(scene.sample.particles));
-  SampleDesign const design = design_sample(scene);
+  EXPECT_EQ(made.specimen.size(), static_cast<std::size_t>(scene.specimen.particles));
+  SpecimenDesign const design = design_sample(scene);
   EXPECT_NEAR(made.specimen.height() / made.specimen.width(), design.height / design.width, 0.035 * design.height / design.width);
 }
 
@@ -58,7 +58,7 @@ TEST_P(EitherGenerator, MeetsVoidRatioStressSizesAndShape) {
     expect_as_asked(scene_of(GetParam(), void_ratio, 600));
   }
   Scene scene = scene_of(GetParam(), 0.24, 600);
-  scene.bond.stress = 1e6;
+  scene.specimen.preparation_stress = 1e6;
   expect_as_asked(scene);
 }
 
@@ -66,13 +66,13 @@ TEST_P(EitherGenerator, MeetsVoidRatioStressSizesAndShape) {
 void expect_refused_with_help(Scene scene, std::string const& why) {
   try {
     (void)generate_specimen(scene, {});
-    FAIL() << "not refused: " << scene.sample.void_ratio;
+    FAIL() << "not refused: " << scene.specimen.void_ratio;
   } catch (Refused const& refusal) {
-    std::string const text = refusal.what(), before = "sample.void_ratio = ";
+    std::string const text = refusal.what(), before = "specimen.void_ratio = ";
     EXPECT_NE(text.find(why), std::string::npos) << text;
     auto const at = text.find(before);
     ASSERT_NE(at, std::string::npos) << text;
-    scene.sample.void_ratio = std::stod(text.substr(at + before.size()));
+    scene.specimen.void_ratio = std::stod(text.substr(at + before.size()));
   }
   expect_as_asked(scene);
 }
@@ -80,26 +80,27 @@ void expect_refused_with_help(Scene scene, std::string const& why) {
 TEST_P(EitherGenerator, RefusesWhatGrainsCannotHaveWithANumberThatWorks) {
   Scene scene = scene_of(GetParam(), 0.07, 300);
   expect_refused_with_help(scene, "looser than the");
-  scene.sample.void_ratio = 0.5;
+  scene.specimen.void_ratio = 0.5;
   expect_refused_with_help(scene, "denser than the");
 }
 
 TEST(Compression, TellsOfAVoidRatioThatFollowsFromTheBox) {
   Scene scene = scene_of(Generator::compression, 0.165);
-  SampleDesign const design = design_sample(scene);
-  scene.sample.width = design.width, scene.sample.height = design.height, scene.sample.void_ratio = 0;
+  SpecimenDesign const design = design_sample(scene);
+  scene.specimen.width = design.width, scene.specimen.height = design.height, scene.specimen.void_ratio = 0;
   try {
     (void)generate_specimen(scene, {});
     FAIL();
   } catch (Refused const& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("follows from sample.particles and the box"), std::string::npos) << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find("follows from specimen.particles and the box"), std::string::npos)
+        << refusal.what();
   }
 }
 
 /// Stiff grains of a wide grading under a high stress: what they missed in silence once.
 TEST_P(EitherGenerator, MeetsADenseTargetUnderAHighStressOrRefusesIt) {
   Scene scene = scene_of(GetParam(), 0.17);
-  scene.bond.stress = 1e6;
+  scene.specimen.preparation_stress = 1e6;
   try {
     EXPECT_NEAR(generate_specimen(scene, {}).record.at("void_ratio"), 0.17, 0.001);
   } catch (Refused const& refusal) {
@@ -110,9 +111,9 @@ TEST_P(EitherGenerator, MeetsADenseTargetUnderAHighStressOrRefusesIt) {
 /// A denser specimen of as many discs is a smaller one.
 TEST(Specimens, ThatAreOfferedSayWhereTheyWouldBeTooNarrow) {
   Scene scene = scene_of(Generator::compression, 0.7, 16);
-  scene.sample.aspect_ratio = 0.5;
+  scene.specimen.aspect_ratio = 0.5;
   SpecimenMaker const none_as_loose = [](Scene const& tried) -> GeneratedSpecimen {
-    if (tried.sample.void_ratio > 0.3) throw VoidRatioMissed("too loose", 0.3, /*is_denser=*/false);
+    if (tried.specimen.void_ratio > 0.3) throw VoidRatioMissed("too loose", 0.3, /*is_denser=*/false);
     return {};
   };
   auto const said = [&] {
@@ -123,19 +124,19 @@ TEST(Specimens, ThatAreOfferedSayWhereTheyWouldBeTooNarrow) {
     }
     return std::string("made");
   };
-  EXPECT_EQ(said(), "too loose; sample.void_ratio = 0.3 was tried and works, with more sample.particles: " +
+  EXPECT_EQ(said(), "too loose; specimen.void_ratio = 0.3 was tried and works, with more specimen.particles: " +
                         narrowness(design_sample(scene).width * std::sqrt(1.3 / 1.7),
                                    design_sample(scene).height * std::sqrt(1.3 / 1.7), design_sample(scene).grading.largest()));
-  scene.sample.particles = 300;
-  EXPECT_EQ(said(), "too loose; sample.void_ratio = 0.3 was tried and works");
+  scene.specimen.particles = 300;
+  EXPECT_EQ(said(), "too loose; specimen.void_ratio = 0.3 was tried and works");
 }
 
 TEST(Specimens, OfSoftGrainsAreWarnedOf) {
   Scene scene = scene_of(Generator::under_compaction, 0.24);
   EXPECT_TRUE(generate_specimen(scene, {}).warnings.empty());
   scene = scene_of(Generator::compression, 0.138);
-  scene.bond.stress = 1e6;
-  scene.grains.kn = 3e7, scene.grains.ks = 2e7;
+  scene.specimen.preparation_stress = 1e6;
+  scene.grains.normal_stiffness = 3e7, scene.grains.shear_stiffness = 2e7;
   std::vector<std::string> const warnings = generate_specimen(scene, {}).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("overlap by more than 10 %"), std::string::npos) << warnings[0];
@@ -235,7 +236,7 @@ TEST(Sizes, TellHowWideASkinMayBe) {
 TEST(Sizes, OfAGapGradedSandMakeASpecimen) {
   Scene scene = scene_of(Generator::compression, 0.2, 600);
   Grading const gap({0.1e-3, 0.105e-3, 0.8e-3, 0.84e-3}, {0, 0.35, 0.35, 1});
-  SampleDesign design = design_sample(scene);
+  SpecimenDesign design = design_sample(scene);
   design.grading = gap;
   design.width = 8e-3;
   PackedSpecimen const packed = pack_by_compression(scene, design, {});
@@ -319,10 +320,10 @@ TEST(Patches, JoinWithoutASeam) {
 
 TEST(Layers, AreFewerWhereTheyWouldBeTooThin) {
   Scene scene = scene_of(Generator::under_compaction, 0.24, 300);
-  scene.sample.layers = 20;
-  SampleDesign const design = design_sample(scene);
+  scene.specimen.compaction_layers = 20;
+  SpecimenDesign const design = design_sample(scene);
   EXPECT_EQ(compaction_layers(scene, design), 6);  // of 50 discs
-  scene.sample.particles = 0, scene.sample.width = 26e-3, scene.sample.height = 0.95e-3;
+  scene.specimen.particles = 0, scene.specimen.width = 26e-3, scene.specimen.height = 0.95e-3;
   EXPECT_EQ(compaction_layers(scene, design_sample(scene)), 3);  // each as high as its largest grain
 }
 

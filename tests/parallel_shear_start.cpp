@@ -14,7 +14,7 @@ TEST(ShearStart, TakesNoDiscsAwayFromTheWalls) {
       Scene scene = small_test();
       scene.hydrate.saturation = saturation;
       scene.test.inertial_number = inertial_number;
-      scene.test.wave_number = 0;
+      scene.test.max_platen_wave_stress = 0;
       scene.output.records = 4000;
       BiaxialTest test(scene, small_specimen(), {});
       for (int row = 0; row < 20; ++row) {

@@ -11,9 +11,9 @@ namespace {
 
 Scene scene_of(double void_ratio, double friction) {
   Scene scene;
-  scene.sample.particles = 300;
-  scene.sample.void_ratio = void_ratio;
-  scene.sample.void_ratio_at = VoidRatioAt::test;
+  scene.specimen.particles = 300;
+  scene.specimen.void_ratio = void_ratio;
+  scene.specimen.void_ratio_at = VoidRatioAt::test;
   scene.grains.friction = friction;
   return scene;
 }
@@ -29,14 +29,14 @@ TEST(SpecimenForTest, HasItsVoidRatioConsolidatedWhateverTheFriction) {
     Scene const scene = scene_of(friction > 0.2 ? 0.25 : 0.23, friction);
     GeneratedSpecimen const generated = specimen_for_test(scene, {});
     double const tested = tested_void_ratio(scene, generated.specimen);
-    EXPECT_NEAR(tested, scene.sample.void_ratio, 0.001) << friction;
+    EXPECT_NEAR(tested, scene.specimen.void_ratio, 0.001) << friction;
     EXPECT_EQ(generated.record.at("void_ratio_at_test"), tested);
     EXPECT_NEAR(generated.record.at("void_ratio_wanted"), generated.record.at("void_ratio"), 0.001) << "as made";
     made[n++] = generated.record.at("void_ratio") - tested;
     Scene as_made = scene;
-    as_made.sample.void_ratio_at = VoidRatioAt::preparation;
+    as_made.specimen.void_ratio_at = VoidRatioAt::preparation;
     double const other = tested_void_ratio(as_made, specimen_for_test(as_made, {}).specimen);
-    EXPECT_LT(other, scene.sample.void_ratio - 0.004) << friction;
+    EXPECT_LT(other, scene.specimen.void_ratio - 0.004) << friction;
   }
   EXPECT_GT(made[0], 0.004);
   EXPECT_GT(made[1], 0.004);
@@ -55,11 +55,11 @@ TEST(SpecimenForTest, IsRefusedWithOneThatWorksWhereNoneHoldsIt) {
     (void)specimen_for_test(scene, {});
     FAIL() << "grains with hardly any friction held a loose packing";
   } catch (Refused const& refusal) {
-    std::string const text = refusal.what(), mark = "sample.void_ratio = ";
+    std::string const text = refusal.what(), mark = "specimen.void_ratio = ";
     ASSERT_NE(text.find(mark), std::string::npos) << text;
-    scene.sample.void_ratio = std::stod(text.substr(text.find(mark) + mark.size()));
-    EXPECT_LT(scene.sample.void_ratio, 0.32);
-    EXPECT_NEAR(tested_void_ratio(scene, specimen_for_test(scene, {}).specimen), scene.sample.void_ratio, 0.001);
+    scene.specimen.void_ratio = std::stod(text.substr(text.find(mark) + mark.size()));
+    EXPECT_LT(scene.specimen.void_ratio, 0.32);
+    EXPECT_NEAR(tested_void_ratio(scene, specimen_for_test(scene, {}).specimen), scene.specimen.void_ratio, 0.001);
   }
 }
 

@@ -28,12 +28,12 @@ TEST(Consolidation, ThatIsCutShortIsSaidAndNeverCalledQuasiStatic) {
 /// A time step so short that the specimen is nowhere near rest when the budget ends.
 TEST(Consolidation, ThatDoesNotComeToRestIsRefused) {
   Scene scene = small_test();
-  scene.sample.particles = 60;
-  scene.sample.void_ratio = 0.3;
-  scene.sample.layers = 1;
+  scene.specimen.particles = 60;
+  scene.specimen.void_ratio = 0.3;
+  scene.specimen.compaction_layers = 1;
   scene.hydrate.saturation = 0;
   Specimen const specimen = generate_specimen(scene, {}).specimen;
-  scene.run.dt_safety = 1e-3;
+  scene.run.time_step_safety = 1e-3;
   try {
     BiaxialTest const test(scene, specimen, {});
     ADD_FAILURE() << "was sheared";
@@ -94,7 +94,7 @@ TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
   scene.test.axial_strain = 0.02;
   scene.bond.moment_ratio = 1.0 / 14;  // many break
   scene.test.inertial_number = 9e-4;   // no warning of the rate
-  scene.test.wave_number = 0;
+  scene.test.max_platen_wave_stress = 0;
   for (int const records : {1, 7, 300}) {
     scene.output.records = records;
     Verdict const fast = verdict_on(scene);
@@ -112,11 +112,11 @@ TEST(WaveNumber, BoundsTheRateByTheHeightOfTheSpecimenThatIsSheared) {
   StageRecord const plan = free.plan();
   double const wave = plan.at("wave_number"), rate = plan.at("strain_rate_per_s");
   EXPECT_EQ(free.preparation().count("rate_share"), 0u);
-  scene.test.wave_number = 1.01 * wave;
+  scene.test.max_platen_wave_stress = 1.01 * wave;
   BiaxialTest const loose(scene, small_specimen(), {});
   EXPECT_EQ(loose.plan(), plan) << "a bound that is not met changes nothing";
   EXPECT_EQ(loose.state_hash(), free.state_hash());
-  scene.test.wave_number = wave / 4;
+  scene.test.max_platen_wave_stress = wave / 4;
   BiaxialTest bounded(scene, small_specimen(), {});
   EXPECT_EQ(bounded.plan().at("wave_number"), wave / 4);
   EXPECT_NEAR(bounded.plan().at("strain_rate_per_s"), rate / 4, 1e-12 * rate);
@@ -154,8 +154,8 @@ TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
   Scene scene = small_test();
   scene.hydrate.saturation = 0;
   scene.test.axial_strain = 0.01;
-  scene.grains.kn = 2.4e7;
-  scene.grains.ks = 1.6e7;
+  scene.grains.normal_stiffness = 2.4e7;
+  scene.grains.shear_stiffness = 1.6e7;
   BiaxialTest test(scene, small_specimen(), {});
   while (!test.finished()) (void)test.advance(1000);
   StageRecord const checks = test.shear_checks();
@@ -176,7 +176,7 @@ bool said(std::vector<std::string> const& warnings, std::string const& part) {
 TEST(Density, ThatConsolidationChangesIsSaid) {
   Scene scene = small_test();
   scene.hydrate.saturation = 0;
-  scene.sample.void_ratio = 0.28;
+  scene.specimen.void_ratio = 0.28;
   Specimen const specimen = generate_specimen(scene, {}).specimen;
   std::string const part = "of it elastic): what is tested is denser than what was made";
   EXPECT_FALSE(said(BiaxialTest(scene, specimen, {}).warnings(), part));
@@ -203,8 +203,8 @@ TEST(Collapse, OfAForcedTestIsSaid) {
   Scene scene = small_test();
   scene.hydrate.saturation = 0;
   scene.test.axial_strain = 1e-3;
-  scene.run.force = true;
-  scene.grains.kn = 6e6, scene.grains.ks = 4e6;
+  scene.run.ignore_guards = true;
+  scene.grains.normal_stiffness = 6e6, scene.grains.shear_stiffness = 4e6;
   BiaxialTest test(scene, small_specimen(), {});
   while (!test.finished()) (void)test.advance(1000);
   EXPECT_TRUE(said(test.shear_warnings(), "forced: the void ratio has fallen to"));

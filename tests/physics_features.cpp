@@ -118,7 +118,7 @@ void expect_needs(std::string const& what, Scene const& scene) {
   bool const bonded = scene.hydrate.saturation > 0;
   if (bonded) bond_all(s, scene);
   SimulationLaws laws = test_laws(scene, grain_d50, bonded ? s.critical_thickness : 0);
-  laws.motion.damping = scene.run.damping;
+  laws.motion.damping = scene.damping.local;
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.choose_time_step(scene.run.step_choice());
   sim.set_ledger(scene.output.energy);
@@ -153,16 +153,16 @@ TEST(Features, AreListedWithTheirBytesAndKernels) {
   expect_needs("sand with energy", scene);
   scene.hydrate.saturation = 0.55;
   expect_needs("parallel with energy", scene);
-  scene.bond.composite = Composite::replace;
+  scene.bond.contact_coupling = Composite::replace;
   scene.output.snapshots = 0;
   expect_needs("replace with energy, without snapshots", scene);
   scene.grains.friction = 0;
-  scene.grains.shape_factor = 0;
-  scene.run.damping = 0;
+  scene.grains.rolling_width_factor = 0;
+  scene.damping.local = 0;
   expect_needs("replace without friction and damping", scene);
   scene.hydrate.saturation = 0;
   scene.test.wall_friction = 0.3;
-  scene.grains.contact_damping = 0.1;
+  scene.damping.viscous_ratio = 0.1;
   expect_needs("smooth grains between rough walls, dashpots", scene);
 }
 

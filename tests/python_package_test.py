@@ -11,8 +11,8 @@ os.environ["CLATHRA"] = CLATHRA
 import clathra  # noqa: E402
 import numpy as np  # noqa: E402
 
-SCENE = {"sample": {"generator": "file", "file": os.path.join(PROJECT, "tests", "golden", "specimen.h5")},
-         "hydrate": {"saturation": "55 %"}, "bond": {"reading": "first_crack"}, "test": {"axial_strain": 0.02},
+SCENE = {"specimen": {"file": os.path.join(PROJECT, "tests", "golden", "specimen.h5")},
+         "hydrate": {"saturation": "55 %"}, "bond": {"preset": "first_crack"}, "test": {"axial_strain": 0.02},
          "output": {"records": 20, "snapshots": 2, "snapshots_at": ["0.5 %"], "energy": True, "event_details": True}}
 
 
@@ -26,7 +26,7 @@ class Package(unittest.TestCase):
             shutil.rmtree(folder, ignore_errors=True)
         cls.run_of_scene = clathra.run(SCENE, "run", threads=1)
         base = {key: value for key, value in SCENE.items() if key != "output"}
-        base["sample"] = {"particles": np.int64(100), "void_ratio": np.float64(0.28), "layers": 1}
+        base["specimen"] = {"particles": np.int64(100), "void_ratio": np.float64(0.28), "compaction_layers": 1}
         with open("base.toml", "w", encoding="utf-8") as file:
             file.write(clathra.program._toml(base))
         cls.study = clathra.study({"scene": "base.toml", "seeds": 2, "matrix": {"output.records": 10, "test.confining_stress": {
@@ -97,26 +97,26 @@ class Package(unittest.TestCase):
 
     def test_errors_say_what_the_program_said(self):
         with self.assertRaisesRegex(clathra.ClathraError, "unknown key 'particels'.*did you mean 'particles'") as caught:
-            clathra.run({"sample": {"particels": 20}}, "wrong")
+            clathra.run({"specimen": {"particels": 20}}, "wrong")
         self.assertEqual(caught.exception.code, 65)
         with self.assertRaises(TypeError):
-            clathra.run({"sample": {"particles": None}}, "wrong")
+            clathra.run({"specimen": {"particles": None}}, "wrong")
         with self.assertRaises(ValueError):
-            clathra.run({"sample": {"particles": float("nan")}}, "wrong")
+            clathra.run({"specimen": {"particles": float("nan")}}, "wrong")
         for function in (clathra.open_run, clathra.open_study):
             with self.assertRaises(FileNotFoundError):
                 function("nowhere")
 
 
     def test_numbers_of_numpy_are_numbers(self):
-        scene = {"sample": {"particles": np.int32(20), "void_ratio": np.float32(0.25)}, "output": {"energy": np.bool_(True), "snapshots_at": np.array([0.01, 0.02])}, "hydrate": {"saturation": np.array(0.5)}}
+        scene = {"specimen": {"particles": np.int32(20), "void_ratio": np.float32(0.25)}, "output": {"energy": np.bool_(True), "snapshots_at": np.array([0.01, 0.02])}, "hydrate": {"saturation": np.array(0.5)}}
         text = clathra.program._toml(scene)
         for line in ('"particles" = 20', '"void_ratio" = 0.25', '"energy" = true', '"snapshots_at" = [0.01, 0.02]', '"saturation" = 0.5'):
             self.assertIn(line + "\n", text)
 
     def test_runs_of_a_group_that_failed_are_none(self):
         with self.assertRaises(clathra.ClathraError) as caught:
-            clathra.study({"scene": "base.toml", "seeds": 1, "matrix": {"sample.void_ratio": [np.float64(0.1), 0.28]}}, "failing", progress=False)
+            clathra.study({"scene": "base.toml", "seeds": 1, "matrix": {"specimen.void_ratio": [np.float64(0.1), 0.28]}}, "failing", progress=False)
         self.assertEqual(caught.exception.code, 77)
         study = clathra.open_study("failing")
         self.assertEqual([len(study.runs(group)) for group in study.members["group"]], [0, 1])

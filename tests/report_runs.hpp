@@ -56,7 +56,7 @@ inline void write_made_up_record(std::filesystem::path const& folder, MadeUpTest
   RunRecord record;
   record.version = "0.1.0";
   record.git_hash = "abc";
-  record.input = parse_scene("[sample]\nparticles = 2000\n", "my.toml", "", test.overrides);
+  record.input = parse_scene("[specimen]\nparticles = 2000\n", "my.toml", "", test.overrides);
   record.input.scene.hydrate.saturation = test.saturation;
   record.input.scene.test.confining_stress = test.sigma3;
   record.stages["plan"]["discs"] = 2000;

@@ -9,7 +9,7 @@ cd "$folder"
 fail() { echo "restart: $*"; cat log || true; exit 1; }
 
 "$clathra" generate "$scene" -o specimen.h5 >log 2>&1 || fail "no specimen"
-given=(run "$scene" --set sample.generator=file --set sample.file=specimen.h5 --set test.axial_strain=0.008
+given=(run "$scene" --set specimen.file=specimen.h5 --set test.axial_strain=0.008
   --set output.event_details=true --set bond.moment_ratio=0.04 --set output.records=60 --set output.snapshots=3 --set output.energy=true --set output.keep_checkpoint=false)
 begun=$(date +%s%N)
 "$clathra" "${given[@]}" --output alone >log 2>&1 || fail "the run that is left alone failed"
@@ -57,7 +57,7 @@ start 2 "${given[@]}" --output killed --resume >log 2>&1 || fail "a finished run
 grep -q "this run is finished" log || fail "does not know that the run is finished"
 compare killed
 code=0
-"$clathra" "${given[@]}" --output killed --resume --set run.damping=0.2 >log 2>&1 || code=$?
+"$clathra" "${given[@]}" --output killed --resume --set damping.local=0.2 >log 2>&1 || code=$?
 [ "$code" = 77 ] && grep -q "finished run of another scene" log || fail "would destroy another scene's results ($code)"
 compare killed
 
@@ -113,12 +113,12 @@ compare full
 # Bad use is refused with numbers.
 if [ -n "$mpiexec" ]; then
   code=0
-  "$mpiexec" -n 3 "$clathra" "${given[@]}" --output few --set sample.generator=under_compaction --set sample.particles=120 >log 2>&1 || code=$?
+  "$mpiexec" -n 3 "$clathra" "${given[@]}" --output few --set specimen.file= --set specimen.particles=120 >log 2>&1 || code=$?
   [ "$code" = 77 ] && grep -q "120 discs cannot be cut among 3 ranks" log || fail "too many ranks are not refused ($code)"
   code=0
   "$mpiexec" -n 2 "$clathra" info specimen.h5 >log 2>&1 || code=$?
   [ "$code" = 64 ] && grep -q "runs on one rank, 2 were started" log || fail "a verb of one rank on two ($code)"
   code=0
-  "$mpiexec" -n 1 "$clathra" "${given[@]}" --output mixed : -n 1 "$clathra" "${given[@]}" --output mixed --set run.damping=0.2 >log 2>&1 || code=$?
+  "$mpiexec" -n 1 "$clathra" "${given[@]}" --output mixed : -n 1 "$clathra" "${given[@]}" --output mixed --set damping.local=0.2 >log 2>&1 || code=$?
   [ "$code" = 77 ] && grep -q "1 of the 2 ranks have another scene" log || fail "different scenes are not refused ($code)"
 fi

@@ -140,10 +140,10 @@ inline SimulationLaws sand_laws(double friction = 0.5, double shape_factor = 2) 
 inline Scene hydrate_scene(double saturation, Composite composite, MomentScale scale = MomentScale::similitude) {
   Scene scene;
   scene.bond.moment_ratio = 1.0 / 14;
-  scene.grains.particle_stiffness_ratio = 1;
+  scene.bond.grain_stiffness_factor = 1;
   scene.hydrate.saturation = saturation;
-  scene.bond.composite = composite;
-  scene.bond.coefficients = CoefficientSource::printed;
+  scene.bond.contact_coupling = composite;
+  scene.bond.strength_from = CoefficientSource::printed;
   scene.bond.moment_scale = scale;
   return scene;
 }
@@ -151,7 +151,7 @@ inline Scene hydrate_scene(double saturation, Composite composite, MomentScale s
 /// Sand with the bonds of a scene, without any damping.
 inline SimulationLaws bonded_laws(Scene const& scene, double h_max) {
   SimulationLaws laws = sand_laws();
-  laws.contact.bond_kind = scene.bond.composite == Composite::parallel ? BondKind::parallel : BondKind::replace;
+  laws.contact.bond_kind = scene.bond.contact_coupling == Composite::parallel ? BondKind::parallel : BondKind::replace;
   laws.contact.bond = make_bond_law(scene, grain_d50, h_max);
   return laws;
 }

@@ -11,9 +11,9 @@ namespace clathra {
 /// A small hydrate-bearing specimen, sheared well past its peak.
 inline Scene small_test() {
   Scene scene;
-  scene.sample.particles = 400;
-  scene.sample.void_ratio = 0.24;
-  scene.sample.layers = 2;
+  scene.specimen.particles = 400;
+  scene.specimen.void_ratio = 0.24;
+  scene.specimen.compaction_layers = 2;
   scene.hydrate.saturation = 0.55;
   scene.test.axial_strain = 0.04;
   scene.output.records = 40;

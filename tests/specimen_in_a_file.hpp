@@ -98,15 +98,16 @@ class SpecimenCheck : public testing::Test {
   /// Warnings of a test of the file by a scene.
   std::string warnings(double kn = 3e8) {
     Scene scene;
-    scene.grains.kn = kn;
+    scene.grains.normal_stiffness = kn;
     CheckedSpecimen const read = read_checked_specimen(file);
     std::string text;
     for (std::string const& warning : oddities(file, read.specimen, read.facts)) text += warning + "\n";
-    for (std::string const& warning : stress_oddities(file, read.specimen, read.facts, scene.grains.kn)) text += warning + "\n";
+    for (std::string const& warning : stress_oddities(file, read.specimen, read.facts, scene.grains.normal_stiffness))
+      text += warning + "\n";
     return text;
   }
   CommandResult by_scene(std::string const& verb, std::string const& more = "") {
-    std::ofstream(folder / "a.toml") << "[sample]\ngenerator = \"file\"\nfile = \"specimen.h5\"\n[hydrate]\nsaturation = 0\n";
+    std::ofstream(folder / "a.toml") << "[specimen]\nfile = \"specimen.h5\"\n[hydrate]\nsaturation = 0\n";
     return run_clathra(verb + " '" + (folder / "a.toml").string() + "' " + more);
   }
 

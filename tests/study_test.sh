@@ -17,7 +17,7 @@ seeds = $seeds
 [matrix]
 "hydrate.saturation" = ["0 %", "26 %", "55 %"]
 "test.confining_stress" = { from = "1 MPa", to = "3 MPa", count = 3 }
-"sample.particles" = 500
+"specimen.particles" = 500
 "test.axial_strain" = "4 %"
 "output.snapshots" = 2
 END

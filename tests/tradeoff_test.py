@@ -20,8 +20,8 @@ import table  # noqa: E402
 import two_rates  # noqa: E402
 import verify  # noqa: E402
 
-SCENE = {"sample": {"aspect_ratio": 2.0}, "grains": {"kn": 3e8, "contact_damping": 0.0}, "hydrate": {"saturation": 0.55},
-         "run": {"precision": "double", "dt_safety": 0.95, "inertia_scaling": 1.0, "mass_scaling": 0.0, "damping": 0.3, "skin": 0.0},
+SCENE = {"specimen": {"aspect_ratio": 2.0}, "grains": {"normal_stiffness": 3e8}, "damping": {"local": 0.3, "viscous_ratio": 0.0}, "hydrate": {"saturation": 0.55},
+         "run": {"precision": "double", "time_step_safety": 0.95, "rotational_inertia_factor": 1.0, "mass_scaled_fraction": 0.0, "verlet_skin": 0.0},
          "test": {"confining_stress": 1e6, "inertial_number": 1e-4}}
 
 
@@ -58,10 +58,10 @@ class Tradeoff(unittest.TestCase):
         # Specimens scatter by 10 %, the option adds exactly 0.3, 0.4 and 0.5 MPa: paired, 0.4 +- 4.303 * 0.1 / sqrt(3).
         for seed, q in ((1, 9e6), (2, 10e6), (3, 11e6)):
             plant(self.folder / "a", seed, {"peak_q_Pa": q, "end_eps1": 0.1}, [(0, 0)])
-            plant(self.folder / "b", seed, {"peak_q_Pa": q + 2e5 + seed * 1e5, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)
-        plant(self.folder / "b", 4, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)  # no partner
+            plant(self.folder / "b", seed, {"peak_q_Pa": q + 2e5 + seed * 1e5, "end_eps1": 0.1}, [(0, 0)], rotational_inertia_factor=3.0)
+        plant(self.folder / "b", 4, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], rotational_inertia_factor=3.0)  # no partner
         plant(self.folder / "a", 5, {"peak_q_Pa": 12e6, "end_eps1": 0.1}, [(0, 0)])
-        plant(self.folder / "b", 5, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], finished=False, inertia_scaling=3.0)
+        plant(self.folder / "b", 5, {"peak_q_Pa": 99e6, "end_eps1": 0.1}, [(0, 0)], finished=False, rotational_inertia_factor=3.0)
         change, half, pairs = self.collected().change(0.55, ("inertia_scaling", "3", 1e-4), "peak_q_Pa", compare.BASE)
         self.assertEqual(pairs, 3)
         self.assertAlmostEqual(change, 100 * 0.4 / 10, places=4)
@@ -96,7 +96,7 @@ class Tradeoff(unittest.TestCase):
         collect.main(self.folder, self.folder / "data.csv")
         before = (self.folder / "data.csv").read_text()
         shutil.rmtree(self.folder / "a")
-        plant(self.folder / "b", 1, {"peak_q_Pa": 8e6, "end_eps1": 0.1}, [(0, 0)], inertia_scaling=3.0)
+        plant(self.folder / "b", 1, {"peak_q_Pa": 8e6, "end_eps1": 0.1}, [(0, 0)], rotational_inertia_factor=3.0)
         collect.main(self.folder, self.folder / "data.csv")
         after = (self.folder / "data.csv").read_text()
         self.assertEqual(after[:len(before)], before)
@@ -142,18 +142,18 @@ class Tradeoff(unittest.TestCase):
         plain = two_rates.plain
         quoted = {"inertial_number": [peak(material, *plain(rate), compare.REFERENCE) for material in (sand, bonded) for rate in (1e-3, 5e-4, 2e-4)],
                   "precision": [peak(material, "precision", "mixed", 1e-4, plain(1e-4)) for material in (sand, bonded)],
-                  "dt_safety": [peak(bonded, "dt_safety", "0.475", 2e-4, plain(2e-4))],
-                  "damping": [peak(bonded, "damping", "0.7", 2e-4, plain(2e-4))],
-                  "inertia_scaling": [peak(material, "inertia_scaling", "3", 2e-4, plain(2e-4)) for material in (sand, bonded)],
-                  "mass_scaling": [peak(bonded, "inertia_scaling+mass_scaling", "3+0.25", 2e-4, plain(2e-4))]}
+                  "time_step_safety": [peak(bonded, "dt_safety", "0.475", 2e-4, plain(2e-4))],
+                  "local": [peak(bonded, "damping", "0.7", 2e-4, plain(2e-4))],
+                  "rotational_inertia_factor": [peak(material, "inertia_scaling", "3", 2e-4, plain(2e-4)) for material in (sand, bonded)],
+                  "mass_scaled_fraction": [peak(bonded, "inertia_scaling+mass_scaling", "3+0.25", 2e-4, plain(2e-4))]}
         for key, numbers in quoted.items():
             row = next(line for line in page.splitlines() if line.startswith(f"| `{key}` |")).replace(" %", "")
             for number in numbers:
                 self.assertIn(number, row)
 
         structures = (PROJECT / "src/domain/scene/scene.hpp").read_text()  # each docstring quotes one or two of them
-        for number in (quoted["inertial_number"][0], quoted["inertial_number"][2], quoted["precision"][1], quoted["dt_safety"][0],
-                       quoted["inertia_scaling"][1], quoted["mass_scaling"][0], peak(bonded, "damping", "0", 2e-4, plain(2e-4))):
+        for number in (quoted["inertial_number"][0], quoted["inertial_number"][2], quoted["precision"][1], quoted["time_step_safety"][0],
+                       quoted["rotational_inertia_factor"][1], quoted["mass_scaled_fraction"][0], peak(bonded, "damping", "0", 2e-4, plain(2e-4))):
             self.assertIn(f"{number} %", structures)
 
     def test_what_tune_chose_is_compared_with_its_reference(self):

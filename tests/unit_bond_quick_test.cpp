@@ -34,7 +34,7 @@ std::vector<BondLaw> various_laws() {
     laws.push_back(law);
     for (RodThickness const rod : {RodThickness::clamped, RodThickness::scaled}) {
       Scene scene = hydrate_scene(static_cast<double>(saturation), Composite::replace);
-      scene.bond.rod_thickness = rod;
+      scene.bond.thickness_mapping = rod;
       laws.push_back(make_bond_law(scene, grain_d50, law.critical_thickness));
     }
   }

@@ -18,8 +18,8 @@ constexpr double d50 = golden::d50;
 Scene table_scene(double saturation) {
   Scene scene;
   scene.hydrate.saturation = saturation;
-  scene.bond.coefficients = CoefficientSource::printed;
-  scene.grains.particle_stiffness_ratio = 1;
+  scene.bond.strength_from = CoefficientSource::printed;
+  scene.bond.grain_stiffness_factor = 1;
   return scene;
 }
 
@@ -164,7 +164,7 @@ TEST(BondLaw, TheMomentLengthFollowsTheScaleOfTheScene) {
 TEST(BondLaw, TheConstantThicknessLawGivesEveryGapTheSameBond) {
   Scene scene = table_scene(0.55);
   scene.bond.law = BondLawKind::constant_thickness;
-  scene.bond.plate_thickness = 4e-6;
+  scene.bond.constant_thickness = 4e-6;
   BondCard const touching = evaluate_bond(scene, d50, d50 / 2, d50 / 2, 0, 0);
   BondCard const apart = evaluate_bond(scene, d50, d50 / 2, d50 / 2, 5e-6, 0);
   EXPECT_EQ(touching.thickness, 4e-6);
@@ -192,8 +192,8 @@ struct GaplessBond {
 TEST(BondLaw, OfScaledRodsHasTheAddendsOfEquation11ScaledByArea) {
   for (GaplessBond const& expected : {GaplessBond{0.26, 479, 1541}, {0.41, 784, 2522}, {0.55, 916, 2948}}) {
     Scene scene = table_scene(expected.saturation);
-    scene.bond.coefficients = CoefficientSource::thm;
-    scene.bond.rod_thickness = RodThickness::scaled;
+    scene.bond.strength_from = CoefficientSource::thm;
+    scene.bond.thickness_mapping = RodThickness::scaled;
     BondCard const card = evaluate_bond(scene, d50, d50 / 2, d50 / 2, 0, 0);
     EXPECT_NEAR(card.R_t, expected.tension, 1);
     EXPECT_NEAR(card.R_c, expected.compression, 1);
@@ -209,7 +209,7 @@ TEST(BondLaw, OfScaledRodsHasTheAddendsOfEquation11ScaledByArea) {
 
 TEST(BondLaw, OfClampedRodsIsThatOfTheThinnestOneTested) {
   Scene scene = table_scene(0.41);
-  scene.bond.rod_thickness = RodThickness::clamped;
+  scene.bond.thickness_mapping = RodThickness::clamped;
   for (double const gap : {0.0, 5e-6}) {
     BondCard const card = evaluate_bond(scene, d50, d50 / 2, d50 / 2, gap, 0);
     EXPECT_NEAR(card.f_s * card.K_s, 0.520, 5e-4);
@@ -221,7 +221,7 @@ TEST(BondLaw, OfClampedRodsIsThatOfTheThinnestOneTested) {
 
 TEST(BondLaw, WithFloorsIsNeverWeakerThanAGrainContact) {
   Scene scene = table_scene(0.26);
-  scene.grains.shape_factor = 2;
+  scene.grains.rolling_width_factor = 2;
   scene.grains.friction = 0.5;
   double const h_max = critical_thickness_ratio(0.26) * d50, radius = d50 / 2;
   BondLaw const printed_law = make_bond_law(scene, d50, h_max);

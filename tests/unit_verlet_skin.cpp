@@ -1,5 +1,5 @@
 /// Verlet skins of discs: how far they may move beside their box before neighbours are searched again.
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "domain/simulation/neighbour_list_upkeep.hpp"
 #include "kernels/rebuild_inputs.hpp"
 #include "on_host.hpp"

@@ -24,7 +24,7 @@ begin_display() {
   export DISPLAY=:$number
 }
 
-"$clathra" run "$project/examples/quick.toml" --set sample.particles=300 --set test.axial_strain="1 %" --set output.snapshots=3 \
+"$clathra" run "$project/examples/quick.toml" --set specimen.particles=300 --set test.axial_strain="1 %" --set output.snapshots=3 \
   --output "$folder/out" >"$folder/run.log" 2>&1 || { cat "$folder/run.log"; exit 1; }
 if [ "$viewer" = paraview ]; then
   "$interpreter" "$project/tests/paraview_reads.py" "$folder/out"

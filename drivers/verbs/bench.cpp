@@ -123,21 +123,21 @@ void add_bench(CLI::App& program, Verb& chosen) {
           ->check(CLI::IsMember(std::vector<std::string>(std::begin(precision_names), std::end(precision_names))))
           ->capture_default_str();
   CLI::Option const* const discs =
-      verb->add_option("--discs", options->setup.discs, "number of discs, about; the largest of a card")
+      verb->add_option("--particles", options->setup.discs, "number of discs, about; the largest of a card")
           ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))
           ->capture_default_str();
   verb->add_option("--threads", options->threads, "threads")->check(CLI::Range(1, 4096))->type_name("N");
   verb->add_option("--seconds", options->seconds, "time to measure")->check(CLI::Range(0.01, 3600.0))->capture_default_str();
   verb->add_flag("--json", options->json, "one JSON object, SI units");
-  verb->add_flag(
-          "--card", options->card,
-          "a table instead: 2000 discs, ten times as many each time, and --discs (1000000), in both precisions, with the share "
-          "of the bandwidth that updating as much memory reaches")
+  verb->add_flag("--card", options->card,
+                 "a table instead: 2000 discs, ten times as many each time, and --particles (1000000), in both precisions, with "
+                 "the share "
+                 "of the bandwidth that updating as much memory reaches")
       ->excludes(precision);
-  verb->footer("Example: clathra bench --case bonded --discs 20000 --threads 1 --json");
+  verb->footer("Example: clathra bench --case bonded --particles 20000 --threads 1 --json");
   verb->callback([options, discs, &chosen] {
     if (options->card && discs->count() == 0) options->setup.discs = 1'000'000;
-    if (options->card && options->setup.discs < 2000) throw CLI::ValidationError("--discs", "a card begins with 2000 discs");
+    if (options->card && options->setup.discs < 2000) throw CLI::ValidationError("--particles", "a card begins with 2000 discs");
     chosen = [options] { return bench(*options); };
   });
 }

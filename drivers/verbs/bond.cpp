@@ -17,7 +17,7 @@ namespace {
 /// Options as text, with units.
 struct BondOptions {
   std::string saturation, d50 = "0.1694 mm", r1, r2, gap = "0 um", temperature = "5 degC", pore_pressure = "8 MPa";
-  std::string density = "0.9 g/cm^3", normal_force = "0 N/m", reading = Scene{}.bond.reading, coefficients;
+  std::string density = "0.9 g/cm^3", normal_force = "0 N/m", reading = Scene{}.bond.preset, coefficients;
   bool json = false;
 };
 
@@ -31,14 +31,14 @@ double read(char const* option, std::string const& text, Dimension dimension) {
 
 BondCard evaluate(BondOptions const& options) {
   Scene scene;
-  scene.bond.reading = options.reading;
+  scene.bond.preset = options.reading;
   apply_preset(readings().of(options.reading), scene, [](std::string_view) { return false; });
   scene.hydrate.saturation = read("--saturation", options.saturation, Dimension::ratio);
   scene.hydrate.temperature = read("--temperature", options.temperature, Dimension::temperature);
   scene.hydrate.pore_pressure = read("--pore-pressure", options.pore_pressure, Dimension::pressure);
   scene.hydrate.density = read("--hydrate-density", options.density, Dimension::density);
   if (!options.coefficients.empty())
-    scene.bond.coefficients = options.coefficients == "printed" ? CoefficientSource::printed : CoefficientSource::thm;
+    scene.bond.strength_from = options.coefficients == "printed" ? CoefficientSource::printed : CoefficientSource::thm;
   double const d50 = read("--d50", options.d50, Dimension::length);
   double const r1 = options.r1.empty() ? d50 / 2 : read("--r1", options.r1, Dimension::length);
   double const r2 = options.r2.empty() ? r1 : read("--r2", options.r2, Dimension::length);
@@ -120,7 +120,7 @@ void add_bond(CLI::App& program, Verb& chosen) {
   verb->add_option("--hydrate-density", options->density, "density of the hydrate")->capture_default_str();
   verb->add_option("--normal-force", options->normal_force, "normal bond force per metre, compression positive")
       ->capture_default_str();
-  verb->add_option("--reading", options->reading, "reading of what the paper leaves open: the key bond.reading")
+  verb->add_option("--reading", options->reading, "reading of what the paper leaves open: the key bond.preset")
       ->capture_default_str()
       ->check(CLI::IsMember(std::vector<std::string>(readings().names.begin(), readings().names.end())));
   verb->add_option("--coefficients", options->coefficients,

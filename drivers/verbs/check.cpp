@@ -23,7 +23,7 @@ struct CheckOptions {
 ExitCode check(CheckOptions const& options) {
   LoadedScene input = options.scene.load();
   Scene const& scene = input.scene;
-  bool const reads = scene.sample.generator == Generator::file;
+  bool const reads = scene.specimen.is_read();
   Forecast const result = forecast(scene, reads ? design_of(read_for_test(input)) : design_sample(scene), options.ranks);
   require_enough_discs(options.ranks, static_cast<std::int64_t>(result.numbers.at("particles")));
   MachineSpeed const speed =

@@ -49,7 +49,7 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   on_root(ranks, [&] { require_free(output, options.overwrite); });
   StageRecord const cost = predict(scene, launched_ranks());
   std::vector<std::string> refusals;
-  if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.force) refusals.push_back(refusal);
+  if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.ignore_guards) refusals.push_back(refusal);
   share_refusals(ranks, refusals);
   if (!refusals.empty()) throw Refused(refusals.front());
   require_enough_discs(ranks.count(), static_cast<std::int64_t>(cost.at("particles")));
@@ -70,8 +70,7 @@ ExitCode generate(GenerateOptions const& options) {
   record.git_hash = CLATHRA_GIT_HASH;
   record.input = options.scene.load();
   Scene const& scene = record.input.scene;
-  if (scene.sample.generator == Generator::file)
-    throw Refused("the scene reads its specimen from a file: there is nothing to generate");
+  if (scene.specimen.is_read()) throw Refused("the scene reads its specimen from a file: there is nothing to generate");
   set_up_threads(scene.run.threads);
   RankSession const session;
   return guarded_on_all_ranks(session.ranks(), [&] { return generate_on(session.ranks(), options, record); });
@@ -90,7 +89,7 @@ void add_generate(CLI::App& program, Verb& chosen) {
   verb->add_flag("--overwrite", options->overwrite, "take the place of a file of that name, once the specimen is made");
   verb->footer(
       "Example: clathra generate examples/quick.toml -o specimen.h5\n"
-      "         clathra run examples/quick.toml --set sample.generator=file --set sample.file=specimen.h5");
+      "         clathra run examples/quick.toml --set specimen.file=specimen.h5");
   verb->callback([options, &chosen] { chosen = [options] { return generate(*options); }; });
 }
 

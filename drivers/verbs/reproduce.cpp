@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "duration.hpp"
 #include "interrupt.hpp"
 #include "io/formats/text_file.hpp"
@@ -154,7 +154,7 @@ ExitCode reproduce(ReproduceOptions const& options) {
 
 void add_options(CLI::App& verb, ReproduceOptions& options) {
   verb.add_flag("--quick", options.quick, "2,000 discs and two seeds: a few minutes");
-  verb.add_option("--output", options.output, "folder of the results; called again, it goes on where it was stopped")
+  verb.add_option("-o,--output", options.output, "folder of the results; called again, it goes on where it was stopped")
       ->capture_default_str()
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
@@ -174,7 +174,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   verb.add_flag("--screening", options.screening, "only 26 and 55 % at 1 and 3 MPa with their sands, to compare readings");
-  verb.add_option("--parallel", options.parallel, "tests at a time (default: as many as cores and memory allow)")
+  verb.add_option("--jobs", options.parallel, "tests at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   verb.add_option("--threads", options.threads, "threads of each test")->check(CLI::Range(1, 4096))->type_name("N");

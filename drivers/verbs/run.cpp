@@ -33,7 +33,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, RunLimits const& 
     input.warnings.push_back(std::move(warning));
   std::optional<Specimen> specimen;
   Scene const& scene = input.scene;
-  if (scene.sample.generator == Generator::file) specimen = read_for_test(input, ranks);
+  if (scene.specimen.is_read()) specimen = read_for_test(input, ranks);
   Forecast cost = forecast(scene, specimen ? design_of(*specimen, ranks) : design_sample(scene), launched_ranks());
   share_refusals(ranks, cost.refusals);
   if (options.dry_run) {
@@ -70,7 +70,7 @@ void add_run(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<RunOptions>();
   CLI::App* const verb = program.add_subcommand("run", "Generate, consolidate and shear the specimen of a scene");
   options->scene.add_to(*verb);
-  verb->add_option("--output", options->output, "folder of the results (output.folder)")
+  verb->add_option("-o,--output", options->output, "folder of the results (output.folder)")
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
   verb->add_flag("--dry-run", options->dry_run, "only say what the run will cost");

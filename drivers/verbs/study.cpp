@@ -24,9 +24,9 @@ namespace clathra {
 namespace {
 
 struct StudyOptions {
-  std::string file, output, until, launcher, slurm;
+  std::string file, output, precision_target, launcher, slurm;
   std::vector<std::string> overrides;
-  int seeds = 0, most_seeds = 0, parallel = 0, threads = 0, member = 0, specimen = 0;
+  int seeds = 0, max_seeds = 0, parallel = 0, threads = 0, member = 0, specimen = 0;
   bool dry_run = false, collect = false, force = false, skip_refused = false, allow_mixed = false;
   std::string most_time, checkpoint_every = "10m";
 };
@@ -36,7 +36,7 @@ StudyGoal goal_of(std::string const& text) {
   try {
     return study_goal(text);
   } catch (std::invalid_argument const& problem) {
-    throw SceneProblems({{"--until " + text.substr(0, 100), 0, 0, problem.what()}});
+    throw SceneProblems({{"--precision-target " + text.substr(0, 100), 0, 0, problem.what()}});
   }
 }
 
@@ -48,8 +48,8 @@ Study study_of(StudyOptions const& options) {
     study.seeds.clear();
     for (int seed = 1; seed <= options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
   }
-  if (!options.until.empty()) study.until = goal_of(options.until);
-  if (options.most_seeds > 0) study.most_seeds = options.most_seeds;
+  if (!options.precision_target.empty()) study.precision_target = goal_of(options.precision_target);
+  if (options.max_seeds > 0) study.max_seeds = options.max_seeds;
   override_study(study, options.overrides);
   if (options.force) force_study(study);
   return study;
@@ -166,7 +166,7 @@ ExitCode run_all(StudyPlan& plan, StudyLimits const& limits) {
 
 ExitCode study(StudyOptions const& options) {
   StudyPlan plan = plan_study(study_of(options));
-  if (plan.study.until) require_known_number(*plan.study.until);
+  if (plan.study.precision_target) require_known_number(*plan.study.precision_target);
   add_members(plan);
   // Before study.csv is touched; the waves of a study with a goal are asked again.
   bool const only_plans = options.dry_run || !options.slurm.empty();
@@ -222,19 +222,19 @@ void add_study(CLI::App& program, Verb& chosen) {
   verb->add_option("--set", options->overrides, "set a key of the scene in all members, above the study file; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  verb->add_option("--output", options->output, "folder of the results ('folder' of the study)")
+  verb->add_option("-o,--output", options->output, "folder of the results ('folder' of the study)")
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
   verb->add_option("--seeds", options->seeds, "seeds 1 to N of each group ('seeds' of the study)")
       ->check(CLI::Range(1, 10000))
       ->type_name("N");
-  verb->add_option("--until", options->until,
+  verb->add_option("--precision-target", options->precision_target,
                    "add seeds until the 95 % interval of the mean of a number of study.csv is that narrow: peak_q_Pa=2%")
       ->type_name("NUMBER=WIDTH");
-  verb->add_option("--most-seeds", options->most_seeds, "with --until: stop at so many seeds of a group (default: 40)")
+  verb->add_option("--max-seeds", options->max_seeds, "with --precision-target: stop at so many seeds of a group (default: 40)")
       ->check(CLI::Range(2, 10000))
       ->type_name("N");
-  verb->add_option("--parallel", options->parallel,
+  verb->add_option("--jobs", options->parallel,
                    "members at a time (default: as many as cores and memory allow; 1 with --launcher)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
@@ -250,7 +250,7 @@ void add_study(CLI::App& program, Verb& chosen) {
       ->type_name("TIME")
       ->check(time);
   add_parts(*verb, *options);
-  verb->footer("Example: clathra study examples/studies/saturations.toml --until peak_q_Pa=5% --output out/study");
+  verb->footer("Example: clathra study examples/studies/saturations.toml --precision-target peak_q_Pa=5% --output out/study");
   verb->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
 }
 

@@ -120,7 +120,7 @@ class Tuning {
     for (std::size_t const trial : request.trials) {
       TuneSetting const& setting = plan_.settings[trial];
       bool const tried =
-          has_member(trial, 1) || (setting.inertia_scaling <= RunScene::usual_inertia_scaling && setting.mass_scaling == 0);
+          has_member(trial, 1) || (setting.inertia_scaling <= RunScene::usual_inertia_factor && setting.mass_scaling == 0);
       for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tried ? request.seeds : 1); ++seed)
         if (!has_member(trial, seed)) {
           add_member(plan_.study, trial, seed);
@@ -262,12 +262,12 @@ void add_tune(CLI::App& program, Verb& chosen) {
   verb->add_option("--folder", options->folder, "folder of the runs (default: out/NAME-tune)")
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
-  verb->add_option("--discs", options->discs,
+  verb->add_option("--particles", options->discs,
                    "discs of a test; the scene's own number where that is smaller, more where they would be too few across")
       ->capture_default_str()
       ->check(CLI::Range(16, 1000000000))
       ->type_name("N");
-  verb->add_option("--parallel", options->parallel, "runs at a time (default: as many as cores and memory allow)")
+  verb->add_option("--jobs", options->parallel, "runs at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and tests that another program made");

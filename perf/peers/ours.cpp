@@ -44,8 +44,8 @@ std::string law_of(std::string const& what) { return what.substr(0, what.find('-
 Scene scene_of(Specimen const& specimen, std::string const& what) {
   Scene scene;
   scene.grains.density = specimen.density;
-  scene.grains.shape_factor = law_of(what) == "frictional" ? 0 : scene.grains.shape_factor;
-  scene.bond.stress = specimen.stress;
+  scene.grains.rolling_width_factor = law_of(what) == "frictional" ? 0 : scene.grains.rolling_width_factor;
+  scene.specimen.preparation_stress = specimen.stress;
   scene.hydrate.saturation = law_of(what) == "bonded" ? 0.55 : 0;
   return scene;
 }
@@ -54,7 +54,8 @@ Simulation simulation_of(Specimen specimen, std::string const& what) {
   Scene const scene = scene_of(specimen, what);
   SimulationLaws laws;
   laws.precision = what.ends_with("-mixed") ? Precision::mixed : Precision::full;
-  laws.contact.grain = {scene.grains.kn, scene.grains.ks, scene.grains.friction, scene.grains.shape_factor, 0};
+  laws.contact.grain = {scene.grains.normal_stiffness, scene.grains.shear_stiffness, scene.grains.friction,
+                        scene.grains.rolling_width_factor, 0};
   laws.motion.damping = 0;
   if (law_of(what) == "bonded") {
     StageRecord record;

@@ -25,19 +25,19 @@ RODS = ["printed", "clamped", "scaled"]
 COMPOSITES = ["parallel", "memory", "replace"]
 SHAPES = [1, 2]
 STRESSES = ["1 MPa", "3 MPa"]
-SHARED = {"grains.particle_stiffness_ratio": 1, "sample.particles": 2000, "test.inertial_number": 2e-4, "run.inertia_scaling": 1, "output.snapshots": 0, "output.keep_checkpoint": False}
+SHARED = {"bond.grain_stiffness_factor": 1, "specimen.particles": 2000, "test.inertial_number": 2e-4, "run.rotational_inertia_factor": 1, "output.snapshots": 0, "output.keep_checkpoint": False}
 
 
 def readings():
     """(name, keys); hydrate forms under the confining stress, except where a bond that replaces the contact would drop its force."""
     for (length, keys), rod, composite, shape in itertools.product(LENGTHS.items(), RODS, COMPOSITES, SHAPES):
         settings = dict(keys)
-        settings |= {"bond.rod_thickness": rod, "bond.composite": composite, "grains.shape_factor": shape}
+        settings |= {"bond.thickness_mapping": rod, "bond.contact_coupling": composite, "grains.rolling_width_factor": shape}
         settings["bond.after_consolidation"] = composite != "replace"
         yield f"{composite}-{length}-{rod}-beta{shape}", settings
 
 
-BEST = {"bond.moment_ratio": 1 / 8, "bond.composite": "parallel", "grains.shape_factor": 1, "bond.after_consolidation": True}
+BEST = {"bond.moment_ratio": 1 / 8, "bond.contact_coupling": "parallel", "grains.rolling_width_factor": 1, "bond.after_consolidation": True}
 
 
 def others():
@@ -46,24 +46,24 @@ def others():
     for name, keys in {
         "8th-printed-low": {"bond.after_consolidation": False},
         "7th-printed": {"bond.moment_ratio": 1 / 7},
-        "8th-printed-kn2": {"grains.particle_stiffness_ratio": 2},  # a grain is twice as stiff as a contact of two in series
-        "6th-printed-kn2": {"bond.moment_ratio": 1 / 6, "grains.particle_stiffness_ratio": 2},
-        "5th-printed-kn2": {"bond.moment_ratio": 1 / 5, "grains.particle_stiffness_ratio": 2},
-        "4th-printed-kn2": {"bond.moment_ratio": 1 / 4, "grains.particle_stiffness_ratio": 2},
+        "8th-printed-kn2": {"bond.grain_stiffness_factor": 2},  # a grain is twice as stiff as a contact of two in series
+        "6th-printed-kn2": {"bond.moment_ratio": 1 / 6, "bond.grain_stiffness_factor": 2},
+        "5th-printed-kn2": {"bond.moment_ratio": 1 / 5, "bond.grain_stiffness_factor": 2},
+        "4th-printed-kn2": {"bond.moment_ratio": 1 / 4, "bond.grain_stiffness_factor": 2},
     }.items():
         yield f"parallel-{name}-beta1", BEST | keys, None
     for name, keys in {
-        "e26": {"sample.void_ratio": 0.26},
-        "e28": {"sample.void_ratio": 0.28},
-        "damping1": {"run.damping": 0.1},
-        "damping7": {"run.damping": 0.7},
-        "wider": {"grains.shape_factor": 1.5},
+        "e26": {"specimen.void_ratio": 0.26},
+        "e28": {"specimen.void_ratio": 0.28},
+        "damping1": {"damping.local": 0.1},
+        "damping7": {"damping.local": 0.7},
+        "wider": {"grains.rolling_width_factor": 1.5},
     }.items():
-        yield f"{best}-{name}", BEST | keys, {"grains.shape_factor": 1} | keys
+        yield f"{best}-{name}", BEST | keys, {"grains.rolling_width_factor": 1} | keys
     for composite, ratio, rod in [("replace", 1 / 8, "printed"), ("replace", 1 / 5, "printed"), ("replace", 1 / 10, "clamped"),
                                   ("replace", 1 / 14, "scaled"), ("replace", 1 / 8, "scaled")]:
-        keys = {"bond.moment_ratio": ratio, "bond.composite": composite, "bond.rod_thickness": rod, "bond.friction_floor": True,
-                "grains.shape_factor": 1, "bond.after_consolidation": composite != "replace"}
+        keys = {"bond.moment_ratio": ratio, "bond.contact_coupling": composite, "bond.thickness_mapping": rod, "bond.friction_floor": True,
+                "grains.rolling_width_factor": 1, "bond.after_consolidation": composite != "replace"}
         yield f"{composite}-{round(1 / ratio)}th-{rod}-floor-beta1", keys, None
 
 
@@ -93,7 +93,7 @@ def main():
     matrix = {"hydrate.saturation": ["26 %", "55 %"], "test.confining_stress": STRESSES}
     (out / "screen.toml").write_text(study(list(readings()), matrix))
     (out / "others.toml").write_text(study([(name, keys) for name, keys, _ in others()], matrix))
-    sand = [(f"beta{shape}", {"grains.shape_factor": shape}) for shape in SHAPES]
+    sand = [(f"beta{shape}", {"grains.rolling_width_factor": shape}) for shape in SHAPES]
     sand += [(name[name.index("beta1"):], keys) for name, _, keys in others() if keys]
     (out / "sand.toml").write_text(study(sand, {"hydrate.saturation": 0, "test.confining_stress": STRESSES}))
 

@@ -11,10 +11,10 @@
 #include "domain/parallel/ranks.hpp"
 #include "domain/parallel/redistribution.hpp"
 #include "domain/scene/hydrate.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/scene_laws.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/simulation.hpp"
 
@@ -103,7 +103,7 @@ struct Arithmetic {
 void let_walls_find_packing(Simulation& simulation, Scene const& scene, double d50, int steps) {
   constexpr double rate_of_large = 1e-2, large = 1e6;
   double const rate = rate_of_large / std::sqrt(std::max(1.0, simulation.assembly().discs() / large));
-  prepare_servo(simulation, scene.bond.stress, rate, d50, scene.run.step_choice());
+  prepare_servo(simulation, scene.specimen.preparation_stress, rate, d50, scene.run.step_choice());
   simulation.step(steps);
 }
 
@@ -112,15 +112,15 @@ void let_walls_find_packing(Simulation& simulation, Scene const& scene, double d
 Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& ranks) {
   bool const bonded = setup.what != ThroughputCase::rolling, breaking = setup.what == ThroughputCase::breaking;
   Scene scene;
-  scene.sample.particles = cell_discs;
-  scene.sample.void_ratio = 0.23;
-  scene.bond.stress = 1e6;
+  scene.specimen.particles = cell_discs;
+  scene.specimen.void_ratio = 0.23;
+  scene.specimen.preparation_stress = 1e6;
   scene.hydrate.saturation = bonded ? 0.55 : 0;
   Specimen specimen = make_specimen(scene, setup.discs, ranks);
   SimulationLaws laws;
   laws.precision = setup.precision;
   laws.contact.grain = grain_law(scene);
-  laws.motion.damping = scene.run.damping;
+  laws.motion.damping = scene.damping.local;
   if (bonded) {
     StageRecord record;
     specimen = by_place(ranks, std::move(specimen));
@@ -131,7 +131,7 @@ Simulation throughput_simulation(ThroughputSetup const& setup, Ranks const& rank
   Simulation simulation(specimen, laws, setup.skin * specimen.d50, ranks);
   let_walls_find_packing(simulation, scene, specimen.d50, setup.relaxation_steps);
   scene.test.inertial_number = breaking ? 1e-3 : 1e-4;
-  prepare_servo(simulation, scene.bond.stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
+  prepare_servo(simulation, scene.specimen.preparation_stress, scene.test.inertial_number, specimen.d50, scene.run.step_choice());
   RateNumbers const rate =
       rate_numbers(scene, specimen.d50, simulation.assembly().walls().height(), simulation.assembly().void_ratio());
   simulation.drive(simulation.loading().x, AxisDrive::at_rate(rate.strain_rate), -0.25 * rate.strain_rate, rate.strain_rate);

@@ -38,7 +38,7 @@ def sheared(program, folder, specimen, material):
     """Numbers of a test, by column of the campaign's table."""
     out = folder / f"{specimen.stem}-{MATERIALS[material]}"
     if not (out / "run.json").exists():
-        clathra(program, "run", BASE, "--set", "sample.generator=file", "--set", f"sample.file={specimen}", "--set",
+        clathra(program, "run", BASE, "--set", f"specimen.file={specimen}", "--set",
                 f"hydrate.saturation={MATERIALS[material]}", "--set", "run.threads=1", "--output", out)
     return json.loads((out / "run.json").read_text())["stages"]["shear"]
 

@@ -11,15 +11,15 @@ from pathlib import Path
 # Column, section and key of the scene, value in base.toml. Inertial number, saturation, stress and seed stand beside factor and level.
 SETTINGS = [
     ("discs", "plan", "discs", 2000),
-    ("aspect_ratio", "sample", "aspect_ratio", 2),
-    ("kn_Pa", "grains", "kn", 3e8),
+    ("aspect_ratio", "specimen", "aspect_ratio", 2),
+    ("kn_Pa", "grains", "normal_stiffness", 3e8),
     ("precision", "run", "precision", "double"),
-    ("dt_safety", "run", "dt_safety", 0.95),
-    ("inertia_scaling", "run", "inertia_scaling", 1),
-    ("mass_scaling", "run", "mass_scaling", 0),
-    ("damping", "run", "damping", 0.3),
-    ("contact_damping", "grains", "contact_damping", 0),
-    ("skin_m", "run", "skin", 0),
+    ("dt_safety", "run", "time_step_safety", 0.95),
+    ("inertia_scaling", "run", "rotational_inertia_factor", 1),
+    ("mass_scaling", "run", "mass_scaled_fraction", 0),
+    ("damping", "damping", "local", 0.3),
+    ("contact_damping", "damping", "viscous_ratio", 0),
+    ("skin_m", "run", "verlet_skin", 0),
 ]
 # Numbers of the stage `shear` of run.json.
 NUMBERS = ["peak_q_Pa", "peak_eps1", "secant_modulus_Pa", "residual_q_Pa", "largest_eps_v", "end_eps_v", "peak_intact_initial_pct",

@@ -6,7 +6,7 @@
     run.snapshots[-1].particles["position"]    # NumPy arrays, SI units
     study = clathra.open_study("out/study")    # a folder of `clathra study`
     study.means[["group", "peak_q_Pa"]]
-    clathra.run({"sample": {"particles": 2000}, "hydrate": {"saturation": "55 %"}}, "out/s55")
+    clathra.run({"specimen": {"particles": 2000}, "hydrate": {"saturation": "55 %"}}, "out/s55")
 
 All numbers are in SI units, compression is positive. Needs NumPy, pandas and h5py (Debian: python3-pandas python3-h5py).
 """

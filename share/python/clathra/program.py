@@ -127,7 +127,7 @@ def _call(verb, what, output, progress, options):
 def run(scene, output, progress=True, **options):
     """Runs a scene and opens its results.
 
-    scene: a dictionary of sections, {"sample": {"particles": 2000}, "hydrate": {"saturation": "55 %"}}, values as in a scene
+    scene: a dictionary of sections, {"specimen": {"particles": 2000}, "hydrate": {"saturation": "55 %"}}, values as in a scene
     file, NumPy's numbers and arrays among them; or the name of a scene file. output: folder of the results. progress: what the
     program says goes line by line to stderr (True), to a function of yours, or nowhere (False). options: those of `clathra run`,
     with _ for -: threads=2, resume=True, max_walltime="1h", set=["run.seed=2", "grains.friction=0.4"]. Raises ClathraError with

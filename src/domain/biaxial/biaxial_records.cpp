@@ -144,7 +144,7 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   t.warnings = state.warnings;
   t.events_taken = static_cast<int>(state.events_taken);
   SimulationLaws laws = test_laws(scene, t.d50, state.simulation.numbers.at("critical_thickness"));
-  laws.motion.damping = scene.run.damping;
+  laws.motion.damping = scene.damping.local;
   t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
 }
 

@@ -18,11 +18,11 @@
 #include "domain/parallel/ranks.hpp"
 #include "domain/parallel/redistribution.hpp"
 #include "domain/scene/hydrate.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/scene_laws.hpp"
 #include "domain/scene/short_number.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/break_event.hpp"
 #include "domain/simulation/simulation.hpp"
@@ -52,7 +52,7 @@ std::string overshoot_text(double reached, double wanted) {
 constexpr double elastic_lateral_ratio = 0.25;  // lateral expansion per axial compression at the start: the servo's first guess
 
 BondKind bond_kind(Scene const& scene) {
-  return scene.bond.composite == Composite::parallel ? BondKind::parallel : BondKind::replace;
+  return scene.bond.contact_coupling == Composite::parallel ? BondKind::parallel : BondKind::replace;
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ double BiaxialTest::State::skin(std::vector<double> const& radii) const {
   double largest_negative = -HUGE_VAL;
   for (double const r : radii) largest_negative = std::max(largest_negative, -r);
   double const smallest = -2 * ranks.max(largest_negative);
-  return scene.run.skin > 0 ? scene.run.skin : usual_skin(d50, smallest);
+  return scene.run.verlet_skin > 0 ? scene.run.verlet_skin : usual_skin(d50, smallest);
 }
 
 /// Bonds first and consolidates then, or the other way round (`bond.after_consolidation`).
@@ -104,7 +104,7 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     start_simulation();
     double const before = simulation->assembly().void_ratio();
     consolidate(scene.test.confining_stress, progress);
-    if (before - simulation->assembly().void_ratio() > 0.003 && !scene.run.force) {
+    if (before - simulation->assembly().void_ratio() > 0.003 && !scene.run.ignore_guards) {
       throw Refused("bonding after consolidation with this composite lets the void ratio drop from " + std::to_string(before) +
                     " to " + std::to_string(simulation->assembly().void_ratio()) +
                     ": bond at low stress, or use composite 'parallel' or 'memory'");
@@ -129,15 +129,15 @@ void BiaxialTest::State::warn_of_density(double before, double made_under) {
 std::string BiaxialTest::State::text_of_scaling() const {
   char text[160];
   std::snprintf(text, sizeof text, "masses are scaled: %.3g %% of the mass of all grains added, moments of inertia times %g",
-                100 * simulation->assembly().facts.added_mass, scene.run.inertia_scaling);
+                100 * simulation->assembly().facts.added_mass, scene.run.rotational_inertia_factor);
   return text;
 }
 
 /// @param radii  of this rank's discs [m]
 MassScaling BiaxialTest::State::mass_scaling(std::vector<double> const& radii) const {
   MassScaling scaling;
-  scaling.inertia = scene.run.inertia_scaling;
-  if (scene.run.mass_scaling > 0) scaling.least_radius = radius_above(radii, scene.run.mass_scaling, ranks);
+  scaling.inertia = scene.run.rotational_inertia_factor;
+  if (scene.run.mass_scaled_fraction > 0) scaling.least_radius = radius_above(radii, scene.run.mass_scaled_fraction, ranks);
   return scaling;
 }
 
@@ -171,7 +171,7 @@ void BiaxialTest::State::require_rest(std::int64_t steps) {
   std::string const why = unrest(*simulation, simulation->assembly().measures(), scene.test.confining_stress, rest_before_shear);
   std::string const text = "consolidation did not come to rest within " + std::to_string(steps) +
                            " steps: " + (why.empty() ? "it rested for fewer than three checks on end" : why);
-  if (scene.test.consolidation_steps == TestScene::usual_consolidation_steps && !scene.run.force)
+  if (scene.test.consolidation_steps == TestScene::usual_consolidation_steps && !scene.run.ignore_guards)
     throw Refused(text + "; test.consolidation_steps = N shears it all the same after N steps");
   warnings.push_back(text + ": the test is not quasi-static from its beginning");
 }
@@ -180,12 +180,12 @@ void BiaxialTest::State::require_rest(std::int64_t steps) {
 void BiaxialTest::State::begin_shear() {
   Simulation& s = *simulation;
   SimulationLaws laws = s.assembly().laws;
-  laws.motion.damping = scene.run.damping;
+  laws.motion.damping = scene.damping.local;
   s.set_laws(laws);
   s.choose_time_step(scene.run.step_choice());
   double const frequency = s.assembly().largest_frequency();
   preparation["time_step_s"] = s.time_step;
-  double const damped = 2 / std::sqrt(1 + scene.run.damping);
+  double const damped = 2 / std::sqrt(1 + scene.damping.local);
   preparation["time_step_margin"] = frequency > 0 ? damped / frequency / s.time_step : 0;
   preparation["time_step_limit_s"] = s.assembly().stable_limit();
   preparation["added_mass_share"] = s.assembly().facts.added_mass;
@@ -285,9 +285,9 @@ Measures const& BiaxialTest::State::measures() {
 
 /// A specimen whose grains have mostly moved into each other is none: such a test ends.
 void BiaxialTest::State::require_grains(double deep_share) const {
-  if (scene.run.force) return;
+  if (scene.run.ignore_guards) return;
   if (std::string const problem = collapse(simulation->assembly().void_ratio(), deep_share); !problem.empty())
-    throw Refused(problem + ": the grains are too soft for this stress, raise grains.kn (--force goes on)");
+    throw Refused(problem + ": the grains are too soft for this stress, raise grains.normal_stiffness (--force goes on)");
 }
 
 /// Masses scaled further than usual must not carry the loads that contacts should: such a test ends.
@@ -298,15 +298,17 @@ void BiaxialTest::State::check() {
   bool const is_sand = collapse(simulation->assembly().void_ratio(), seen.deep_share).empty();
   preparation["quasi_static"] = began_quasi_static && is_sand && watch.balanced(bonds0 > 0) ? 1 : 0;
   require_grains(seen.deep_share);
-  if (!scene.run.scales_masses_further() || watch.is_slow(scene.test.axial_strain) || scene.run.force) return;
-  throw Refused(watch.of_kinetic_energy() + "; scale less (run.inertia_scaling, run.mass_scaling) or shear slower");
+  if (!scene.run.scales_masses_further() || watch.is_slow(scene.test.axial_strain) || scene.run.ignore_guards) return;
+  throw Refused(watch.of_kinetic_energy() +
+                "; scale less (run.rotational_inertia_factor, run.mass_scaled_fraction) or shear slower");
 }
 
 std::vector<std::string> BiaxialTest::shear_warnings() const {
   State const& t = *state_;
   std::vector<std::string> warnings = t.watch.warnings(t.bonds0 > 0);
   if (std::string const soft = stiffness_warning_at(t.scene, t.watch.largest_sigma1()); !soft.empty()) warnings.push_back(soft);
-  if (std::string const problem = collapse(t.simulation->assembly().void_ratio(), 0); t.scene.run.force && !problem.empty())
+  if (std::string const problem = collapse(t.simulation->assembly().void_ratio(), 0);
+      t.scene.run.ignore_guards && !problem.empty())
     warnings.push_back("forced: " + problem);
   constexpr double said = 1.01;  // of the strain that was asked for
   if (finished() && strain_fraction() > said) warnings.push_back(overshoot_text(t.eps1(), t.scene.test.axial_strain));

@@ -27,8 +27,8 @@ bool has_rate_effects(Scene const& scene, RateNumbers const& n) {
 }
 
 std::string stiffness_text(Scene const& scene, double sigma1) {
-  return "kn / sigma_1 = " + short_number(scene.grains.kn / sigma1) + " with a sigma_1 of " + short_number(sigma1 * 1e-6) +
-         " MPa";
+  return "kn / sigma_1 = " + short_number(scene.grains.normal_stiffness / sigma1) + " with a sigma_1 of " +
+         short_number(sigma1 * 1e-6) + " MPa";
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ std::string collapse(double void_ratio, double deep_share) {
 }
 
 std::string stiffness_warning_at(Scene const& scene, double sigma1) {
-  bool const was_said = scene.grains.kn < stiffness_warning * expected_sigma1(scene);
-  if (was_said || !(sigma1 > 0) || scene.grains.kn >= stiffness_warning * sigma1) return {};
+  bool const was_said = scene.grains.normal_stiffness < stiffness_warning * expected_sigma1(scene);
+  if (was_said || !(sigma1 > 0) || scene.grains.normal_stiffness >= stiffness_warning * sigma1) return {};
   return stiffness_text(scene, sigma1) + " was below " + short_number(stiffness_warning) + ": grains overlapped noticeably";
 }
 
@@ -77,10 +77,10 @@ RateNumbers rate_numbers(Scene const& scene, double d50, double height, double v
   n.strain_rate =
       scene.test.strain_rate > 0 ? scene.test.strain_rate : strain_rate_of(scene.test.inertial_number, stress, density, d50);
   n.wave_number = wave_number(scene, n.strain_rate, height, void_ratio, density);
-  if (scene.test.strain_rate == 0 && scene.test.wave_number > 0 && n.wave_number > scene.test.wave_number) {
-    n.share = scene.test.wave_number / n.wave_number;
+  if (scene.test.strain_rate == 0 && scene.test.max_platen_wave_stress > 0 && n.wave_number > scene.test.max_platen_wave_stress) {
+    n.share = scene.test.max_platen_wave_stress / n.wave_number;
     n.strain_rate *= n.share;
-    n.wave_number = scene.test.wave_number;
+    n.wave_number = scene.test.max_platen_wave_stress;
   }
   n.inertial_number = n.strain_rate * d50 * std::sqrt(density / stress);
   return n;
@@ -92,12 +92,12 @@ std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n)
     refusals.push_back("inertial number I = " + short_number(n.inertial_number, digits_of_rate(n)) + " is above " +
                        short_number(inertial_limit) + ": the loading is not quasi-static");
   double const sigma1 = expected_sigma1(scene);
-  if (scene.grains.kn < stiffness_limit * sigma1)
+  if (scene.grains.normal_stiffness < stiffness_limit * sigma1)
     refusals.push_back(stiffness_text(scene, sigma1) + ", as is to be expected, is below " + short_number(stiffness_limit) +
                        ": grains overlap by a fifth of their diameter, which no contact law here describes");
   if (scene.run.precision == Precision::mixed && !mixed_precision_resolves(scene))
-    refusals.push_back("kn / sigma_3 = " + short_number(scene.grains.kn / scene.test.confining_stress) + " is above " +
-                       short_number(stiffness_resolved) +
+    refusals.push_back("kn / sigma_3 = " + short_number(scene.grains.normal_stiffness / scene.test.confining_stress) +
+                       " is above " + short_number(stiffness_resolved) +
                        ": mixed precision does not resolve such small overlaps; take run.precision = \"double\"");
   return refusals;
 }
@@ -115,7 +115,8 @@ std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n)
                        short_number(wave_warning) + ": stress varies along the specimen");
   }
   double const sigma1 = expected_sigma1(scene);
-  if (double const stiffness = scene.grains.kn / sigma1; stiffness < stiffness_warning && stiffness >= stiffness_limit)
+  if (double const stiffness = scene.grains.normal_stiffness / sigma1;
+      stiffness < stiffness_warning && stiffness >= stiffness_limit)
     warnings.push_back(stiffness_text(scene, sigma1) + ", as is to be expected, is below " + short_number(stiffness_warning) +
                        ": grains overlap noticeably");
   return warnings;
@@ -128,7 +129,7 @@ std::vector<std::string> check_rate(Scene const& scene, RateNumbers const& n) {
     warnings.push_back("forced: " + refusal);
     all += (all.empty() ? "" : "; ") + refusal;
   }
-  if (!all.empty() && !scene.run.force) throw Refused(all + " (use run.force = true to run it all the same)");
+  if (!all.empty() && !scene.run.ignore_guards) throw Refused(all + " (use run.ignore_guards = true to run it all the same)");
   return warnings;
 }
 

@@ -15,7 +15,7 @@ struct RateNumbers {
   double strain_rate = 0;      ///< [1/s]
   double inertial_number = 0;  ///< I = rate d50 sqrt(rho / sigma_3)
   double wave_number = 0;      ///< W = rho_bulk c v_platen / sigma_3, the stress of the wave that a platen sends out
-  double share = 1;            ///< of the rate of test.inertial_number, which test.wave_number has lowered to this part
+  double share = 1;  ///< of the rate of test.inertial_number, which test.max_platen_wave_stress has lowered to this part
 };
 
 /// Of I: above it peaks of q are more than 2 % too high as a rule (perf/guards). Friction follows the rate sooner than bonds do.
@@ -31,7 +31,7 @@ inline constexpr double least_void_ratio = 0.05;  ///< of a specimen that still 
 /// to more than 0.5 at 3 MPa.
 inline constexpr double most_deep = 0.8;
 inline bool mixed_precision_resolves(Scene const& scene) {
-  return mixed_precision_resolves(scene.grains.kn, scene.test.confining_stress);
+  return mixed_precision_resolves(scene.grains.normal_stiffness, scene.test.confining_stress);
 }
 
 /// The stress of the wave that either platen sends out when they compress a specimen at a rate, over the confining stress.
@@ -45,8 +45,8 @@ double expected_sigma1(Scene const& scene);
 /// Why a specimen is none any more: its void ratio is below 0.05, or most of its contacts are deep; else empty.
 std::string collapse(double void_ratio, double deep_share);
 
-/// The rate of a test and what it comes to: that of test.strain_rate, or of test.inertial_number as far as test.wave_number lets
-/// it. @param height [m];  @param d50 [m];  @param added_mass  over the mass of the grains
+/// The rate of a test and what it comes to: that of test.strain_rate, or of test.inertial_number as far as
+/// test.max_platen_wave_stress lets it. @param height [m];  @param d50 [m];  @param added_mass  over the mass of the grains
 RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio, double added_mass = 0);
 
 /// True where a run may be called quasi-static: I up to inertial_warning() and W below 0.5.

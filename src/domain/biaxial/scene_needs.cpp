@@ -39,10 +39,10 @@ void add_discs(Scene const& scene, Precision precision, std::vector<NeededField>
 
 void add_accounts(SimulationLaws const& laws, std::vector<NeededField>& fields) {
   std::map<std::string, std::string> const with{{"lost_sliding", "grains.friction, test.wall_friction"},
-                                                {"lost_rolling", "grains.shape_factor"},
-                                                {"lost_dashpot", "grains.contact_damping"},
+                                                {"lost_rolling", "grains.rolling_width_factor"},
+                                                {"lost_dashpot", "damping.viscous_ratio"},
                                                 {"lost_breakage", "hydrate.saturation"},
-                                                {"lost_damping", "run.damping"}};
+                                                {"lost_damping", "damping.local"}};
   Dissipation losses;
   for_each_dissipation(losses, laws.losses(), [&](char const* name, Field<Accum> const&, bool needed) {
     if (needed) fields.push_back({name, sizeof(Accum), FieldOf::disc, "output.energy with " + with.at(name)});
@@ -51,11 +51,11 @@ void add_accounts(SimulationLaws const& laws, std::vector<NeededField>& fields) 
 
 void add_entries(SimulationLaws const& laws, std::vector<NeededField>& fields) {
   bool const replace = laws.contact.bond_kind == BondKind::replace;
-  std::map<std::string, std::string> const keys{{"shear", replace ? "grains.friction, bond.composite" : "grains.friction"},
-                                                {"moment", laws.features().rolling ? "grains.shape_factor" : hydrate},
+  std::map<std::string, std::string> const keys{{"shear", replace ? "grains.friction, bond.contact_coupling" : "grains.friction"},
+                                                {"moment", laws.features().rolling ? "grains.rolling_width_factor" : hydrate},
                                                 {"formation_overlap", hydrate},
-                                                {"bond_shear", "bond.composite"},
-                                                {"bond_moment", "bond.composite"},
+                                                {"bond_shear", "bond.contact_coupling"},
+                                                {"bond_moment", "bond.contact_coupling"},
                                                 {"reference_branch", "run.precision"}};
   ContactRows rows;
   HistoryFormat format;
@@ -81,9 +81,9 @@ NeededKernel contact_kernel(Scene const& scene, SimulationLaws const& laws) {
     kernel.asked_by += std::string(", ") + key;
   };
   add(f.shear, "friction", "grains.friction");
-  add(f.rolling, "rolling", "grains.shape_factor");
+  add(f.rolling, "rolling", "grains.rolling_width_factor");
   add(f.bonds, f.separate_bond ? "bonds beside contacts" : "bonds in place of contacts", hydrate);
-  add(laws.contact.grain.damping_ratio > 0, "dashpots", "grains.contact_damping");
+  add(laws.contact.grain.damping_ratio > 0, "dashpots", "damping.viscous_ratio");
   add(scene.output.energy, "accounts", "output.energy");
   return kernel;
 }
@@ -93,7 +93,7 @@ NeededKernel contact_kernel(Scene const& scene, SimulationLaws const& laws) {
 SceneNeeds needs_of(Scene const& scene) {
   constexpr double any_d50 = 1e-4, any_thickness = 1e-5;
   SimulationLaws laws = test_laws(scene, any_d50, has_bonds(scene) ? any_thickness : 0);
-  laws.motion.damping = scene.run.damping;
+  laws.motion.damping = scene.damping.local;
   SceneNeeds needs;
   add_discs(scene, laws.precision, needs.fields);
   if (scene.output.energy) add_accounts(laws, needs.fields);
@@ -106,7 +106,7 @@ SceneNeeds needs_of(Scene const& scene) {
                             "output.event_details, written where bonds break"});
   bool const damped = laws.motion.damping > 0;
   needs.kernels.push_back(
-      {"kick_and_drift", damped ? "leapfrog, local damping" : "leapfrog", damped ? "every scene, run.damping" : every_scene});
+      {"kick_and_drift", damped ? "leapfrog, local damping" : "leapfrog", damped ? "every scene, damping.local" : every_scene});
   needs.kernels.push_back(contact_kernel(scene, laws));
   needs.kernels.push_back({"wall_forces", laws.wall.friction > 0 ? "four walls, friction" : "four walls",
                            laws.wall.friction > 0 ? "every scene, test.wall_friction" : every_scene});

@@ -111,7 +111,7 @@ std::vector<std::string> ShearWatch::warnings(bool bonded) const {
   if (deep_share_ > deep_overlap_share)
     texts.push_back(
         text_of("%.3g %% of the contacts overlapped by more than 10 %% of the smaller radius at %.3g %% strain, the "
-                "deepest of the test by %.3g %%: the grains are too soft for this stress (grains.kn)",
+                "deepest of the test by %.3g %%: the grains are too soft for this stress (grains.normal_stiffness)",
                 deep_share_ * 100, deep_eps1_ * 100, deepest_ * 100));
   return texts;
 }

@@ -4,9 +4,9 @@
 
 #include "domain/biaxial/biaxial_test.hpp"
 #include "domain/generation/compression.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene_laws.hpp"
 #include "domain/scene/short_number.hpp"
+#include "domain/scene/specimen_design.hpp"
 
 namespace clathra {
 
@@ -19,7 +19,7 @@ GeneratedSpecimen made_for_consolidation(Scene const& scene, ProgressCallback co
   constexpr int most_attempts = 8;
   double const wanted = design_sample(scene).void_ratio;
   Scene made = scene;
-  made.sample.void_ratio = wanted + elastic_loss(scene, wanted, scene.bond.stress);
+  made.specimen.void_ratio = wanted + elastic_loss(scene, wanted, scene.specimen.preparation_stress);
   double disc_steps = 0, reached = 0, lacking = 0;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     GeneratedSpecimen generated;
@@ -27,8 +27,8 @@ GeneratedSpecimen made_for_consolidation(Scene const& scene, ProgressCallback co
       generated = make_specimen(made, progress, ranks);
     } catch (VoidRatioMissed const& missed) {
       throw VoidRatioMissed("for a void ratio of " + short_number(wanted, 4) + " under the confining stress it takes " +
-                                short_number(made.sample.void_ratio, 4) + " before, but " + missed.what(),
-                            wanted + missed.reached - made.sample.void_ratio, missed.denser);
+                                short_number(made.specimen.void_ratio, 4) + " before, but " + missed.what(),
+                            wanted + missed.reached - made.specimen.void_ratio, missed.denser);
     }
     BiaxialTest const test(scene, generated.specimen, progress, ranks);
     reached = test.preparation().at("void_ratio_after_consolidation");
@@ -38,7 +38,7 @@ GeneratedSpecimen made_for_consolidation(Scene const& scene, ProgressCallback co
     if (std::abs(reached - wanted) <= void_tolerance) return generated;
     bool const turned = (wanted - reached) * lacking < 0;
     lacking = wanted - reached;
-    made.sample.void_ratio += (turned ? 0.7 : 1) * lacking;
+    made.specimen.void_ratio += (turned ? 0.7 : 1) * lacking;
   }
   throw VoidRatioMissed("under the confining stress of " + short_number(scene.test.confining_stress * 1e-6, 4) + " MPa " +
                             std::to_string(most_attempts) + " specimens missed a void ratio of " + short_number(wanted, 4) +
@@ -49,7 +49,7 @@ GeneratedSpecimen made_for_consolidation(Scene const& scene, ProgressCallback co
 }  // namespace
 
 GeneratedSpecimen specimen_for_test(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
-  if (scene.sample.void_ratio_at == VoidRatioAt::preparation) return generate_specimen(scene, progress, ranks);
+  if (scene.specimen.void_ratio_at == VoidRatioAt::preparation) return generate_specimen(scene, progress, ranks);
   return made_or_advised(scene, [&](Scene const& tried) { return made_for_consolidation(tried, progress, ranks); });
 }
 

@@ -47,7 +47,7 @@ double area_of_equation_4(Scene const& scene, Specimen const& s) {
 }  // namespace
 
 double critical_thickness(Scene const& scene, Specimen const& share, Ranks const& ranks) {
-  switch (scene.bond.mode) {
+  switch (scene.bond.critical_thickness_from) {
     case BondingMode::eq3:
       return critical_thickness_ratio(scene.hydrate.saturation) * share.d50;
     case BondingMode::given_thickness:
@@ -61,8 +61,9 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
   Specimen const s = with_halo(ranks, share, high);
   auto const pairs = near_pairs(s, share.size(), high);
   if (area_at(scene, s, pairs, high, ranks) < target) {
-    throw Refused("bond.mode = 'areal_target': even bonds of thickness d50 hold less hydrate than the saturation " +
-                  std::to_string(scene.hydrate.saturation) + " demands");
+    throw Refused(
+        "bond.critical_thickness_from = 'areal_target': even bonds of thickness d50 hold less hydrate than the saturation " +
+        std::to_string(scene.hydrate.saturation) + " demands");
   }
   for (int n = 0; n < 60; ++n) {
     double const middle = 0.5 * (low + high);
@@ -87,7 +88,8 @@ void decide(Scene const& scene, BondLaw const& law, double radius, double distan
     case Bondability::bondable:
       ++outcome.bonds;
       contact.formation_overlap = -distance;
-      if (scene.bond.composite == Composite::replace) contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
+      if (scene.bond.contact_coupling == Composite::replace)
+        contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
       area.add(bond_area(radius, law.width(radius, thickness), thickness, outcome.critical_thickness));
   }
 }
@@ -120,7 +122,7 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   contacts.insert(contacts.end(), old, share.contacts.end());
   share.contacts = std::move(contacts);
   share.critical_thickness = outcome.critical_thickness;
-  share.separate_bonds = scene.bond.composite == Composite::parallel;
+  share.separate_bonds = scene.bond.contact_coupling == Composite::parallel;
   for (std::int64_t* const count : {&outcome.bonds, &outcome.rejected_no_tension, &outcome.rejected_out_of_fit})
     *count = ranks.sum(*count);
   outcome.bond_area = area.over(ranks.summation());

@@ -36,7 +36,7 @@ struct PartlyClosed {
 
 class Compression {
  public:
-  Compression(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress, Ranks const& ranks)
+  Compression(Scene const& scene, SpecimenDesign const& design, ProgressCallback const& progress, Ranks const& ranks)
       : scene_(scene), design_(design), progress_(progress), ranks_(ranks) {}
 
   /// @throws VoidRatioMissed, Refused
@@ -126,7 +126,8 @@ class Compression {
     prepare_servo(simulation, stress_, wall_rate, d50_, StepChoice{});
     auto const modulus = [](double normal_stiffness) { return flowing_modulus * normal_stiffness; };
     // Area strain that the soft grains' overlaps take away beyond those of the scene's, over the stress.
-    double const give = 1 / modulus(simulation.assembly().laws.contact.grain.normal_stiffness) - 1 / modulus(scene_.grains.kn);
+    double const give =
+        1 / modulus(simulation.assembly().laws.contact.grain.normal_stiffness) - 1 / modulus(scene_.grains.normal_stiffness);
     close(simulation, a, {wanted_ + unjammed, vertical_rate, 0, true}, laws);
     a.blocked = false;
     close(simulation, a, {wanted_ + reserve, soft_rate, (1 + wanted_) * give}, laws);
@@ -155,7 +156,7 @@ class Compression {
     Simulation simulation(a.specimen, laws(a.friction), skin_, ranks_);
     prepare_servo(simulation, stress_, wall_rate, d50_, StepChoice{});
     // The void ratio is that at the stress of the design, whatever is left of it or too much where the closing ends.
-    double const softness = (1 + wanted_) / (resting_modulus * scene_.grains.kn);
+    double const softness = (1 + wanted_) / (resting_modulus * scene_.grains.normal_stiffness);
     close(simulation, a, {goal + softness * stress_, last_rate, softness, false, true}, laws);
     a.specimen = simulation.specimen();
     disc_steps_ += simulation.assembly().steps() * simulation.assembly().discs();
@@ -199,8 +200,8 @@ class Compression {
   }
 
   Scene const& scene_;
-  SampleDesign const& design_;
-  double const stress_ = scene_.bond.stress, wanted_ = design_.void_ratio, d50_ = design_.grading.d50(),
+  SpecimenDesign const& design_;
+  double const stress_ = scene_.specimen.preparation_stress, wanted_ = design_.void_ratio, d50_ = design_.grading.d50(),
                skin_ = usual_skin(d50_, design_.grading.smallest());
   ProgressCallback const& progress_;
   Ranks const& ranks_;
@@ -210,7 +211,7 @@ class Compression {
 
 }  // namespace
 
-PackedSpecimen compress(Specimen const& loose, Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+PackedSpecimen compress(Specimen const& loose, Scene const& scene, SpecimenDesign const& design, ProgressCallback const& progress,
                         Ranks const& ranks) {
   return Compression(scene, design, progress, ranks).run(loose);
 }

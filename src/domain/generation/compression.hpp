@@ -5,9 +5,9 @@
 /// constant friction stops wherever the grains jam, and says so only after the whole compression.
 #include "domain/generation/equilibration.hpp"
 #include "domain/parallel/ranks.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 
 namespace clathra {
@@ -52,7 +52,7 @@ auto slower_where_it_fails(Make const& make) {
 /// that the number of steps hardly depends on that of the discs.
 /// @throws VoidRatioMissed where the design is denser than frictionless grains pack, or looser than full friction holds;
 /// Refused where it does not come to rest
-PackedSpecimen compress(Specimen const& loose, Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+PackedSpecimen compress(Specimen const& loose, Scene const& scene, SpecimenDesign const& design, ProgressCallback const& progress,
                         Ranks const& ranks = {});
 
 }  // namespace clathra

@@ -82,7 +82,8 @@ SimulationLaws closing_laws(Scene const& scene, GenerationFriction const& fricti
   SimulationLaws laws = generation_laws(scene, friction);
   laws.scaling = {4, 0.5 * grading.d50()};
   laws.motion.in_frame = false;
-  if (mixed_precision_resolves(scene.grains.kn, scene.bond.stress)) laws.precision = Precision::mixed;
+  if (mixed_precision_resolves(scene.grains.normal_stiffness, scene.specimen.preparation_stress))
+    laws.precision = Precision::mixed;
   return laws;
 }
 

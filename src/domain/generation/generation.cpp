@@ -8,8 +8,8 @@
 #include "domain/generation/compression.hpp"
 #include "domain/generation/packing.hpp"
 #include "domain/measurement/disc_grading.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/short_number.hpp"
+#include "domain/scene/specimen_design.hpp"
 
 namespace clathra {
 
@@ -23,7 +23,7 @@ double standard_deviation(std::vector<double> const& values) {
 }
 
 PackedSpecimen pack(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
-  bool const layered = scene.sample.generator == Generator::under_compaction;
+  bool const layered = scene.specimen.generator == Generator::under_compaction;
   return (layered ? pack_by_under_compaction : pack_by_compression)(scene, design_sample(scene), progress, ranks);
 }
 
@@ -36,7 +36,7 @@ std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& m
   double step = 0.002, next = rounded_away(missed.reached), near = next, farthest = next;
   std::optional<double> beyond;  // missed from the other side
   for (int attempt = 0; attempt < most_attempts; ++attempt, step *= 2) {
-    scene.sample.void_ratio = next;
+    scene.specimen.void_ratio = next;
     try {
       (void)make(scene);
       return next;
@@ -57,11 +57,11 @@ std::optional<double> reachable_void_ratio(Scene scene, VoidRatioMissed const& m
 
 /// A void ratio that works, in the words of an error. A denser specimen is a smaller one, which may be too small for a test.
 std::string offer_of(Scene scene, double void_ratio) {
-  std::string const offer = "sample.void_ratio = " + short_number(void_ratio) + " was tried and works";
-  scene.sample.void_ratio = void_ratio;
-  SampleDesign const design = design_sample(scene);
+  std::string const offer = "specimen.void_ratio = " + short_number(void_ratio) + " was tried and works";
+  scene.specimen.void_ratio = void_ratio;
+  SpecimenDesign const design = design_sample(scene);
   std::string const problem = narrowness(design.width, design.height, design.grading.largest());
-  return problem.empty() ? offer : offer + ", with more sample.particles: " + problem;
+  return problem.empty() ? offer : offer + ", with more specimen.particles: " + problem;
 }
 
 /// What a user should know of a specimen that was made as it was asked for.
@@ -69,24 +69,25 @@ std::vector<std::string> warnings_of(StageRecord const& made) {
   constexpr double most_deep = 0.001, farthest = 0.02;
   std::vector<std::string> warnings;
   if (double const share = made.at("deep_overlap_share"); share > most_deep)
-    warnings.push_back(
-        "under the preparation stress " + short_number(100 * share) +
-        " % of the contacts overlap by more than 10 % of the smaller radius: the grains are soft for it (grains.kn, "
-        "bond.stress)");
+    warnings.push_back("under the preparation stress " + short_number(100 * share) +
+                       " % of the contacts overlap by more than 10 % of the smaller radius: the grains are soft for it "
+                       "(grains.normal_stiffness, "
+                       "specimen.preparation_stress)");
   if (double const distance = made.at("grading_distance"); distance > farthest)
-    warnings.push_back("the discs miss the grading curve by " + short_number(100 * distance) +
-                       " % at most: they are too few for it (sample.particles), or for so many layers (sample.layers)");
+    warnings.push_back(
+        "the discs miss the grading curve by " + short_number(100 * distance) +
+        " % at most: they are too few for it (specimen.particles), or for so many layers (specimen.compaction_layers)");
   return warnings;
 }
 
 }  // namespace
 
 GeneratedSpecimen make_specimen(Scene const& scene, ProgressCallback const& progress, Ranks const& ranks) {
-  SampleDesign const design = design_sample(scene);
+  SpecimenDesign const design = design_sample(scene);
   PackedSpecimen packed = pack(scene, progress, ranks);
   GeneratedSpecimen generated;
-  int const layers =
-      scene.sample.generator == Generator::under_compaction ? compaction_layers(scene, design) : scene.sample.layers;
+  int const layers = scene.specimen.generator == Generator::under_compaction ? compaction_layers(scene, design)
+                                                                             : scene.specimen.compaction_layers;
   generated.layer_void_ratios = layer_void_ratios(packed.specimen, layers, ranks);
   StageRecord& r = generated.record;
   r["discs"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(packed.specimen.size())));
@@ -114,9 +115,9 @@ GeneratedSpecimen made_or_advised(Scene const& scene, SpecimenMaker const& make)
   try {
     return make(scene);
   } catch (VoidRatioMissed const& missed) {
-    bool const box = scene.sample.width > 0 && scene.sample.height > 0;
-    if (scene.sample.void_ratio == 0 && box)
-      throw Refused(std::string(missed.what()) + "; it follows from sample.particles and the box: change one of these");
+    bool const box = scene.specimen.width > 0 && scene.specimen.height > 0;
+    if (scene.specimen.void_ratio == 0 && box)
+      throw Refused(std::string(missed.what()) + "; it follows from specimen.particles and the box: change one of these");
     std::optional<double> const instead = reachable_void_ratio(scene, missed, make);
     throw Refused(std::string(missed.what()) +
                   (instead ? "; " + offer_of(scene, *instead) : "; none near it was found that works"));

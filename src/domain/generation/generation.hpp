@@ -20,7 +20,7 @@ struct GeneratedSpecimen {
   std::vector<std::string> warnings;
 };
 
-/// Makes the specimen of a scene by scene.sample.generator (not `file`). Same scene, same bits, for any thread count.
+/// Makes the specimen of a scene by scene.specimen.generator. Same scene, same bits, for any thread count.
 /// @throws Refused where it does not come to rest, VoidRatioMissed at a void ratio that is not that of the scene to 0.001;
 /// Diverged, Stopped
 /// @return this rank's share of the specimen, and the record of the whole

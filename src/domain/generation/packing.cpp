@@ -18,7 +18,7 @@ constexpr double slowing_range = 0.15;  // in void ratio
 constexpr double share_in_layers = 0.5;
 
 /// Of a box that has left to close alike in both directions [m].
-double unjammed_width(SampleDesign const& design) {
+double unjammed_width(SpecimenDesign const& design) {
   return design.width * std::sqrt((1 + design.void_ratio + unjammed) / (1 + design.void_ratio));
 }
 
@@ -56,7 +56,7 @@ void compact(Simulation& simulation, LayerClosing const& layer, Progress const& 
 
 /// All discs in layers, each compacted to its own void ratio of Jiang's rule on those below it; unjammed and without motion.
 /// @param slowness  divides the rates;  @param counted  gets the disc-steps of all layers
-Specimen compacted_layers(Scene const& scene, SampleDesign const& design, SimulationLaws const& laws, double slowness,
+Specimen compacted_layers(Scene const& scene, SpecimenDesign const& design, SimulationLaws const& laws, double slowness,
                           ProgressCallback const& counted, std::int64_t& disc_steps, Ranks const& ranks) {
   Specimen specimen;
   specimen.right = unjammed_width(design);
@@ -71,10 +71,11 @@ Specimen compacted_layers(Scene const& scene, SampleDesign const& design, Simula
     Progress const stage{"generate", 0.6 * layer * layer / (layers * layers),
                          "layer " + std::to_string(layer) + "/" + std::to_string(layers), 0};
     double const unit =
-        strain_rate_of(1, scene.bond.stress, simulation.assembly().facts.moving_density(), specimen.d50) / slowness;
+        strain_rate_of(1, scene.specimen.preparation_stress, simulation.assembly().facts.moving_density(), specimen.d50) /
+        slowness;
     compact(simulation,
             {floor, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, unit * loose_rate, unit * near_rate,
-             20 * scene.bond.stress},
+             20 * scene.specimen.preparation_stress},
             stage, counted);
     disc_steps += simulation.assembly().steps() * simulation.assembly().discs();
     simulation.stop_discs();
@@ -90,7 +91,7 @@ double under_compaction_void_ratio(double target, int layer, int layers, double 
   return target + excess * std::pow(1 - static_cast<double>(layer - 1) / (layers - 1), exponent);
 }
 
-PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+PackedSpecimen pack_by_under_compaction(Scene const& scene, SpecimenDesign const& design, ProgressCallback const& progress,
                                         Ranks const& ranks) {
   std::int64_t of_layers = 0;
   ProgressCallback const counted = [&](Progress p) {
@@ -99,7 +100,7 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   };
   GenerationFriction friction = generation_friction(design.void_ratio);
   friction.share = share_in_layers;
-  SimulationLaws const laws = flowing_laws(generation_laws(scene, friction), scene.bond.stress, design.grading);
+  SimulationLaws const laws = flowing_laws(generation_laws(scene, friction), scene.specimen.preparation_stress, design.grading);
   Specimen const layers = slower_where_it_fails(
       [&](int slowness) { return compacted_layers(scene, design, laws, slowness, counted, of_layers, ranks); });
   PackedSpecimen packed = compress(layers, scene, design, counted, ranks);
@@ -107,7 +108,7 @@ PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& 
   return packed;
 }
 
-PackedSpecimen pack_by_compression(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+PackedSpecimen pack_by_compression(Scene const& scene, SpecimenDesign const& design, ProgressCallback const& progress,
                                    Ranks const& ranks) {
   Specimen loose;
   loose.right = unjammed_width(design);

@@ -2,8 +2,8 @@
 /// Multi-layer under-compaction (Jiang, Konrad, Leroueil 2003) to a target void ratio, and the proof of what came out.
 #include "domain/generation/equilibration.hpp"
 #include "domain/parallel/ranks.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 
 namespace clathra {
@@ -15,11 +15,11 @@ double under_compaction_void_ratio(double target, int layer, int layers, double 
 
 /// Layer by layer: discs of the whole grading are placed loosely above the ones below and closed by the height, evenly, until all
 /// have e_(i) + 0.04; then the whole closes to the void ratio of the design (compress()).
-PackedSpecimen pack_by_under_compaction(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+PackedSpecimen pack_by_under_compaction(Scene const& scene, SpecimenDesign const& design, ProgressCallback const& progress,
                                         Ranks const& ranks = {});
 
 /// All discs at once, for specimens of any size: the same process everywhere (compress()).
-PackedSpecimen pack_by_compression(Scene const& scene, SampleDesign const& design, ProgressCallback const& progress,
+PackedSpecimen pack_by_compression(Scene const& scene, SpecimenDesign const& design, ProgressCallback const& progress,
                                    Ranks const& ranks = {});
 
 /// Nominal void ratio of `layers` horizontal bands of equal height; discs on a border are shared by their exact area.

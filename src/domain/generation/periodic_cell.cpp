@@ -102,7 +102,7 @@ class Tiling {
 
 }  // namespace
 
-PackedSpecimen pack_periodic_cell(Scene const& scene, SampleDesign const& design, std::int64_t particles,
+PackedSpecimen pack_periodic_cell(Scene const& scene, SpecimenDesign const& design, std::int64_t particles,
                                   ProgressCallback const& progress) {
   Specimen specimen;
   specimen.periodic = true;

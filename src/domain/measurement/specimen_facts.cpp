@@ -99,7 +99,7 @@ SpecimenOutline outline_of(Specimen const& part, Ranks const& ranks) {
   return outline;
 }
 
-SampleDesign design_of(Specimen const& part, Ranks const& ranks) {
+SpecimenDesign design_of(Specimen const& part, Ranks const& ranks) {
   Grading const grading = grading_of(part.radius, ranks);
   return {ranks.sum(static_cast<std::int64_t>(part.size())), part.width(), part.height(), part.void_ratio,
           grading.scaled(part.d50 > 0 ? part.d50 / grading.d50() : 1)};

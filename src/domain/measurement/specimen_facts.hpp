@@ -6,8 +6,8 @@
 
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/grading.hpp"
-#include "domain/scene/sample_design.hpp"
 #include "domain/scene/specimen.hpp"
+#include "domain/scene/specimen_design.hpp"
 
 namespace clathra {
 
@@ -40,7 +40,7 @@ SpecimenOutline outline_of(Specimen const& part, Ranks const& ranks = {});
 
 /// A specimen as a scene would have described it: box, number of discs, void ratio and the grading that they have, with the d50
 /// that the specimen states, if it does.
-SampleDesign design_of(Specimen const& part, Ranks const& ranks = {});
+SpecimenDesign design_of(Specimen const& part, Ranks const& ranks = {});
 
 /// Two discs that overlap; `share` is the overlap over the smaller radius.
 struct OverlappingPair {

@@ -39,15 +39,15 @@ void set_moment_length(BondStrengthLaw& strength, BondScene const& bond) {
 /// How a bond is read off those between rods that were tested, and whether it may be weaker than a grain contact.
 void set_rod(BondStrengthLaw& strength, Scene const& scene, double d50) {
   constexpr double rod_diameter = 12e-3, thinnest = 0.6e-3, area = 3e-3 * 50e-3;  // [m, m, m^2] of the bonds between rods
-  if (scene.bond.rod_thickness == RodThickness::clamped) strength.least_rod_thickness = thinnest;
-  if (scene.bond.rod_thickness == RodThickness::scaled) {
+  if (scene.bond.thickness_mapping == RodThickness::clamped) strength.least_rod_thickness = thinnest;
+  if (scene.bond.thickness_mapping == RodThickness::scaled) {
     strength.rod_scale = rod_diameter / d50;
     strength.rod_share = 0;
     strength.rod_share_per_width = 1 / area;  // of a bond 1 m long
   }
   if (scene.bond.friction_floor) {
     strength.floor_friction = scene.grains.friction;
-    strength.floor_shape_factor = scene.grains.shape_factor;
+    strength.floor_shape_factor = scene.grains.rolling_width_factor;
   }
 }
 
@@ -126,23 +126,23 @@ bool has_bonds(Scene const& scene) { return scene.hydrate.saturation > 0 && scen
 BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness) {
   HydrateScene const& hydrate = scene.hydrate;
   HydrateStrength const solid = hydrate_strength(hydrate.temperature, hydrate.pore_pressure, hydrate.density);
-  bool const printed = scene.bond.coefficients == CoefficientSource::printed;
+  bool const printed = scene.bond.strength_from == CoefficientSource::printed;
   BondLaw law;
   law.strength.tensile_stress = printed ? printed_tensile_stress : 3 * solid.tension;
   law.strength.compressive_stress = printed ? printed_compressive_stress : 3 * solid.compression;
   set_moment_length(law.strength, scene.bond);
   set_rod(law.strength, scene, d50);
   law.modulus = solid.modulus;
-  law.particle_stiffness = scene.grains.particle_stiffness_ratio * scene.grains.kn;
+  law.particle_stiffness = scene.bond.grain_stiffness_factor * scene.grains.normal_stiffness;
   law.critical_thickness = critical_thickness;
   law.thickness_partner = critical_thickness;
   if (scene.bond.law == BondLawKind::constant_thickness) {
-    double const plate = scene.bond.plate_thickness > 0 ? scene.bond.plate_thickness : critical_thickness / 2;
+    double const plate = scene.bond.constant_thickness > 0 ? scene.bond.constant_thickness : critical_thickness / 2;
     law.thickness_weight = 0;
     law.plate_thickness = plate;
     law.thickness_partner = plate;
   }
-  if (scene.bond.composite == Composite::memory) law.preload_stiffness = scene.grains.kn;
+  if (scene.bond.contact_coupling == Composite::memory) law.preload_stiffness = scene.grains.normal_stiffness;
   // f_s and f_r fall from gap 0 to 1.15 mm and rise from there; the last digits are left to the rounding of exponential().
   double const thickest = law.thickness_weight * critical_thickness + law.plate_thickness;
   double const flattest = std::min(rod_thickness(law.strength, thickest), 1.15e-3);
@@ -152,7 +152,7 @@ BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness)
 }
 
 BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, double gap, double normal_force) {
-  bool const given = scene.bond.mode == BondingMode::given_thickness;
+  bool const given = scene.bond.critical_thickness_from == BondingMode::given_thickness;
   double const h_max = given ? scene.bond.critical_thickness : critical_thickness_ratio(scene.hydrate.saturation) * d50;
   BondLaw const law = make_bond_law(scene, d50, h_max);
   HydrateStrength const solid = hydrate_strength(scene.hydrate.temperature, scene.hydrate.pore_pressure, scene.hydrate.density);

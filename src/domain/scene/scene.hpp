@@ -10,7 +10,7 @@
 
 namespace clathra {
 
-enum class Generator { under_compaction, compression, file };
+enum class Generator { under_compaction, compression };
 enum class VoidRatioAt { preparation, test };
 enum class BondLawKind { none, thickness_dependent, constant_thickness };
 enum class MomentScale { paper_si, rod_mm, similitude };
@@ -18,26 +18,28 @@ enum class RodThickness { printed, clamped, scaled };
 enum class CoefficientSource { printed, thm };
 enum class BondingMode { eq3, given_thickness, areal_target };
 
-/// `[sample]`: any three of particles, box (width and height), void ratio and grading fix the fourth; 0 or empty = not given.
-struct SampleScene {
+/// `[specimen]`: any three of particles, box (width and height), void ratio and grading fix the fourth; 0 or empty = not given.
+struct SpecimenScene {
   Generator generator = Generator::under_compaction;
   std::int64_t particles = 0;
   double void_ratio = 0;                                 ///< nominal; 0 = not given (then 0.24 if it is not the fourth)
-  VoidRatioAt void_ratio_at = VoidRatioAt::preparation;  ///< under the bonding stress, or consolidated at the start of the test
+  VoidRatioAt void_ratio_at = VoidRatioAt::preparation;  ///< under preparation_stress, or consolidated at the start of the test
   double width = 0, height = 0;                          ///< [m]; one of them alone fixes the other by aspect_ratio
   double aspect_ratio = 2;                               ///< height / width
-  int layers = 5;                                        ///< of the under-compaction, at most (compaction_layers())
-  std::string file;                                      ///< specimen to load (generator = file)
+  double preparation_stress = 50e3;                      ///< isotropic, at which it is made and hydrate forms [Pa]
+  int compaction_layers = 5;                             ///< at most (compaction_layers(Scene, SpecimenDesign))
+  std::string file;                                      ///< specimen to read instead of making one
+
+  bool is_read() const { return !file.empty(); }
 };
 
 /// `[grains]`. What the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).
 struct GrainScene {
-  double density = 2600;                ///< [kg/m^3]
-  double kn = 3e8, ks = 2e8;            ///< contact stiffness [N/m per m]; kn a third: 0.73 of the steps, peak of q -10 %
-  double particle_stiffness_ratio = 2;  ///< k_n of one grain (Eq. 16) over kn: two grains in series make a contact
+  double density = 2600;  ///< [kg/m^3]
+  double normal_stiffness = 3e8,
+         shear_stiffness = 2e8;  ///< k_n, k_s [N/m per m]; k_n a third: 0.73 of the steps, peak of q -10 %
   double friction = 0.5;
-  double shape_factor = 1;     ///< beta
-  double contact_damping = 0;  ///< viscous damping ratio of contacts; 0.2 for local damping: peak of q at 55 % -5 to -7 %
+  double rolling_width_factor = 1;  ///< beta
 };
 
 /// `[grading]`: a named table, a CSV file (diameter with unit in the header, percent finer), scaled to d50 if that is given.
@@ -58,23 +60,23 @@ struct HydrateScene {
 
 /// `[bond]`
 struct BondScene {
-  std::string reading = "calibrated";  ///< of what the paper leaves open: io/scene/presets.hpp
+  std::string preset = "calibrated";  ///< of what the paper leaves open: io/scene/presets.hpp
   BondLawKind law = BondLawKind::thickness_dependent;
-  Composite composite = Composite::parallel;
+  Composite contact_coupling = Composite::parallel;
+  double grain_stiffness_factor = 2;  ///< k_n of one grain (Eq. 16) over that of a contact: two grains in series make a contact
   MomentScale moment_scale = MomentScale::similitude;
   double moment_ratio = 1.0 / 4;  ///< c_r of similitude, L_r = c_r B
-  RodThickness rod_thickness = RodThickness::printed;
+  RodThickness thickness_mapping = RodThickness::printed;
   bool friction_floor = false;  ///< R_s >= mu F_n, R_r >= F_n B_c / 6
-  CoefficientSource coefficients = CoefficientSource::thm;
-  BondingMode mode = BondingMode::eq3;
-  double critical_thickness = 0;    ///< h_max for mode given_thickness [m]
-  double plate_thickness = 0;       ///< t_0 of constant_thickness [m]; 0 = h_max / 2
-  double stress = 50e3;             ///< isotropic stress at which the specimen is generated and the hydrate forms [Pa]
+  CoefficientSource strength_from = CoefficientSource::thm;
+  BondingMode critical_thickness_from = BondingMode::eq3;
+  double critical_thickness = 0;    ///< h_max for given_thickness [m]
+  double constant_thickness = 0;    ///< t_0 of constant_thickness [m]; 0 = h_max / 2
   bool after_consolidation = true;  ///< bond at the confining stress instead
 };
 
-/// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it; wave_number bounds the first. What
-/// the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).
+/// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it; max_platen_wave_stress bounds the
+/// first. What the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).
 struct TestScene {
   double confining_stress = 1e6;  ///< sigma_3 [Pa]
   double axial_strain = 0.15;     ///< to reach
@@ -82,34 +84,39 @@ struct TestScene {
   double strain_rate = 0;         ///< [1/s]
   /// The rate of inertial_number is lowered until W is no larger, 0 = whatever it is; 20,000 discs at 55 %, 0.26: peak of q
   /// +1.4 +- 0.5 %, 0.2: +1.0 +- 0.5 %, 0.13: +0.3 +- 0.5 %.
-  double wave_number = 0.13;
+  double max_platen_wave_stress = 0.13;
   double wall_friction = 0;
   static constexpr int usual_consolidation_steps = 200000;
   int consolidation_steps = usual_consolidation_steps;  ///< at most; another number than the usual one is sheared at rest or not
 };
 
+/// `[damping]`: parts of the model. What the numbers after a semicolon say was measured (docs/accuracy.md).
+struct DampingScene {
+  double local = 0.3;        ///< alpha of local damping in the shear stage; 0: peak of q at 55 % -12.7 +- 1.5 %
+  double viscous_ratio = 0;  ///< of contacts, to the critical damping; 0.2 for local damping: peak of q at 55 % -5 to -7 %
+};
+
 /// `[run]`. What the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).
 struct RunScene {
-  std::string accuracy = "standard";  ///< a point of the trade of speed for accuracy: io/scene/presets.hpp
+  std::string preset = "standard";  ///< a point of the trade of speed for accuracy: io/scene/presets.hpp
   std::uint64_t seed = 1;
   int threads = 0;                         ///< 0 = OMP_NUM_THREADS or all cores
   Precision precision = Precision::mixed;  ///< of consolidation and shear, not of generation; mixed: peak of q -0.2 +- 0.4 %
-  TimeStepRule time_step = TimeStepRule::spectrum;
-  double dt_safety = 0;  ///< 0 = the usual one of the rule; half of it: peak of q -0.3 +- 1.6 %
-  double damping = 0.3;  ///< alpha of local damping in the shear stage; 0: peak of q at 55 % -12.7 +- 1.5 %
-  static constexpr double usual_inertia_scaling = 3;
+  TimeStepRule time_step_rule = TimeStepRule::spectrum;
+  double time_step_safety = 0;  ///< 0 = the usual one of the rule; half of it: peak of q -0.3 +- 1.6 %
+  static constexpr double usual_inertia_factor = 3;
   /// Moments of inertia over their own, in consolidation and shear; 3: peak of q 0.0 +- 0.6 % at I = 2e-4.
-  double inertia_scaling = usual_inertia_scaling;
+  double rotational_inertia_factor = usual_inertia_factor;
   /// Share of the discs, the smallest, that get the mass of the next one, likewise, 0 = none; 0.25: peak of q -0.1 +- 1.3 %.
-  double mass_scaling = 0;
-  double skin = 0;     ///< Verlet skin [m], 0 = chosen; moves rounding only
-  bool force = false;  ///< go on where a guard refuses; noted in run.json
+  double mass_scaled_fraction = 0;
+  double verlet_skin = 0;      ///< skin [m], 0 = chosen; moves rounding only
+  bool ignore_guards = false;  ///< go on where a guard refuses; noted in run.json
 
   /// Beyond the usual moments of inertia, which move no number of a test that is as slow as usual (docs/accuracy.md).
-  bool scales_masses_further() const { return inertia_scaling > usual_inertia_scaling || mass_scaling > 0; }
+  bool scales_masses_further() const { return rotational_inertia_factor > usual_inertia_factor || mass_scaled_fraction > 0; }
   StepChoice step_choice() const {
-    double const usual = time_step == TimeStepRule::spectrum ? usual_share_of_limit : usual_share_of_estimate;
-    return {time_step, dt_safety > 0 ? dt_safety : usual};
+    double const usual = time_step_rule == TimeStepRule::spectrum ? usual_share_of_limit : usual_share_of_estimate;
+    return {time_step_rule, time_step_safety > 0 ? time_step_safety : usual};
   }
 };
 
@@ -122,7 +129,7 @@ struct OutputScene {
   bool energy = false;               ///< keep the energy ledger
   bool events = true;                ///< events.csv: each broken bond
   bool event_details = false;        ///< with further columns; only with events
-  bool full_precision = false;       ///< snapshots as they are computed, not rounded
+  bool lossless_snapshots = false;   ///< snapshots as they are computed, not rounded
   bool keep_checkpoint = true;       ///< of the end of a test, to extend it
 
   bool takes_event_details() const { return events && event_details; }
@@ -130,11 +137,12 @@ struct OutputScene {
 };
 
 struct Scene {
-  SampleScene sample;
+  SpecimenScene specimen;
   GrainScene grains;
   GradingScene grading;
   HydrateScene hydrate;
   BondScene bond;
+  DampingScene damping;
   TestScene test;
   RunScene run;
   OutputScene output;

@@ -1,4 +1,4 @@
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@
 
 namespace clathra {
 
-SampleDesign design_sample(Scene const& scene) {
-  SampleScene const& s = scene.sample;
-  SampleDesign design;
+SpecimenDesign design_sample(Scene const& scene) {
+  SpecimenScene const& s = scene.specimen;
+  SpecimenDesign design;
   design.grading = Grading::of(scene.grading);
   bool const box = s.width > 0 && s.height > 0;
-  if (s.particles <= 0 && !box) throw std::invalid_argument("[sample] needs 'particles' or a box ('width' and 'height')");
+  if (s.particles <= 0 && !box) throw std::invalid_argument("[specimen] needs 'particles' or a box ('width' and 'height')");
   if (s.particles > 0 && box && s.void_ratio > 0 && scene.grading.d50 > 0) {
     throw std::invalid_argument(
-        "[sample] particles, box and void_ratio together fix the grading's d50: leave one of the four out");
+        "[specimen] particles, box and void_ratio together fix the grading's d50: leave one of the four out");
   }
   double const disc = design.grading.mean_disc_area();
   design.particles = s.particles;
@@ -41,7 +41,7 @@ SampleDesign design_sample(Scene const& scene) {
   } else if (s.void_ratio <= 0) {
     design.void_ratio = s.width * s.height / (static_cast<double>(s.particles) * disc) - 1;
     if (design.void_ratio <= 0.15)
-      throw std::invalid_argument("[sample] " + std::to_string(s.particles) +
+      throw std::invalid_argument("[specimen] " + std::to_string(s.particles) +
                                   " discs of this grading do not fit the box: void ratio " + std::to_string(design.void_ratio));
   } else {
     design.grading =
@@ -50,17 +50,18 @@ SampleDesign design_sample(Scene const& scene) {
   return design;
 }
 
-int compaction_layers(Scene const& scene, SampleDesign const& design) {
+int compaction_layers(Scene const& scene, SpecimenDesign const& design) {
   constexpr std::int64_t fewest_discs = 50;
   std::int64_t const by_height = static_cast<std::int64_t>(design.height / design.grading.largest());
   std::int64_t const most = std::min(design.particles / fewest_discs, by_height);
-  return static_cast<int>(std::clamp<std::int64_t>(most, 1, scene.sample.layers));
+  return static_cast<int>(std::clamp<std::int64_t>(most, 1, scene.specimen.compaction_layers));
 }
 
 double reach_of_bonds(Scene const& scene, double d50) {
   if (!has_bonds(scene)) return 0;
-  return scene.bond.mode == BondingMode::given_thickness ? scene.bond.critical_thickness
-                                                         : critical_thickness_ratio(scene.hydrate.saturation) * d50;
+  return scene.bond.critical_thickness_from == BondingMode::given_thickness
+             ? scene.bond.critical_thickness
+             : critical_thickness_ratio(scene.hydrate.saturation) * d50;
 }
 
 namespace {

@@ -7,7 +7,7 @@
 namespace clathra {
 
 /// The consistent set of numbers.
-struct SampleDesign {
+struct SpecimenDesign {
   std::int64_t particles = 0;
   double width = 0, height = 0;  ///< [m], at the bonding stress
   double void_ratio = 0;         ///< nominal
@@ -18,11 +18,11 @@ struct SampleDesign {
 /// + grading give the particles, particles + box + grading give the void ratio, particles + box + void ratio scale the grading's
 /// d50. A void ratio that is neither given nor follows is 0.24.
 /// @throws std::invalid_argument where all four are given, or fewer than needed
-SampleDesign design_sample(Scene const& scene);
+SpecimenDesign design_sample(Scene const& scene);
 
 /// Layers in which a design is compacted: as many as the scene wants, but each of 50 discs at the least and as high as its
 /// largest grain.
-int compaction_layers(Scene const& scene, SampleDesign const& design);
+int compaction_layers(Scene const& scene, SpecimenDesign const& design);
 
 /// How far the bonds of a scene reach beyond touching [m], at the most.
 double reach_of_bonds(Scene const& scene, double d50);

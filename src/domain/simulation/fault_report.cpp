@@ -77,15 +77,15 @@ Deepest deepest_contact(Assembly const& assembly, Discs const& discs, int i) {
 std::string advice_on_rows(double skin, double d50) {
   constexpr double wide = 2 * chosen_skin;
   if (d50 > 0 && skin > wide * d50)
-    return text_of("give a smaller run.skin, or none: %.3g mm are %.3g of d50, where %g are usual", skin * 1e3, skin / d50,
+    return text_of("give a smaller run.verlet_skin, or none: %.3g mm are %.3g of d50, where %g are usual", skin * 1e3, skin / d50,
                    chosen_skin);
   return text_of("a disc can have %d: make the grading's largest disc smaller, or its smallest larger", longest_row);
 }
 
 std::string advice(Fault what, double share) {
-  if (share > 1) return "shorten the step (run.dt_safety)";
+  if (share > 1) return "shorten the step (run.time_step_safety)";
   if (what == Fault::not_finite) return "the step is not why: look at what was read or set before";
-  return "the step is not why: the grains are too soft for this stress (grains.kn), or it is loaded too fast "
+  return "the step is not why: the grains are too soft for this stress (grains.normal_stiffness), or it is loaded too fast "
          "(test.inertial_number)";
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 
 namespace clathra {
 

@@ -15,9 +15,10 @@ namespace {
 /// Mixed precision knows differences of places modulo 2^32 ticks.
 void require_places_told_apart(Assembly const& a, Real reach) {
   if (a.particles.precision == Precision::full || a.particles.mirror.reaches(reach)) return;
-  throw Refused("neighbours are searched for up to " + std::to_string(1e3 * reach) +
-                " mm away, further than mixed precision tells places apart: " +
-                (a.upkeep.skin() > a.facts.largest_radius ? "give a smaller run.skin" : "take run.precision = \"double\""));
+  throw Refused(
+      "neighbours are searched for up to " + std::to_string(1e3 * reach) +
+      " mm away, further than mixed precision tells places apart: " +
+      (a.upkeep.skin() > a.facts.largest_radius ? "give a smaller run.verlet_skin" : "take run.precision = \"double\""));
 }
 
 void find_rows_and_boundaries(Assembly& a, SearchReach const& reach, OldRows& old, Field<int> const& old_row,

@@ -41,7 +41,7 @@ Curve grading_curve(std::vector<float> const& radii, std::string const& name, St
 }
 
 std::optional<Curve> target_curve(RunResults const& run) {
-  if (run.text("/scene/grading/file").value_or("") != "" || run.text("/scene/sample/generator").value_or("file") == "file")
+  if (run.text("/scene/grading/file").value_or("") != "" || run.text("/scene/specimen/file").value_or("?") != "")
     return std::nullopt;
   GradingScene scene;
   scene.table = run.text("/scene/grading/table").value_or(scene.table);

@@ -93,7 +93,7 @@ std::string strength_curves(Reproduction const& r, std::string const& title, std
   for (int const saturation : r.design.saturations) {
     Scene scene = r.scene;
     scene.hydrate.saturation = saturation / percent;
-    scene.bond.mode = BondingMode::eq3;
+    scene.bond.critical_thickness_from = BondingMode::eq3;
     Curve curve{fmt::format("{} %", saturation), {}, {}, run_stroke(plot.curves.size())};
     BondCard const card = evaluate_bond(scene, r.d50, r.d50 / 2, r.d50 / 2, 0, 0);
     for (int i = 0; i <= points; ++i) {

@@ -51,11 +51,12 @@ std::string parameter_table(Reproduction const& r) {
   return "<h3>Table 3: Parameters</h3>\n" +
          table({"parameter", "paper", "here"},
                {{"discs", "20,000", r.card.facts.at("discs")},
-                {"void ratio", "0.24", fmt::format("{:g}", s.sample.void_ratio > 0 ? s.sample.void_ratio : 0.24)},
+                {"void ratio", "0.24", fmt::format("{:g}", s.specimen.void_ratio > 0 ? s.specimen.void_ratio : 0.24)},
                 {"density", "2.6 g/cm3", fmt::format("{:g} g/cm3", s.grains.density / 1000)},
-                {"k_n, k_s", "0.3, 0.2 GPa", fmt::format("{:g}, {:g} GPa", s.grains.kn * 1e-9, s.grains.ks * 1e-9)},
+                {"k_n, k_s", "0.3, 0.2 GPa",
+                 fmt::format("{:g}, {:g} GPa", s.grains.normal_stiffness * 1e-9, s.grains.shear_stiffness * 1e-9)},
                 {"friction", "0.5", fmt::format("{:g}", s.grains.friction)},
-                {"shape factor", "2", fmt::format("{:g}", s.grains.shape_factor)},
+                {"shape factor", "2", fmt::format("{:g}", s.grains.rolling_width_factor)},
                 {"E_m", "0.289 GPa", fmt::format("{:.3g} GPa", evaluate_bond(s, r.d50, r.d50 / 2, r.d50 / 2, 0, 0).E_m * 1e-9)},
                 {"confining stress", "1, 2, 3 MPa", "1, 2, 3 MPa"}});
 }

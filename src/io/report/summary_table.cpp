@@ -74,7 +74,8 @@ std::vector<Quantity> cost_quantities() {
   return {
       {"inertial number I", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/inertial_number"), "{:.2g}"); }},
       {"wave number W", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/wave_number"), "{:.2g}"); }},
-      {"moments of inertia", "× true", [](Run r, Numbers) { return shown(r.number("/scene/run/inertia_scaling"), "{:.3g}"); }},
+      {"moments of inertia", "× true",
+       [](Run r, Numbers) { return shown(r.number("/scene/run/rotational_inertia_factor"), "{:.3g}"); }},
       {"steps", "", [](Run r, Numbers) { return count(r.history["step"].back()); }},
       {"wall time of the shear", "s", [](Run r, Numbers) { return shown(r.number("/wall_seconds/shear"), "{:.4g}"); }},
       {"disc-steps a second", "million",

@@ -50,7 +50,7 @@ Json record_of(fs::path const& run_folder) {
 
 /// How the scene and the specimen of a record differ from those that are asked for.
 struct Differences {
-  std::string all, to_go_on;  ///< "; run.damping was 0.3, is 0.2"; what keeps the test from being gone on with
+  std::string all, to_go_on;  ///< "; damping.local was 0.3, is 0.2"; what keeps the test from being gone on with
   std::string of_files;       ///< of what was read, which no checkpoint knows
   bool longer = false;        ///< the test that is asked for
 };

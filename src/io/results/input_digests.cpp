@@ -6,8 +6,8 @@ namespace clathra {
 
 InputDigests input_digests(Scene const& scene) {
   InputDigests digests;
-  if (scene.sample.generator == Generator::file)
-    digests.specimen = file_digest(scene.sample.file);
+  if (scene.specimen.is_read())
+    digests.specimen = file_digest(scene.specimen.file);
   else if (!scene.grading.file.empty())
     digests.grading = file_digest(scene.grading.file);
   return digests;

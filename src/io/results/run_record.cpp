@@ -75,7 +75,8 @@ Json program_json(RunRecord const& record) {
 Json meaning_json() {
   return {{"stages.shear.residual_q_Pa", "mean of q over the records from residual_from_eps1 on"},
           {"stages.shear.secant_modulus_Pa", "E50: half the peak of q over the axial strain where q first gets there"},
-          {"stages.prepare.rate_share", "part of the rate of test.inertial_number to which test.wave_number has lowered it"},
+          {"stages.prepare.rate_share",
+           "part of the rate of test.inertial_number to which test.max_platen_wave_stress has lowered it"},
           {"wall_seconds.generate", "making the specimen"},
           {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; reading checkpoints where it was resumed"},
           {"wall_seconds.shear", "steps, records and snapshots; neighbour_searches and checkpoints are parts of it"},
@@ -138,7 +139,7 @@ Scene scene_of(nlohmann::json const& json) {
 
 void write_run_record(std::filesystem::path const& path, RunRecord const& record) {
   Scene scene = record.input.scene;
-  for (std::string* const file : {&scene.sample.file, &scene.grading.file})
+  for (std::string* const file : {&scene.specimen.file, &scene.grading.file})
     if (!file->empty()) *file = std::filesystem::proximate(*file, path.parent_path()).string();
   Json json;
   json["format"] = "clathra run";

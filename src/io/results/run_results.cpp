@@ -160,7 +160,7 @@ bool RunResults::has_bonds() const {
 
 std::string RunResults::bond_variant() const {
   std::string variant;
-  for (char const* const key : {"law", "composite", "moment_scale", "rod_thickness", "coefficients"})
+  for (char const* const key : {"law", "contact_coupling", "moment_scale", "thickness_mapping", "strength_from"})
     variant += (variant.empty() ? "" : ", ") + text(std::string("/scene/bond/") + key).value_or("?");
   return variant;
 }

@@ -145,12 +145,12 @@ void require_void_ratio(fs::path const& path, Specimen& part, SpecimenOutline co
 /// The normal stiffness of the grains that a specimen came to rest with, if it says so [N/m per m].
 std::optional<double> stiffness_of(Specimen const& specimen) {
   SceneTexts const label = label_of(specimen);
-  auto const kept = label.find("grains.kn");
+  auto const kept = label.find("grains.normal_stiffness");
   if (kept == label.end()) return {};
   try {
     Scene then;
-    set_from_text(*find_key("grains.kn"), then, kept->second);
-    return then.grains.kn;
+    set_from_text(*find_key("grains.normal_stiffness"), then, kept->second);
+    return then.grains.normal_stiffness;
   } catch (std::invalid_argument const&) {
     return {};
   }
@@ -193,7 +193,7 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
   if (double const stress = part.density * fastest.speed * fastest.speed; stress > std::max(part.stress, least_stress))
     warn(fmt::format("disc {} moves or spins at {:.3g} m/s, worth {:.4g} kPa: it is not at rest", fastest.id, fastest.speed,
                      stress * 1e-3));
-  Key const& asked = *find_key("sample.void_ratio");
+  Key const& asked = *find_key("specimen.void_ratio");
   if (double const e = facts.outline.void_ratio; e < asked.least || e > asked.most)
     warn(fmt::format("its void ratio is {:.4g}; sand at rest has {:g} to {:g}", e, asked.least, asked.most));
   SpecimenOverlaps const& overlaps = facts.overlaps;

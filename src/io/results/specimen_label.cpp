@@ -32,32 +32,32 @@ struct Item {
   std::string_view key;
   Part part;
 };
-constexpr Item items[] = {{"bond.stress", Part::making},
+constexpr Item items[] = {{"specimen.preparation_stress", Part::making},
                           {"run.seed", Part::making},
-                          {"grains.kn", Part::stiffness},
-                          {"grains.ks", Part::stiffness},
+                          {"grains.normal_stiffness", Part::stiffness},
+                          {"grains.shear_stiffness", Part::stiffness},
                           {"hydrate.saturation", Part::bonds},
                           {"hydrate.density", Part::bonds},
                           {"bond.law", Part::bonds},
-                          {"bond.composite", Part::bonds},
-                          {"bond.mode", Part::bonds},
+                          {"bond.contact_coupling", Part::bonds},
+                          {"bond.critical_thickness_from", Part::bonds},
                           {"bond.critical_thickness", Part::bonds},
-                          {"bond.plate_thickness", Part::bonds},
-                          {"bond.coefficients", Part::bonds},
+                          {"bond.constant_thickness", Part::bonds},
+                          {"bond.strength_from", Part::bonds},
                           {"bond.moment_scale", Part::bonds},
                           {"bond.moment_ratio", Part::bonds},
-                          {"bond.rod_thickness", Part::bonds},
+                          {"bond.thickness_mapping", Part::bonds},
                           {"bond.friction_floor", Part::bonds},
                           {"hydrate.temperature", Part::climate},
                           {"hydrate.pore_pressure", Part::climate},
-                          {"grains.particle_stiffness_ratio", Part::climate}};
+                          {"bond.grain_stiffness_factor", Part::climate}};
 
 bool is_of_bonds(Part part) { return part == Part::bonds || part == Part::climate; }
 
 /// Whether a key has a meaning in a scene.
 bool has_effect(std::string_view key, Scene const& scene) {
-  if (key == "bond.critical_thickness") return scene.bond.mode == BondingMode::given_thickness;
-  if (key == "bond.plate_thickness") return scene.bond.law == BondLawKind::constant_thickness;
+  if (key == "bond.critical_thickness") return scene.bond.critical_thickness_from == BondingMode::given_thickness;
+  if (key == "bond.constant_thickness") return scene.bond.law == BondLawKind::constant_thickness;
   if (key == "bond.moment_ratio") return scene.bond.moment_scale == MomentScale::similitude;
   return true;
 }
@@ -108,14 +108,14 @@ std::string contradiction(Specimen const& specimen, Scene const& scene) {
   if (!has_bonds(scene))
     return fmt::format("they have h_max = {}, the scene makes none (hydrate.saturation is {}, bond.law is {})",
                        micrometres(h_max), shown(saturation, scene), shown(*find_key("bond.law"), scene));
-  if (specimen.separate_bonds != (scene.bond.composite == Composite::parallel))
-    return fmt::format("they {}act in parallel to the grain contacts, bond.composite is {}",
-                       specimen.separate_bonds ? "" : "do not ", shown(*find_key("bond.composite"), scene));
-  if (scene.bond.mode == BondingMode::given_thickness && !nearly_equal(h_max, scene.bond.critical_thickness))
+  if (specimen.separate_bonds != (scene.bond.contact_coupling == Composite::parallel))
+    return fmt::format("they {}act in parallel to the grain contacts, bond.contact_coupling is {}",
+                       specimen.separate_bonds ? "" : "do not ", shown(*find_key("bond.contact_coupling"), scene));
+  if (scene.bond.critical_thickness_from == BondingMode::given_thickness && !nearly_equal(h_max, scene.bond.critical_thickness))
     return fmt::format("they have h_max = {}, bond.critical_thickness is {}", micrometres(h_max),
                        micrometres(scene.bond.critical_thickness));
   double const wanted = critical_thickness_ratio(scene.hydrate.saturation) * specimen.d50;
-  if (scene.bond.mode == BondingMode::eq3 && !nearly_equal(h_max, wanted))
+  if (scene.bond.critical_thickness_from == BondingMode::eq3 && !nearly_equal(h_max, wanted))
     return fmt::format("they have h_max = {}, which Eq. 3 gives at a saturation of {}; hydrate.saturation is {}, which gives {}",
                        micrometres(h_max), saturation_of(h_max / specimen.d50), shown(saturation, scene), micrometres(wanted));
   return {};
@@ -156,7 +156,7 @@ SceneTexts label_of(Specimen const& specimen) {
     return label;
   }
   if (auto const seed = json.find("seed"); seed != json.end() && seed->is_number_integer()) label["run.seed"] = seed->dump();
-  if (json.contains("generate")) label["bond.stress"] = format_quantity(specimen.stress, Dimension::pressure);
+  if (json.contains("generate")) label["specimen.preparation_stress"] = format_quantity(specimen.stress, Dimension::pressure);
   return label;
 }
 
@@ -200,7 +200,7 @@ std::vector<std::string> compare_with_scene(std::filesystem::path const& file, S
   if (bonded) warn(Part::climate, "the bonds formed as it was and hold as it is");
   if (bonded && !label.contains("hydrate.saturation"))
     warnings.push_back(
-        fmt::format("{}: says nothing of what its bonds are made of but h_max = {}; bond.law, bond.coefficients, "
+        fmt::format("{}: says nothing of what its bonds are made of but h_max = {}; bond.law, bond.strength_from, "
                     "bond.moment_scale and hydrate are those of the scene",
                     file.string(), micrometres(specimen.critical_thickness)));
   if (specimen.axial_strain != 0)

@@ -28,7 +28,8 @@ SceneTexts label_after(SceneTexts const& before, Scene const& scene, bool bonded
 
 /// Compares a specimen file with the scene that reads it. Density of the grains and everything that is fixed when bonds form must
 /// agree: another label would be wrong. What may be chosen anew, or has no effect any more, is warned of.
-/// @return the warnings;  @throws FileProblem refused, with both values of each key that disagrees; run.force changes nothing
+/// @return the warnings;  @throws FileProblem refused, with both values of each key that disagrees; run.ignore_guards changes
+/// nothing
 std::vector<std::string> compare_with_scene(std::filesystem::path const& file, Specimen const& specimen, Scene const& scene);
 
 }  // namespace clathra

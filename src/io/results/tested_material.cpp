@@ -15,15 +15,13 @@ namespace {
 
 /// Keys that cannot matter to the strength of a material.
 bool is_indifferent(std::string_view key) {
-  static std::set<std::string_view> const names{"run.seed", "run.threads", "run.force",
-                                                "run.skin", "sample.file", "hydrate.allow_unstable"};
+  static std::set<std::string_view> const names{"run.seed",        "run.threads",   "run.ignore_guards",
+                                                "run.verlet_skin", "specimen.file", "hydrate.allow_unstable"};
   return names.count(key) > 0 || key.starts_with("output.");
 }
 
 /// Keys that matter only to bonds.
-bool is_of_bonds(std::string_view key) {
-  return key.starts_with("hydrate.") || (key.starts_with("bond.") && key != "bond.stress");
-}
+bool is_of_bonds(std::string_view key) { return key.starts_with("hydrate.") || key.starts_with("bond."); }
 
 std::string text_of(std::string const& name, nlohmann::json const& value, std::filesystem::path const& folder) {
   if (name == "grading.file" && value.is_string() && value != "")  // kept relative to the folder of the run
@@ -46,7 +44,7 @@ std::string name_in_words(std::string const& name) {
   std::string const section = name.substr(0, name.find('.')), leaf = name.substr(name.find('.') + 1);
   auto const has_leaf = [&](Key const& key) { return key.leaf() == leaf; };
   bool const ambiguous = std::count_if(schema().begin(), schema().end(), has_leaf) > 1;
-  std::string words = section == "bond" || ambiguous ? section + " " + leaf : leaf;
+  std::string words = section == "bond" || section == "damping" || ambiguous ? section + " " + leaf : leaf;
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
 }
@@ -66,10 +64,10 @@ SceneValues material_of(RunResults const& run) {
     take(values, *scene, run.folder);
   else
     values["scene"] = "of " + run.name;  // unknown, so like no other
-  if (run.text("/scene/sample/generator") == "file") {
-    if (auto const discs = run.number("/stages/plan/discs")) values["sample.particles"] = fmt::format("{:.0f}", *discs);
+  if (run.text("/scene/specimen/file").value_or("") != "") {
+    if (auto const discs = run.number("/stages/plan/discs")) values["specimen.particles"] = fmt::format("{:.0f}", *discs);
     if (auto const ratio = run.number("/stages/prepare/void_ratio_before_consolidation"))
-      values["sample.void_ratio"] = fmt::format("{:.3f}", *ratio);
+      values["specimen.void_ratio"] = fmt::format("{:.3f}", *ratio);
   }
   if (!run.has_bonds()) {
     std::erase_if(values, [](auto const& entry) { return is_of_bonds(entry.first); });

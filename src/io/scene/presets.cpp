@@ -13,23 +13,23 @@ namespace {
 
 // clang-format off
 constexpr PresetKey calibrated[] = {
-  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "2"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.25"},
-  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "true"}};
+  {"grains.rolling_width_factor", "1"}, {"bond.grain_stiffness_factor", "2"}, {"bond.contact_coupling", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.25"},
+  {"bond.thickness_mapping", "printed"}, {"bond.friction_floor", "false"}, {"bond.strength_from", "thm"}, {"bond.after_consolidation", "true"}};
 constexpr PresetKey first_crack[] = {
-  {"grains.shape_factor", "2"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.07142857142857142"},
-  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "false"}};
+  {"grains.rolling_width_factor", "2"}, {"bond.grain_stiffness_factor", "1"}, {"bond.contact_coupling", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.07142857142857142"},
+  {"bond.thickness_mapping", "printed"}, {"bond.friction_floor", "false"}, {"bond.strength_from", "thm"}, {"bond.after_consolidation", "false"}};
 constexpr PresetKey long_lever[] = {
-  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.3333333333333333"},
-  {"bond.rod_thickness", "scaled"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "true"}};
+  {"grains.rolling_width_factor", "1"}, {"bond.grain_stiffness_factor", "1"}, {"bond.contact_coupling", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.3333333333333333"},
+  {"bond.thickness_mapping", "scaled"}, {"bond.friction_floor", "false"}, {"bond.strength_from", "thm"}, {"bond.after_consolidation", "true"}};
 constexpr PresetKey short_lever[] = {
-  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.14285714285714285"},
-  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "true"}};
+  {"grains.rolling_width_factor", "1"}, {"bond.grain_stiffness_factor", "1"}, {"bond.contact_coupling", "parallel"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.14285714285714285"},
+  {"bond.thickness_mapping", "printed"}, {"bond.friction_floor", "false"}, {"bond.strength_from", "thm"}, {"bond.after_consolidation", "true"}};
 constexpr PresetKey replacing[] = {
-  {"grains.shape_factor", "1"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "replace"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.07142857142857142"},
-  {"bond.rod_thickness", "scaled"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "thm"}, {"bond.after_consolidation", "false"}};
+  {"grains.rolling_width_factor", "1"}, {"bond.grain_stiffness_factor", "1"}, {"bond.contact_coupling", "replaces"}, {"bond.moment_scale", "similitude"}, {"bond.moment_ratio", "0.07142857142857142"},
+  {"bond.thickness_mapping", "scaled"}, {"bond.friction_floor", "false"}, {"bond.strength_from", "thm"}, {"bond.after_consolidation", "false"}};
 constexpr PresetKey literal[] = {
-  {"grains.shape_factor", "2"}, {"grains.particle_stiffness_ratio", "1"}, {"bond.composite", "replace"}, {"bond.moment_scale", "paper_si"}, {"bond.moment_ratio", "0.07142857142857142"},
-  {"bond.rod_thickness", "printed"}, {"bond.friction_floor", "false"}, {"bond.coefficients", "printed"}, {"bond.after_consolidation", "false"}};
+  {"grains.rolling_width_factor", "2"}, {"bond.grain_stiffness_factor", "1"}, {"bond.contact_coupling", "replaces"}, {"bond.moment_scale", "paper_si"}, {"bond.moment_ratio", "0.07142857142857142"},
+  {"bond.thickness_mapping", "printed"}, {"bond.friction_floor", "false"}, {"bond.strength_from", "printed"}, {"bond.after_consolidation", "false"}};
 constexpr Preset all_readings[] = {
   {"calibrated", "what fits the words of the seed paper best: hydrate forms under the confining stress; bonds act beside the grain contact and bend up to a quarter more than the plastic moment of their section, L_r = B/4; a grain is twice as stiff as a contact; half the rolling width of the text calibrates the sand", calibrated},
   {"first_crack", "bonds fail in bending when their section cracks, L_r = B/14; hydrate forms at 50 kPa; stiffness of grains and rolling width of the text", first_crack},
@@ -40,11 +40,11 @@ constexpr Preset all_readings[] = {
 };
 
 constexpr PresetKey standard[] = {
-  {"test.inertial_number", "2e-4"}, {"test.wave_number", "0.13"}, {"run.precision", "mixed"}, {"run.dt_safety", ""}, {"run.inertia_scaling", "3"}, {"run.mass_scaling", "0"}};
+  {"test.inertial_number", "2e-4"}, {"test.max_platen_wave_stress", "0.13"}, {"run.precision", "mixed"}, {"run.time_step_safety", ""}, {"run.rotational_inertia_factor", "3"}, {"run.mass_scaled_fraction", "0"}};
 constexpr PresetKey reference[] = {
-  {"test.inertial_number", "1e-5"}, {"test.wave_number", "0.05"}, {"run.precision", "double"}, {"run.dt_safety", "0.475"}, {"run.inertia_scaling", "1"}, {"run.mass_scaling", "0"}};
+  {"test.inertial_number", "1e-5"}, {"test.max_platen_wave_stress", "0.05"}, {"run.precision", "double"}, {"run.time_step_safety", "0.475"}, {"run.rotational_inertia_factor", "1"}, {"run.mass_scaled_fraction", "0"}};
 constexpr PresetKey draft[] = {
-  {"test.inertial_number", "1e-3"}, {"test.wave_number", "0.5"}, {"run.precision", "mixed"}, {"run.dt_safety", ""}, {"run.inertia_scaling", "3"}, {"run.mass_scaling", "0"}};
+  {"test.inertial_number", "1e-3"}, {"test.max_platen_wave_stress", "0.5"}, {"run.precision", "mixed"}, {"run.time_step_safety", ""}, {"run.rotational_inertia_factor", "3"}, {"run.mass_scaled_fraction", "0"}};
 constexpr Preset all_accuracies[] = {
   {"standard", "the usual choice, moments of inertia times 3 and numbers in 32 bits: of twenty specimens of 2,000 discs at 1 MPa the peak of q is +0.5 +- 0.5 % (sand) and of forty -0.5 +- 0.6 % (55 % of hydrate) off that of `reference`, of twenty of 20,000 discs with 55 %, which the bound of W slows down, +0.3 +- 0.5 % (means with 95 % intervals)", standard},
   {"reference", "what others are to be compared with: true moments of inertia, half the usual share of the limit of stability, a twentieth of the usual rate, and of tall specimens less", reference},
@@ -73,12 +73,12 @@ std::string shown(PresetKey const& said) {
 }  // namespace
 
 PresetGroup const& readings() {
-  static constexpr PresetGroup group = {"bond.reading", all_readings, reading_names};
+  static constexpr PresetGroup group = {"bond.preset", all_readings, reading_names};
   return group;
 }
 
 PresetGroup const& accuracies() {
-  static constexpr PresetGroup group = {"run.accuracy", all_accuracies, accuracy_names};
+  static constexpr PresetGroup group = {"run.preset", all_accuracies, accuracy_names};
   return group;
 }
 

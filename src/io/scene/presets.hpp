@@ -32,8 +32,8 @@ struct PresetGroup {
   Preset const& of(std::string_view name) const;
 };
 
-PresetGroup const& readings();    ///< of bond.reading
-PresetGroup const& accuracies();  ///< of run.accuracy
+PresetGroup const& readings();    ///< of bond.preset
+PresetGroup const& accuracies();  ///< of run.preset
 
 /// Sets the keys of a preset but for those that are `stated` otherwise.
 void apply_preset(Preset const& preset, Scene& scene, std::function<bool(std::string_view)> const& stated);

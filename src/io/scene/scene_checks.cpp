@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "domain/scene/hydrate.hpp"
-#include "domain/scene/sample_design.hpp"
+#include "domain/scene/specimen_design.hpp"
 #include "domain/scene/units.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -29,7 +29,7 @@ struct Check {
     found.problems.push_back({std::move(keys), std::move(text)});
   }
   void refusal(std::vector<std::string_view> keys, std::string text) {
-    if (scene.run.force)
+    if (scene.run.ignore_guards)
       found.warnings.push_back("forced: " + text);
     else
       found.problems.push_back({std::move(keys), text + std::string(force_hint), Severity::refusal});
@@ -56,72 +56,71 @@ void check_input_file(Check& check, std::string_view key, std::string const& pat
 
 /// Any three of particles, box, void ratio and grading fix the fourth.
 void check_size(Check& check) {
-  SampleScene const& sample = check.scene.sample;
-  if (sample.generator == Generator::file) {
-    if (sample.file.empty())
-      check.error({"sample.generator", "sample.file"}, "generator 'file' needs 'sample.file', the specimen to read");
-    else
-      check_input_file(check, "sample.file", sample.file);
-    for (std::string_view const key : {"sample.particles", "sample.void_ratio", "sample.void_ratio_at", "sample.width",
-                                       "sample.height", "grading.d50", "grading.file", "grading.table"})
-      if (check.changed(key)) check.warn(fmt::format("{} has no effect: the specimen comes from {}", key, sample.file));
+  SpecimenScene const& specimen = check.scene.specimen;
+  if (specimen.is_read()) {
+    check_input_file(check, "specimen.file", specimen.file);
+    for (std::string_view const key :
+         {"specimen.particles", "specimen.void_ratio", "specimen.void_ratio_at", "specimen.width", "specimen.height",
+          "specimen.generator", "specimen.compaction_layers", "grading.d50", "grading.file", "grading.table"})
+      if (check.changed(key)) check.warn(fmt::format("{} has no effect: the specimen comes from {}", key, specimen.file));
     return;
   }
-  if (!sample.file.empty()) check.warn("sample.file has no effect: sample.generator is not \"file\"");
-  bool const box = sample.width > 0 || sample.height > 0;
-  if (sample.particles == 0 && !box)
-    check.error({"sample.particles"},
-                "the size of the specimen is open: give 'sample.particles', or 'sample.width' and 'sample.height'");
-  if (sample.particles > 0 && box && sample.void_ratio > 0 && check.scene.grading.d50 > 0)
-    check.error({"sample.void_ratio", "sample.particles", "grading.d50"},
-                "sample.particles, box, sample.void_ratio and grading.d50 are all given, but three of them fix the fourth: leave "
-                "one out");
-  if (sample.width > 0 && sample.height > 0 && sample.void_ratio_at == VoidRatioAt::test)
+  bool const box = specimen.width > 0 || specimen.height > 0;
+  if (specimen.particles == 0 && !box)
+    check.error({"specimen.particles"},
+                "the size of the specimen is open: give 'specimen.particles', or 'specimen.width' and 'specimen.height'");
+  if (specimen.particles > 0 && box && specimen.void_ratio > 0 && check.scene.grading.d50 > 0)
     check.error(
-        {"sample.void_ratio_at", "sample.height", "sample.width"},
-        "sample.width and sample.height are those of the specimen as it is made, which fixes its void ratio there: leave one "
-        "of them out, or have sample.void_ratio_at = \"preparation\"");
-  if (sample.width > 0 && sample.height > 0 && check.given("sample.aspect_ratio") &&
-      std::fabs(sample.height / sample.width / sample.aspect_ratio - 1) > 1e-6)
-    check.error({"sample.aspect_ratio", "sample.width"},
-                "sample.width, sample.height and sample.aspect_ratio contradict each other");
+        {"specimen.void_ratio", "specimen.particles", "grading.d50"},
+        "specimen.particles, box, specimen.void_ratio and grading.d50 are all given, but three of them fix the fourth: leave "
+        "one out");
+  if (specimen.width > 0 && specimen.height > 0 && specimen.void_ratio_at == VoidRatioAt::test)
+    check.error(
+        {"specimen.void_ratio_at", "specimen.height", "specimen.width"},
+        "specimen.width and specimen.height are those of the specimen as it is made, which fixes its void ratio there: leave one "
+        "of them out, or have specimen.void_ratio_at = \"preparation\"");
+  if (specimen.width > 0 && specimen.height > 0 && check.given("specimen.aspect_ratio") &&
+      std::fabs(specimen.height / specimen.width / specimen.aspect_ratio - 1) > 1e-6)
+    check.error({"specimen.aspect_ratio", "specimen.width"},
+                "specimen.width, specimen.height and specimen.aspect_ratio contradict each other");
 }
 
 /// Reads the grading and completes the specimen; nothing where that is not possible, which is then reported.
-std::optional<SampleDesign> check_design(Check& check) {
+std::optional<SpecimenDesign> check_design(Check& check) {
   Scene const& scene = check.scene;
-  if (scene.sample.generator == Generator::file) return {};
+  if (scene.specimen.is_read()) return {};
   if (!scene.grading.file.empty()) {
     check_input_file(check, "grading.file", scene.grading.file);
     if (check.given("grading.table")) check.warn("grading.table has no effect: the sizes come from grading.file");
   }
   if (!check.found.problems.empty()) return {};
   try {
-    SampleDesign design = design_sample(scene);
+    SpecimenDesign design = design_sample(scene);
     double const largest = design.grading.largest();
     if (std::min(design.width, design.height) < largest)
-      check.error({"sample.width", "sample.height", "sample.particles", "grading.d50"},
+      check.error({"specimen.width", "specimen.height", "specimen.particles", "grading.d50"},
                   fmt::format("no grain of {} fits into a specimen of {} x {}", length_text(largest), length_text(design.width),
                               length_text(design.height)));
     else if (std::string const problem = narrowness(design.width, design.height, largest); !problem.empty())
-      check.refusal({"sample.width", "sample.height", "sample.particles", "grading.d50"}, problem);
+      check.refusal({"specimen.width", "specimen.height", "specimen.particles", "grading.d50"}, problem);
     if (std::string const problem = crowding(design.grading.smallest(), largest, reach_of_bonds(scene, design.grading.d50()));
         !problem.empty())
       check.refusal({"grading.file", "grading.d50"}, problem);
-    if (std::string const problem = wide_skin(design.grading, scene.run.skin); !problem.empty())
-      check.refusal({"run.skin"}, problem);
-    if (int const layers = compaction_layers(scene, design);
-        layers < scene.sample.layers && scene.sample.generator == Generator::under_compaction && check.given("sample.layers"))
+    if (std::string const problem = wide_skin(design.grading, scene.run.verlet_skin); !problem.empty())
+      check.refusal({"run.verlet_skin"}, problem);
+    if (int const layers = compaction_layers(scene, design); layers < scene.specimen.compaction_layers &&
+                                                             scene.specimen.generator == Generator::under_compaction &&
+                                                             check.given("specimen.compaction_layers"))
       check.warn(fmt::format("the specimen is compacted in {} layers, not {}: thinner ones would not be layers of these grains",
-                             layers, scene.sample.layers));
+                             layers, scene.specimen.compaction_layers));
     if (design.particles < 16 || design.particles > 1'000'000'000)
-      check.error({"sample.width", "sample.height", "grading.d50"},
+      check.error({"specimen.width", "specimen.height", "grading.d50"},
                   fmt::format("the box of {} x {} holds {} discs of this grading; between 16 and 1e9 are possible",
                               length_text(design.width), length_text(design.height), design.particles));
     for (std::string& text : size_warnings(design.grading.sizes())) check.warn(std::move(text));
     return design;
   } catch (std::invalid_argument const& problem) {
-    check.error({"grading.file", "sample.particles", "sample.width"}, problem.what());
+    check.error({"grading.file", "specimen.particles", "specimen.width"}, problem.what());
     return {};
   }
 }
@@ -135,19 +134,20 @@ void check_loading(Check& check) {
   if (test.inertial_number == 0 && test.strain_rate == 0)
     check.error({"test.inertial_number", "test.strain_rate"},
                 "one of 'test.inertial_number' and 'test.strain_rate' must be given");
-  if (test.strain_rate > 0 && test.wave_number > 0)
-    check.error({"test.wave_number", "test.strain_rate"},
-                "'test.wave_number' lowers the rate of 'test.inertial_number': it cannot change a stated 'test.strain_rate'");
-  if (check.scene.bond.stress > test.confining_stress)
-    check.error({"bond.stress", "test.confining_stress"},
-                fmt::format("'bond.stress' ({}) is above 'test.confining_stress' ({})",
-                            format_quantity(check.scene.bond.stress, Dimension::pressure),
+  if (test.strain_rate > 0 && test.max_platen_wave_stress > 0)
+    check.error(
+        {"test.max_platen_wave_stress", "test.strain_rate"},
+        "'test.max_platen_wave_stress' lowers the rate of 'test.inertial_number': it cannot change a stated 'test.strain_rate'");
+  if (check.scene.specimen.preparation_stress > test.confining_stress)
+    check.error({"specimen.preparation_stress", "test.confining_stress"},
+                fmt::format("'specimen.preparation_stress' ({}) is above 'test.confining_stress' ({})",
+                            format_quantity(check.scene.specimen.preparation_stress, Dimension::pressure),
                             format_quantity(test.confining_stress, Dimension::pressure)));
 }
 
 /// A d50 so small that no gap between the two largest discs gives a bond with tensile strength (trap 5 of the physics page).
-void check_strength(Check& check, SampleDesign const& design) {
-  if (check.scene.bond.mode == BondingMode::areal_target) return;
+void check_strength(Check& check, SpecimenDesign const& design) {
+  if (check.scene.bond.critical_thickness_from == BondingMode::areal_target) return;
   double const d50 = design.grading.d50(), radius = design.grading.largest() / 2;
   double const h_max = evaluate_bond(check.scene, d50, radius, radius, 0, 0).h_max;
   constexpr int steps = 64;
@@ -161,7 +161,7 @@ void check_strength(Check& check, SampleDesign const& design) {
                   length_text(d50), best));
 }
 
-void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
+void check_hydrate(Check& check, std::optional<SpecimenDesign> const& design) {
   Scene const& scene = check.scene;
   if (!has_bonds(scene)) return;
   std::vector<std::string_view> const state = {"hydrate.temperature", "hydrate.pore_pressure", "hydrate.density",
@@ -171,11 +171,11 @@ void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
   gated.allow_unstable = false;
   if (std::string const problem = hydrate_problem(gated); !problem.empty()) check.warn(problem);
   if (std::string const warning = fit_warning(scene.hydrate); !warning.empty()) check.warn(warning);
-  if (scene.bond.mode == BondingMode::given_thickness && scene.bond.critical_thickness == 0)
-    return check.error({"bond.mode"}, "mode 'given_thickness' needs 'bond.critical_thickness'");
-  if (scene.bond.mode != BondingMode::given_thickness && scene.bond.critical_thickness > 0)
-    check.warn("bond.critical_thickness has no effect: bond.mode is not \"given_thickness\"");
-  if (scene.bond.mode == BondingMode::eq3) {
+  if (scene.bond.critical_thickness_from == BondingMode::given_thickness && scene.bond.critical_thickness == 0)
+    return check.error({"bond.critical_thickness_from"}, "mode 'given_thickness' needs 'bond.critical_thickness'");
+  if (scene.bond.critical_thickness_from != BondingMode::given_thickness && scene.bond.critical_thickness > 0)
+    check.warn("bond.critical_thickness has no effect: bond.critical_thickness_from is not \"given_thickness\"");
+  if (scene.bond.critical_thickness_from == BondingMode::eq3) {
     if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) check.warn(warning);
     if (critical_thickness_ratio(scene.hydrate.saturation) == 0) return;
   }
@@ -185,19 +185,20 @@ void check_hydrate(Check& check, std::optional<SampleDesign> const& design) {
 void check_bonding(Check& check) {
   BondScene const& bond = check.scene.bond;
   if (!has_bonds(check.scene)) {
-    for (std::string_view const key :
-         {"bond.composite", "bond.mode", "bond.moment_scale", "bond.coefficients", "bond.rod_thickness", "bond.friction_floor"})
+    for (std::string_view const key : {"bond.contact_coupling", "bond.critical_thickness_from", "bond.moment_scale",
+                                       "bond.strength_from", "bond.thickness_mapping", "bond.friction_floor"})
       if (check.changed(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
     return;
   }
-  if (bond.plate_thickness > 0 && bond.law != BondLawKind::constant_thickness)
-    check.warn("bond.plate_thickness has no effect: bond.law is not \"constant_thickness\"");
-  if (bond.plate_thickness > 0 && bond.mode == BondingMode::given_thickness && bond.plate_thickness >= bond.critical_thickness)
-    check.error({"bond.plate_thickness", "bond.critical_thickness"},
-                "'bond.plate_thickness' must be below 'bond.critical_thickness'");
-  if (bond.after_consolidation && bond.composite == Composite::replace)
+  if (bond.constant_thickness > 0 && bond.law != BondLawKind::constant_thickness)
+    check.warn("bond.constant_thickness has no effect: bond.law is not \"constant_thickness\"");
+  if (bond.constant_thickness > 0 && bond.critical_thickness_from == BondingMode::given_thickness &&
+      bond.constant_thickness >= bond.critical_thickness)
+    check.error({"bond.constant_thickness", "bond.critical_thickness"},
+                "'bond.constant_thickness' must be below 'bond.critical_thickness'");
+  if (bond.after_consolidation && bond.contact_coupling == Composite::replace)
     check.refusal(
-        {"bond.after_consolidation", "bond.composite"},
+        {"bond.after_consolidation", "bond.contact_coupling"},
         "composite 'replace' with 'after_consolidation' deletes the contact forces that carry the confining stress (Eq. 7a); "
         "use 'parallel' or 'memory'");
 }
@@ -222,7 +223,7 @@ void check_output(Check& check) {
 SceneFindings check_scene(Scene const& scene, std::function<bool(std::string_view)> const& given) {
   Check check{scene, given, {}};
   check_size(check);
-  std::optional<SampleDesign> const design = check_design(check);
+  std::optional<SpecimenDesign> const design = check_design(check);
   check_loading(check);
   check_hydrate(check, design);
   check_bonding(check);

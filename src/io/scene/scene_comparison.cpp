@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "io/scene/presets.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
 
@@ -11,10 +10,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keys that do not change what is computed. run.accuracy is a name for values of others.
+/// Keys that do not change what is computed. run.preset is a name for values of others.
 bool may_differ(Key const& key) {
-  return key.name == "output.folder" || key.name == "run.accuracy" || key.name == "run.threads" || key.name == "run.force" ||
-         key.name == "sample.file" || key.name == "output.keep_checkpoint";
+  return key.name == "output.folder" || key.name == "run.preset" || key.name == "run.threads" ||
+         key.name == "run.ignore_guards" || key.name == "specimen.file" || key.name == "output.keep_checkpoint";
 }
 
 bool may_grow(Key const& key) { return key.name == "test.axial_strain" || key.name == "output.snapshots_at"; }
@@ -25,24 +24,6 @@ bool same_file(std::string const& then, std::string const& now, fs::path const& 
   fs::path const here = fs::weakly_canonical(fs::absolute(now, ignored), ignored);
   return fs::weakly_canonical(fs::absolute(folder / then, ignored), ignored) == here ||
          fs::weakly_canonical(fs::absolute(then, ignored), ignored) == here;
-}
-
-/// What a key was that a scene left unstated: its default, or, before there were readings, that of what was computed then.
-Scene defaults_of(SceneTexts const& kept) {
-  Scene defaults;
-  if (kept.count("bond.reading") != 0) return defaults;
-  defaults.bond.reading = "first_crack";
-  apply_preset(readings().of(defaults.bond.reading), defaults, [](std::string_view) { return false; });
-  return defaults;
-}
-
-/// What a scene meant that was kept before it could state the key.
-std::string unstated(Key const& key, Scene const& defaults) {
-  constexpr std::pair<std::string_view, std::string_view> then[] = {
-      {"run.time_step", "\"bound\""}, {"run.precision", "\"double\""}, {"test.wave_number", "0"}};
-  for (auto const& [name, value] : then)
-    if (key.name == name) return std::string(value);
-  return value_text(key, defaults);
 }
 
 /// Whether a text that was kept states the value of a scene.
@@ -63,12 +44,11 @@ SceneTexts scene_texts(Scene const& scene, fs::path const& folder) {
 }
 
 std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path const& folder, Agreement agreement) {
-  Scene const defaults = defaults_of(then);
   std::string text;
   for (Key const& key : schema()) {
     if (may_differ(key) || (agreement == Agreement::further && may_grow(key))) continue;
     auto const kept = then.find(std::string(key.name));
-    std::string const before = kept != then.end() ? kept->second : unstated(key, defaults);
+    std::string const before = kept != then.end() ? kept->second : "not known";
     if (!states(key, before, now, folder)) text += fmt::format("; {} was {}, is {}", key.name, before, value_text(key, now));
   }
   return text;

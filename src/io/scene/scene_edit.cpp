@@ -117,7 +117,7 @@ std::string scene_text_for(Scene const& wanted, std::string const& source, std::
   std::string text = edited_scene_text(source, edits, left_out);
   if (loads_to(wanted, text, folder)) return text;
   Scene relative = wanted;
-  for (std::string* const path : {&relative.sample.file, &relative.grading.file})
+  for (std::string* const path : {&relative.specimen.file, &relative.grading.file})
     if (!path->empty()) *path = std::filesystem::proximate(*path, folder).string();
   std::string opening;
   for (SceneEdit const& edit : edits) opening += "# " + edit.key + ": " + edit.comment + "\n";

@@ -48,10 +48,10 @@ std::string list_text(TomlList const& list) {
 }
 
 /// One side alone fixes the other by the aspect ratio, unless the number of discs does.
-void complete_box(SampleScene& sample) {
-  if (sample.particles > 0) return;
-  if (sample.height == 0) sample.height = sample.width * sample.aspect_ratio;
-  if (sample.width == 0) sample.width = sample.height / sample.aspect_ratio;
+void complete_box(SpecimenScene& specimen) {
+  if (specimen.particles > 0) return;
+  if (specimen.height == 0) specimen.height = specimen.width * specimen.aspect_ratio;
+  if (specimen.width == 0) specimen.width = specimen.height / specimen.aspect_ratio;
 }
 
 /// Collects a Scene from the file and the overrides, with all problems.
@@ -78,7 +78,7 @@ class SceneReader {
     overridden_.push_back(key->name);
     if (takes_back(*key, value)) return take_back(*key);
     replace_rates(name);
-    if (name == "sample.generator" && value == "file") leave_out_sizes();
+    if (name == "specimen.file" && !value.empty()) leave_out_sizes();
     set(*key, place, true, [&] { set_from_text(*key, scene_, value); });
   }
 
@@ -87,7 +87,7 @@ class SceneReader {
     complete_presets();
     // Stating a strain rate replaces the default inertial number.
     if (scene_.test.strain_rate > 0 && !given("test.inertial_number")) scene_.test.inertial_number = 0;
-    complete_box(scene_.sample);
+    complete_box(scene_.specimen);
     SceneFindings found = check_scene(scene_, [this](std::string_view name) { return given(name); });
     for (Finding& finding : found.problems) {
       // What is said of a key that could not even be read would only confuse.
@@ -131,15 +131,15 @@ class SceneReader {
   /// stress, whatever the reading has: it would drop the force of the contact.
   void complete_presets() {
     bool const states_rate = given("test.strain_rate") || places_.count("test.inertial_number") != 0;
-    if (states_rate && places_.count("test.wave_number") == 0) scene_.test.wave_number = 0;
+    if (states_rate && places_.count("test.max_platen_wave_stress") == 0) scene_.test.max_platen_wave_stress = 0;
     auto const stated = [&](std::string_view key) {
-      bool const of_rate = key == "test.inertial_number" || key == "test.wave_number";
+      bool const of_rate = key == "test.inertial_number" || key == "test.max_platen_wave_stress";
       return places_.count(key) != 0 || (of_rate && states_rate);
     };
-    apply_preset(readings().of(scene_.bond.reading), scene_, stated);
-    apply_preset(accuracies().of(scene_.run.accuracy), scene_, stated);
+    apply_preset(readings().of(scene_.bond.preset), scene_, stated);
+    apply_preset(accuracies().of(scene_.run.preset), scene_, stated);
     if (places_.count("run.precision") == 0 && !mixed_precision_resolves(scene_)) scene_.run.precision = Precision::full;
-    if (scene_.bond.composite == Composite::replace && places_.count("bond.after_consolidation") == 0)
+    if (scene_.bond.contact_coupling == Composite::replace && places_.count("bond.after_consolidation") == 0)
       scene_.bond.after_consolidation = false;
   }
 
@@ -153,12 +153,13 @@ class SceneReader {
     if (name == "test.inertial_number") drop("test.strain_rate", scene_.test.strain_rate);
     if (name != "test.strain_rate") return;
     drop("test.inertial_number", scene_.test.inertial_number);
-    drop("test.wave_number", scene_.test.wave_number);
+    drop("test.max_platen_wave_stress", scene_.test.max_platen_wave_stress);
   }
 
   /// A specimen that is read takes the place of the one that the file describes.
   void leave_out_sizes() {
-    for (std::string_view const name : {"sample.particles", "sample.void_ratio", "sample.width", "sample.height", "grading.d50"})
+    for (std::string_view const name : {"specimen.particles", "specimen.void_ratio", "specimen.width", "specimen.height",
+                                        "specimen.generator", "specimen.compaction_layers", "grading.d50"})
       if (std::find(overridden_.begin(), overridden_.end(), name) == overridden_.end()) take_back(*find_key(name));
   }
 
@@ -268,7 +269,7 @@ std::string resolved_scene(Scene const& scene, std::filesystem::path const& fold
   std::string text = "# The scene as it is run, with every key; what is not given says what holds instead.\n";
   std::string_view section;
   Scene relative = scene;
-  for (std::string* const path : {&relative.sample.file, &relative.grading.file})
+  for (std::string* const path : {&relative.specimen.file, &relative.grading.file})
     if (!path->empty()) *path = std::filesystem::proximate(*path, folder).string();
   for (Key const& key : schema()) {
     if (key.section() != section) text += fmt::format("\n[{}]\n", section = key.section());

@@ -20,7 +20,7 @@ struct LoadedScene {
 
 /// Reads a scene file and applies overrides "test.strain_rate=5 %/min" on top of it. Paths in the file are relative to its
 /// folder, those in overrides to the current one. An override of test.strain_rate or test.inertial_number replaces the other in
-/// the file; the first drops the file's test.wave_number, too.
+/// the file; the first drops the file's test.max_platen_wave_stress, too.
 /// @throws SceneProblems with everything that is wrong;  FileProblem if the file cannot be read
 LoadedScene load_scene(std::filesystem::path const& path, std::vector<std::string> const& overrides = {});
 

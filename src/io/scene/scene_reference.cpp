@@ -144,10 +144,11 @@ std::string schema_markdown() {
   }
   return text +
          "\n## Readings\n\nWhat the seed paper leaves open can be read in several ways; docs/paper.md says what speaks for "
-         "which. `bond.reading` names one; keys that a scene states itself keep their values.\n\n" +
+         "which. `bond.preset` names one; keys that a scene states itself keep their values.\n\n" +
          presets_markdown(readings()) +
-         "\n## Accuracy\n\n`run.accuracy` names a point of the trade of speed for accuracy; keys that a scene states itself keep "
-         "their values. `test.strain_rate` and `test.inertial_number` state the rate, which a stated `test.wave_number` alone "
+         "\n## Accuracy\n\n`run.preset` names a point of the trade of speed for accuracy; keys that a scene states itself keep "
+         "their values. `test.strain_rate` and `test.inertial_number` state the rate, which a stated "
+         "`test.max_platen_wave_stress` alone "
          "bounds then. "
          "Local damping is no part of it: it belongs to the model.\n\n" +
          presets_markdown(accuracies());

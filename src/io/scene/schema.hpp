@@ -48,8 +48,8 @@ std::span<Key const> schema();
 /// The key of a dotted name, or nullptr.
 Key const* find_key(std::string_view name);
 
-/// The nearest right name of a mistaken dotted key: "; did you mean 'dt_safety'?" (with its section where that differs), or
-/// nothing.
+/// The nearest right name of a mistaken dotted key: "; did you mean 'time_step_safety'?" (with its section where that differs),
+/// or nothing.
 std::string key_suggestion(std::string_view name);
 
 /// The nearest of some names, "; did you mean 'parallel'?", or nothing where none is near.

@@ -99,7 +99,7 @@ class StudyReader {
   }
 
   void read_root(TomlTable const& root) {
-    static constexpr std::string_view names[] = {"scene", "seeds", "folder", "until", "most_seeds", "matrix", "groups"};
+    static constexpr std::string_view names[] = {"scene", "seeds", "folder", "precision_target", "max_seeds", "matrix", "groups"};
     for (auto const& [name, line, column, node] : in_order(root)) {
       if (name == "scene")
         read_path(node, study_.scene);
@@ -107,18 +107,20 @@ class StudyReader {
         read_path(node, study_.folder);
       else if (name == "seeds")
         read_seeds(node);
-      else if (name == "until")
+      else if (name == "precision_target")
         read_goal(node);
-      else if (name == "most_seeds")
-        read_most_seeds(node);
+      else if (name == "max_seeds")
+        read_max_seeds(node);
       else if (name == "matrix")
         read_matrix(node);
       else if (name == "groups")
         read_groups(node);
       else
-        report(node,
-               fmt::format("unknown key '{}'{}; a study has scene, seeds, folder, until, most_seeds, [matrix] and [groups.NAME]",
-                           name.substr(0, 60), name_suggestion(name, names)));
+        report(
+            node,
+            fmt::format(
+                "unknown key '{}'{}; a study has scene, seeds, folder, precision_target, max_seeds, [matrix] and [groups.NAME]",
+                name.substr(0, 60), name_suggestion(name, names)));
     }
     if (study_.scene.empty() && problems_.empty())
       problems_.push_back({file_, 0, 0, "'scene' is missing: the scene file that all members share"});
@@ -154,18 +156,18 @@ class StudyReader {
 
   void read_goal(TomlNode const& node) {
     auto const* const text = node.as<std::string>();
-    if (!text) return report(node, "'until' needs a text like \"peak_q_Pa=2%\"");
+    if (!text) return report(node, "'precision_target' needs a text like \"peak_q_Pa=2%\"");
     try {
-      study_.until = study_goal(*text);
+      study_.precision_target = study_goal(*text);
     } catch (std::invalid_argument const& problem) {
-      report(node, std::string("'until' ") + problem.what());
+      report(node, std::string("'precision_target' ") + problem.what());
     }
   }
 
-  void read_most_seeds(TomlNode const& node) {
+  void read_max_seeds(TomlNode const& node) {
     auto const* const most = node.as<std::int64_t>();
-    if (!most || *most < 2 || *most > 10000) return report(node, "'most_seeds' is a whole number between 2 and 10000");
-    study_.most_seeds = static_cast<int>(*most);
+    if (!most || *most < 2 || *most > 10000) return report(node, "'max_seeds' is a whole number between 2 and 10000");
+    study_.max_seeds = static_cast<int>(*most);
   }
 
   static bool is_range(TomlTable const& table) { return table.find("from") || table.find("to") || table.find("count"); }
@@ -382,7 +384,8 @@ std::string const* value_in(std::vector<Setting> const& settings, std::string_vi
 }
 
 void add_key(Study& study, std::string const& key) {
-  if (key != "run.force" && std::find(study.keys.begin(), study.keys.end(), key) == study.keys.end()) study.keys.push_back(key);
+  if (key != "run.ignore_guards" && std::find(study.keys.begin(), study.keys.end(), key) == study.keys.end())
+    study.keys.push_back(key);
 }
 
 char const* key_of_each_run(std::string_view name) {

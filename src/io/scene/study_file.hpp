@@ -8,7 +8,7 @@
 ///     "test.confining_stress" = { from = "1 MPa", to = "3 MPa", count = 3 }
 ///     [groups.dense]             # named sets of keys, each of them with the whole matrix
 ///     material = "dense sand"    # groups of one material share an envelope; left out, those that differ in their stress alone
-///     "sample.void_ratio" = 0.2
+///     "specimen.void_ratio" = 0.2
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -47,8 +47,8 @@ struct Study {
   std::vector<StudyGroup> groups;   ///< one at least
   std::vector<std::string> keys;    ///< of all settings, in the order in which they first appear (add_key())
   std::vector<Setting> overridden;  ///< those of the settings that the command line stated
-  std::optional<StudyGoal> until;
-  int most_seeds = 40;  ///< with a goal
+  std::optional<StudyGoal> precision_target;
+  int max_seeds = 40;  ///< with a goal
 };
 
 inline constexpr int usual_seeds = 5;
@@ -64,7 +64,7 @@ Study parse_study(std::string const& text, std::filesystem::path const& path);
 /// @throws std::invalid_argument with what is wrong with the text
 StudyGoal study_goal(std::string const& text);
 
-/// Takes a key into those of the study. Left out is run.force, which changes no result.
+/// Takes a key into those of the study. Left out is run.ignore_guards, which changes no result.
 void add_key(Study& study, std::string const& key);
 
 /// What to write instead of a key that each run has its own value of: the seed, threads, the folder. Nothing for other keys.

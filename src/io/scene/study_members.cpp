@@ -90,8 +90,8 @@ void override_study(Study& study, std::vector<std::string> const& overrides) {
 
 void force_study(Study& study) {
   for (StudyGroup& group : study.groups) {
-    std::erase_if(group.settings, [](Setting const& setting) { return setting.first == "run.force"; });
-    group.settings.emplace_back("run.force", "true");
+    std::erase_if(group.settings, [](Setting const& setting) { return setting.first == "run.ignore_guards"; });
+    group.settings.emplace_back("run.ignore_guards", "true");
   }
 }
 
@@ -151,8 +151,9 @@ std::string resolved_study(Study const& study) {
       fmt::format("scene = {}\nfolder = {}\nseeds = [", quoted(absolute_text(study.scene)), quoted(absolute_text(study.folder)));
   for (std::size_t i = 0; i < study.seeds.size(); ++i) text += fmt::format("{}{}", i == 0 ? "" : ", ", study.seeds[i]);
   text += "]\n";
-  if (study.until)
-    text += fmt::format("until = \"{}={}\"\nmost_seeds = {}\n", study.until->number, study.until->width, study.most_seeds);
+  if (study.precision_target)
+    text += fmt::format("precision_target = \"{}={}\"\nmax_seeds = {}\n", study.precision_target->number,
+                        study.precision_target->width, study.max_seeds);
   for (StudyGroup const& group : study.groups) {
     text += fmt::format("\n[groups.{}]\nmaterial = {}\n", quoted(group.name), quoted(group.material));
     for (auto const& [key, value] : group.settings) {
