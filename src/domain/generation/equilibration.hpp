@@ -58,7 +58,8 @@ struct RestCriterion {
 /// them first; the shear of rough walls carries its part), and what `rest` asks for holds.
 std::string unrest(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest);
 
-/// Steps with walls steered to an isotropic stress until there is no unrest() in three checks on end, and no deviator at the last.
+/// Steps with walls steered to an isotropic stress until there is no unrest() in three checks on end, and no deviator at the
+/// last.
 /// @return false if that took more than `most_steps`
 bool hold_stress(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
                  ProgressCallback const& progress, char const* stage);
