@@ -139,7 +139,7 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
   plan.goal = goal;
   Scene const& base = plan.base.scene;
   if (base.specimen.is_read())
-    throw Refused("tune needs specimens of several seeds: a specimen from a file (specimen.generator) is one only");
+    throw Refused("tune needs specimens of several seeds: a specimen from a file (specimen.file) is one only");
   SpecimenDesign const design = design_sample(base);
   discs = std::max(discs, fewest_discs(design));
   plan.reduced = discs < design.particles;

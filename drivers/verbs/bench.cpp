@@ -131,8 +131,7 @@ void add_bench(CLI::App& program, Verb& chosen) {
   verb->add_flag("--json", options->json, "one JSON object, SI units");
   verb->add_flag("--card", options->card,
                  "a table instead: 2000 discs, ten times as many each time, and --particles (1000000), in both precisions, with "
-                 "the share "
-                 "of the bandwidth that updating as much memory reaches")
+                 "the share of the bandwidth that updating as much memory reaches")
       ->excludes(precision);
   verb->footer("Example: clathra bench --case bonded --particles 20000 --threads 1 --json");
   verb->callback([options, discs, &chosen] {

@@ -35,8 +35,8 @@ namespace {
 /// platens close it; at 4 such walls let sigma_3 rise by 70 % over a burst of breaking bonds.
 constexpr double largest_lateral_speed = 40;
 
-/// So that the first row of a shear shows no deviator. Specimens of up to 20,000 discs come to it with the rest; a million rests
-/// with its walls 0.5 % apart.
+/// So that the first row of a shear shows no deviator. Small specimens come to it with the rest; a million of clean sand rested
+/// with its walls 0.34 % of sigma_3 apart.
 constexpr RestCriterion rest_before_shear{1e-3, 1e-3};
 
 std::string overshoot_text(double reached, double wanted) {
