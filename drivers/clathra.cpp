@@ -65,9 +65,16 @@ ExitCode say_of_parser(CLI::App const& program, CLI::ParseError const& error) {
   return ExitCode::usage;
 }
 
+/// Verbs whose work is more than what they print.
+void add_quiet(CLI::App& program, bool& quiet) {
+  for (char const* const name :
+       {"check", "run", "study", "tune", "reproduce", "generate", "export", "report", "verify", "selftest"})
+    program.get_subcommand(name)->add_flag("--quiet", quiet, "print warnings and errors only");
+}
+
 ExitCode choose_and_run(int argc, char** argv) {
   CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
-  program.set_version_flag("--version", "clathra " + own_version());
+  program.set_version_flag("--version", version_and_libraries);
   program.require_subcommand(1);
   program.footer("Example: clathra run examples/quick.toml --output out/quick");
   Verb chosen;
@@ -89,12 +96,15 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_selftest(program, chosen);
   add_completion(program, chosen);
   add_manual(program, chosen);
+  bool quiet = false;
+  add_quiet(program, quiet);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
     if (std::string const text = unknown_verb(program, argc, argv); !text.empty()) return say(ExitCode::usage, text);
     return say_of_parser(program, error);
   }
+  if (quiet) be_quiet();
   std::string const verb = program.get_subcommands().front()->get_name();
   if (launched_ranks() > 1 && verb != "run" && verb != "generate")
     return say(ExitCode::usage, fmt::format("'{}' runs on one rank, {} were started; only 'run' and 'generate' share their work",

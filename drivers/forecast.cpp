@@ -31,7 +31,7 @@ std::string bonds_text(HydrateScene const& hydrate) {
 }
 
 RateNumbers rate_of(StageRecord const& n) {
-  return {n.at("strain_rate_per_s"), n.at("inertial_number"), n.at("wave_number"), n.at("rate_share")};
+  return {n.at("strain_rate_per_s"), n.at("inertial_number"), n.at("platen_wave_stress"), n.at("rate_share")};
 }
 
 std::string expected_error_text(Scene const& scene, StageRecord const& numbers) {
@@ -39,6 +39,10 @@ std::string expected_error_text(Scene const& scene, StageRecord const& numbers) 
   if (!expected.peak_q) return "not measured: " + expected.range;
   return fmt::format("{:+.1f} +- {:.1f} % against slow shear in double precision ({})", 100 * expected.peak_q->error,
                      100 * expected.peak_q->half_width, expected.range);
+}
+
+double generation_seconds(StageRecord const& n, MachineSpeed const& speed) {
+  return n.at("generation_disc_steps") / (generation_speedup * speed.disc_steps_per_second);
 }
 
 }  // namespace
@@ -49,7 +53,8 @@ Forecast forecast(Scene const& scene, SpecimenDesign const& design, int ranks) {
   RateNumbers const rate = rate_of(result.numbers);
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
-  if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty()) result.refusals.push_back(refusal);
+  if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty())
+    result.refusals.push_back(refusal), result.out_of_memory = true;
   if (!scene.specimen.is_read()) return result;
   // The checks of the scene know only what is generated. One that was wide enough as designed is a little narrower at rest.
   constexpr double settled = 0.95;
@@ -72,7 +77,7 @@ std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& f
   std::vector<std::string> warnings = input.warnings;
   warnings.insert(warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
   if (input.scene.run.ignore_guards)
-    for (std::string const& refusal : forecast.refusals) warnings.push_back("forced: " + refusal);
+    for (std::string const& refusal : forecast.refusals) warnings.push_back("guard ignored: " + refusal);
   return warnings;
 }
 
@@ -86,7 +91,7 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
   StageRecord const& n = forecast.numbers;
   auto const hours = [&](double disc_steps) { return duration_text(disc_steps / speed.disc_steps_per_second); };
   std::string text;
-  text += row("discs", fmt::format("{:.0f}", n.at("particles")));
+  text += row("particles", fmt::format("{:.0f}", n.at("particles")));
   text += row("box", fmt::format("{:.4g} mm x {:.4g} mm, void ratio {:.4g}", n.at("width_m") * 1e3, n.at("height_m") * 1e3,
                                  n.at("void_ratio")));
   text += row("d50", fmt::format("{:.4g} mm", n.at("d50_m") * 1e3));
@@ -98,7 +103,7 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
   text +=
       row("time step",
           fmt::format("{:.3g} s ({:g} of {}{})", n.at("time_step_s"), scene.run.step_choice().safety,
-                      scene.run.time_step_rule == TimeStepRule::spectrum ? "the limit of stability" : "the estimate", rotation));
+                      scene.run.time_step_rule == TimeStepRule::adaptive ? "the limit of stability" : "the estimate", rotation));
   text += row("strain rate",
               fmt::format("{:.4g} 1/s, up to {:.4g} % axial strain", n.at("strain_rate_per_s"), scene.test.axial_strain * 100));
   std::string const lowered =
@@ -106,10 +111,10 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
                              : "";
   text += row("inertial number I",
               fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning(scene)));
-  text += row("wave number W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("wave_number"), wave_limit));
+  text += row("wave stress W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("platen_wave_stress"), wave_limit));
   text += row("error of peak q", expected_error_text(scene, n));
   text += row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
-  double const generation = n.at("generation_disc_steps") / (generation_speedup * speed.disc_steps_per_second);
+  double const generation = generation_seconds(n, speed);
   if (generation > 0)
     text += row("generation", fmt::format("{} (about: it takes as many steps as it needs)", duration_text(generation)));
   text += row("shear", fmt::format("{} at {} disc-steps/s ({})", hours(n.at("disc_steps")),
@@ -121,11 +126,27 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
   return text;
 }
 
+nlohmann::ordered_json forecast_json(Scene const& scene, Forecast const& forecast, MachineSpeed const& speed) {
+  StageRecord const& n = forecast.numbers;
+  ExpectedError const expected = expected_error(scene, rate_of(n));
+  nlohmann::ordered_json json = {{"forecast", n},
+                                 {"disc_steps_per_second", speed.disc_steps_per_second},
+                                 {"generation_seconds", generation_seconds(n, speed)},
+                                 {"shear_seconds", n.at("disc_steps") / speed.disc_steps_per_second},
+                                 {"refusals", forecast.refusals}};
+  json["error_of_peak_q"] = nullptr;
+  if (expected.peak_q) json["error_of_peak_q"] = {{"mean", expected.peak_q->error}, {"half_width", expected.peak_q->half_width}};
+  json["error_of_peak_q_measured_on"] = expected.range;
+  return json;
+}
+
 void refuse_if_needed(Scene const& scene, Forecast const& forecast) {
   if (forecast.refusals.empty() || scene.run.ignore_guards) return;
   std::string text;
   for (std::string const& refusal : forecast.refusals) text += (text.empty() ? "" : "; ") + refusal;
-  throw Refused(text + " (--force goes on)");
+  text += " (--ignore-guards goes on)";
+  if (forecast.out_of_memory && forecast.refusals.size() == 1) throw OutOfMemory(text);
+  throw Refused(text);
 }
 
 }  // namespace clathra

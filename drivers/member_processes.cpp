@@ -68,7 +68,7 @@ std::vector<int> own_cores() {
 pid_t start_process(std::vector<std::string> const& command, std::filesystem::path const& log, std::vector<int> const& cores) {
   std::vector<std::string> words = command;
   std::vector<char*> const pointers = pointers_to(words);
-  int const file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  int const file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) fail(errno, log.string());
   cpu_set_t set;
   CPU_ZERO(&set);

@@ -12,6 +12,8 @@
 #include <system_error>
 
 #include "clathra_version.hpp"
+#include "domain/parallel/ranks.hpp"
+#include "io/formats/hdf5_file.hpp"
 #include "io/results/run_record.hpp"
 
 namespace clathra {
@@ -56,6 +58,19 @@ int wait_for(pid_t child) {
 }
 
 }  // namespace
+
+std::string version_and_libraries() {
+#if defined(__AVX512F__)
+  constexpr char instruction_set[] = "AVX-512";
+#elif defined(__AVX2__)
+  constexpr char instruction_set[] = "AVX2";
+#else
+  constexpr char instruction_set[] = "generic";
+#endif
+  return fmt::format("clathra {}\nKokkos {}, {}\nMPI: {}\nHDF5 {}.{}.{}\ninstruction set: {}\n{}", own_version(),
+                     kokkos_version(), backend_name(), message_passing_name(), H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE,
+                     instruction_set, compiler_name());
+}
 
 std::string own_version() { return version_text(CLATHRA_VERSION, CLATHRA_GIT_HASH); }
 

@@ -9,6 +9,9 @@ namespace clathra {
 /// committed.
 std::string own_version();
 
+/// The same with what it was built with: Kokkos and its backend, MPI, HDF5, instruction set; a line each.
+std::string version_and_libraries();
+
 /// Runs this program with other arguments and returns what it prints to stdout; its stderr is ours.
 /// @throws std::runtime_error where it cannot be started or does not end with exit code 0
 std::string output_of_own_program(std::vector<std::string> const& arguments);

@@ -12,6 +12,8 @@
 namespace clathra {
 namespace {
 
+bool quiet = false;  // what --quiet asks for
+
 /// @return 0 or errno
 int put(int descriptor, std::string_view text) {
   while (!text.empty()) {
@@ -25,7 +27,12 @@ int put(int descriptor, std::string_view text) {
 
 }  // namespace
 
-ExitCode print_result(std::string const& text) {
+void be_quiet() { quiet = true; }
+bool is_quiet() { return quiet; }
+
+ExitCode print_result(std::string const& text) { return quiet ? ExitCode::done : print_json(text); }
+
+ExitCode print_json(std::string const& text) {
   if (launched_rank() != 0) return ExitCode::done;
   int const error = put(STDOUT_FILENO, printable(text, "\n\t"));
   if (error == 0 || error == EPIPE) return ExitCode::done;

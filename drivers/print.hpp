@@ -11,6 +11,13 @@ namespace clathra {
 /// full disk); a reader that went away is none
 ExitCode print_result(std::string const& text);
 
+/// From now on print_result() and progress say nothing; warnings and errors are heard.
+void be_quiet();
+bool is_quiet();
+
+/// Writes what a script reads, to stdout, quiet or not. @return as print_result()
+ExitCode print_json(std::string const& text);
+
 /// Writes a line to stderr; failure is ignored, for there is nobody left to tell.
 void print_error(std::string const& line);
 

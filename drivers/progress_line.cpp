@@ -11,6 +11,7 @@
 
 #include "domain/parallel/ranks.hpp"
 #include "io/errors/printable.hpp"
+#include "print.hpp"
 
 namespace clathra {
 namespace {
@@ -56,6 +57,7 @@ std::string ProgressLine::coloured(std::string const& text, char const* code) co
 }
 
 void ProgressLine::show(std::string const& stage, double fraction, std::string const& text) {
+  if (is_quiet()) return;
   auto const now = Clock::now();
   int const percent = static_cast<int>(std::lround(100 * std::clamp(fraction, 0.0, 1.0))), mark = percent / percents_a_line;
   bool const new_stage = stage != stage_;

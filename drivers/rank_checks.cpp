@@ -46,8 +46,8 @@ void require_same_everywhere(Ranks const& ranks, LoadedScene const& input) {
 
 void require_enough_discs(int ranks, std::int64_t discs) {
   if (ranks == 1 || discs >= fewest_discs * ranks) return;
-  throw Refused(fmt::format("{} discs cannot be cut among {} ranks: each needs {}, so at most {} can share them", discs, ranks,
-                            fewest_discs, std::max<std::int64_t>(1, discs / fewest_discs)));
+  throw Refused(fmt::format("{} particles cannot be cut among {} ranks: each needs {}, so at most {} can share them", discs,
+                            ranks, fewest_discs, std::max<std::int64_t>(1, discs / fewest_discs)));
 }
 
 }  // namespace clathra

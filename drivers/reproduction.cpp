@@ -45,7 +45,7 @@ StudyGroup group_of(double thickness) {
   return {name,
           {{saturation_key, "55 %"},
            {confining_stress, "1 MPa"},
-           {"bond.critical_thickness_from", "given_thickness"},
+           {"bond.critical_thickness_from", "given"},
            {"bond.critical_thickness", fmt::format("{:g} um", std::round(thickness * 1e8) / 100)}},
           name.substr(0, name.find('_'))};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The seed paper as a study: which tests, at which size.
+/// Jiang et al. (2017) as a study: which tests, at which size.
 #include <filesystem>
 
 #include "io/results/paper_claims.hpp"

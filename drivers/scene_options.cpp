@@ -15,13 +15,13 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   verb.add_option("--threads", threads, "threads; results do not depend on them")->check(CLI::Range(1, 4096))->type_name("N");
-  verb.add_flag("--force", force, "go on where a guard refuses; noted in run.json");
+  verb.add_flag("--ignore-guards", ignore_guards, "go on where a guard refuses; noted in run.json");
 }
 
 LoadedScene SceneOptions::load(std::vector<std::string> more) const {
   std::vector<std::string> all = overrides;
   if (threads > 0) all.push_back(fmt::format("run.threads={}", threads));
-  if (force) all.push_back("run.ignore_guards=true");
+  if (ignore_guards) all.push_back("run.ignore_guards=true");
   all.insert(all.end(), more.begin(), more.end());
   std::filesystem::path const path = file;
   return parse_scene(read_once(path, largest_scene_file + 1), file, path.parent_path(), all);

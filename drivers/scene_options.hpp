@@ -12,7 +12,7 @@ struct SceneOptions {
   std::string file;
   std::vector<std::string> overrides;  ///< --set key=value
   int threads = 0;
-  bool force = false;
+  bool ignore_guards = false;
 
   void add_to(CLI::App& verb);
   /// The scene with all overrides. @throws SceneProblems, FileProblem

@@ -49,7 +49,7 @@ struct Comparison {
 void compare(Comparison& same, GoldenBond const& golden) {
   Scene scene;
   scene.hydrate.saturation = golden.saturation;
-  scene.bond.strength_from = CoefficientSource::printed;
+  scene.bond.strength_from = StrengthFrom::printed;
   scene.bond.grain_stiffness_factor = 1;
   double const gap = golden.share * critical_thickness_ratio(golden.saturation) * median_diameter, radius = median_diameter / 2;
   BondCard const card = evaluate_bond(scene, median_diameter, radius, radius, gap, 0);
@@ -176,13 +176,13 @@ std::string check_specimen_file() {
   write_specimen(file, specimen);
   if (specimen_hash(read_specimen(file)) != specimen_hash(specimen))
     throw CheckFailed("what was read from " + file.string() + " is not what was written");
-  return fmt::format("{} discs and {} contacts read as written", specimen.size(), specimen.contacts.size());
+  return fmt::format("{} particles and {} contacts read as written", specimen.size(), specimen.contacts.size());
 }
 
 std::uint64_t bonded_state_hash() {
   Scene scene;
   scene.hydrate.saturation = 0.55;
-  scene.bond.strength_from = CoefficientSource::printed;
+  scene.bond.strength_from = StrengthFrom::printed;
   Specimen specimen = bondable_patch(20);
   install_bonds(scene, specimen);
   SimulationLaws laws;

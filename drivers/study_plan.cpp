@@ -108,12 +108,12 @@ Scene scene_of_member(StudyPlan& plan, StudyGroup const& group, std::uint64_t se
     std::vector<std::string> why;
     for (Problem const& problem : found.problems) {
       if (problem.severity != Severity::refusal) throw;
-      why.push_back(problem.text.substr(0, problem.text.find(force_hint)));
+      why.push_back(problem.text.substr(0, problem.text.find(ignore_hint)));
     }
     plan.refused[group.name] = std::move(why);
-    StudyGroup forced = group;
-    forced.settings.emplace_back("run.ignore_guards", "true");
-    Scene scene = member_scene(plan.study, forced, seed).scene;
+    StudyGroup unguarded = group;
+    unguarded.settings.emplace_back("run.ignore_guards", "true");
+    Scene scene = member_scene(plan.study, unguarded, seed).scene;
     scene.run.ignore_guards = false;
     return scene;
   }
@@ -232,8 +232,8 @@ void heed_guards(StudyPlan& plan, bool skip) {
   }
   bool const all = groups.size() == plan.study.groups.size();
   if (groups.empty() || (skip && !all)) return;
-  add(fmt::format("{} of {} groups would be refused, so nothing was started: {}--force overrides the guards", groups.size(),
-                  plan.study.groups.size(), all ? "" : "--skip-refused goes on without them, "));
+  add(fmt::format("{} of {} groups would be refused, so nothing was started: {}--ignore-guards overrides the guards",
+                  groups.size(), plan.study.groups.size(), all ? "" : "--skip-refused goes on without them, "));
   throw SceneProblems(std::move(problems));
 }
 

@@ -20,7 +20,7 @@ struct StudyTask {
   std::filesystem::path log;            ///< where its messages go
   double disc_steps = 0;                ///< predicted
   double memory = 0, disk = 0;          ///< predicted [bytes]
-  std::vector<std::string> refusals;    ///< of its guards; none where it is forced
+  std::vector<std::string> refusals;    ///< of its guards; none where guards are ignored
   std::optional<std::size_t> specimen;  ///< place of the task that makes what this one reads
 };
 

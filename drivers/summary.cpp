@@ -17,8 +17,7 @@ void Summary::add(HistoryRow const& row) {
   last_ = row;
   ++count_;
   eps1_.push_back(row.eps1), eps_v_.push_back(row.eps_v), q_.push_back(row.q_Pa), sigma3_.push_back(row.sigma3_Pa);
-  intact_.push_back(row.intact_initial_pct), largest_q_.push_back(row.largest_q_Pa),
-      largest_q_eps1_.push_back(row.largest_q_eps1);
+  intact_.push_back(row.bonds_intact_pct), largest_q_.push_back(row.largest_q_Pa), largest_q_eps1_.push_back(row.largest_q_eps1);
   dilation_.push_back(row.dilation_deg);
 }
 
@@ -54,7 +53,7 @@ std::string Summary::text(double sigma3_held) const {
     std::string modes;
     for (BreakModeNames const& m : break_modes)
       modes += fmt::format("{}{} {}", modes.empty() ? "" : ", ", last_.broken[m.mode], m.name);
-    text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {}\n", last_.bonds_intact, last_.intact_initial_pct,
+    text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {}\n", last_.bonds_intact, last_.bonds_intact_pct,
                         modes);
   }
   text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the checks\n", 100 * sigma3_held);

@@ -297,7 +297,7 @@ class TestRun::Running {
   void show(BiaxialTest const& test, std::string const& speed) {
     std::string text = fmt::format("eps1 {:.1f}/{:g}% | {} | q {:.3g} MPa", last_.eps1 * 100, scene_.test.axial_strain * 100,
                                    speed, last_.q_Pa * 1e-6);
-    if (last_.intact_initial_pct > 0) text += fmt::format(" | intact {:.0f}%", last_.intact_initial_pct);
+    if (last_.bonds_intact_pct > 0) text += fmt::format(" | intact {:.0f}%", last_.bonds_intact_pct);
     line_.show("shear", test.strain_fraction(), text + fmt::format(" | I {:.1g}", last_.inertial_number));
   }
 
@@ -330,7 +330,7 @@ class TestRun::Running {
         SnapshotSeries(folder_ / "diverged", ranks_, {}, SnapshotNumbers::full).write(*fault.around);
         text += fmt::format("; its surroundings are in {} (ParaView)", (folder_ / "diverged" / "particles.xdmf").string());
       } catch (FileProblem const& problem) {
-        warn(fmt::format("the surroundings of the disc cannot be written: {}", problem.what()));
+        warn(fmt::format("the surroundings of the particle cannot be written: {}", problem.what()));
       }
     return fail(ExitCode::diverged, text);
   }

@@ -30,7 +30,7 @@ bool is_one_of(std::string_view text, std::span<std::string_view const> keys) {
 
 /// "peak_q" of "peak_q_Pa".
 std::string without_unit(std::string const& name) {
-  for (std::string_view const unit : {"_Pa", "_deg", "_initial_pct"})
+  for (std::string_view const unit : {"_Pa", "_deg", "_pct"})
     if (name.ends_with(unit)) return name.substr(0, name.size() - unit.size());
   return name;
 }
@@ -84,7 +84,7 @@ std::int64_t fewest_discs(SpecimenDesign const& design) {
 }
 
 std::string group_name(std::int64_t discs, TuneSetting const& s) {
-  std::string name = fmt::format("discs{}_I{:g}_{}_dt{:g}_x{:g}", discs, s.inertial_number,
+  std::string name = fmt::format("particles{}_I{:g}_{}_dt{:g}_x{:g}", discs, s.inertial_number,
                                  precision_names[static_cast<int>(s.precision)], s.dt_safety, s.inertia_scaling);
   return s.mass_scaling > 0 ? name + fmt::format("_m{:g}", s.mass_scaling) : name;
 }
@@ -185,8 +185,8 @@ std::vector<Trial> TunePlan::trials() const {
   return trials;
 }
 
-double TunePlan::wave_number(std::size_t setting) const {
-  return predict(member_scene(study.study, study.study.groups[setting], 1).scene).at("wave_number");
+double TunePlan::platen_wave_stress(std::size_t setting) const {
+  return predict(member_scene(study.study, study.study.groups[setting], 1).scene).at("platen_wave_stress");
 }
 
 Scene TunePlan::scene_with(std::size_t setting) const {
@@ -201,7 +201,7 @@ std::vector<Setting> TunePlan::keys_of(std::size_t setting) const {
   double const step =
       s.dt_safety > 0 ? s.dt_safety : RunScene{.time_step_rule = base.scene.run.time_step_rule}.step_choice().safety;
   std::vector<Setting> keys = keys_of_rung(s);
-  keys[1].second = fmt::format("{:.3g}", wave_number(setting));
+  keys[1].second = fmt::format("{:.3g}", platen_wave_stress(setting));
   keys[3].second = share_text(step);
   return keys;
 }

@@ -40,7 +40,7 @@ struct TunePlan {
   /// The trials of a search among the settings, costs by prediction.
   std::vector<Trial> trials() const;
   /// W of a level at its rate. It grows with the height: the scene itself keeps to it by test.max_platen_wave_stress.
-  double wave_number(std::size_t setting) const;
+  double platen_wave_stress(std::size_t setting) const;
   /// The scene at full size with a setting.
   Scene scene_with(std::size_t setting) const;
   /// Cost of the scene at a setting over its cost as it stands: steps that it needs by the rates of both and by the time steps of

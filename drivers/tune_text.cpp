@@ -36,7 +36,7 @@ std::string verdict_text(SettingSearch const& search, std::size_t setting, doubl
 
 /// A larger scene has another W than its levels.
 std::string as_it_stands_text(TunePlan const& plan) {
-  double const own = predict(plan.base.scene).at("wave_number");
+  double const own = predict(plan.base.scene).at("platen_wave_stress");
   return plan.reduced ? fmt::format("as it stands, there with a W of {:.2g}", own) : "as it stands";
 }
 
@@ -49,7 +49,7 @@ std::string row_of(TunePlan const& plan, SettingSearch const& search, std::size_
   if (i == plan.as_it_stands) words += (words.empty() ? "" : ", ") + as_it_stands_text(plan);
   if (search.choice() == i) words += ", chosen";
   return fmt::format("  {:<8.3g} {:<6.2g} {:<7} {:<6} {:<10} {:>5}  {:>14}  {:>7.3g}  {}\n", s.inertial_number,
-                     plan.wave_number(i), precision_names[static_cast<int>(s.precision)], step_text(s), scaling_text(s),
+                     plan.platen_wave_stress(i), precision_names[static_cast<int>(s.precision)], step_text(s), scaling_text(s),
                      error ? error->seeds : 0, measured, plan.relative_cost(i), words);
 }
 
@@ -68,13 +68,13 @@ std::string comment_of(std::string const& key, TunePlan const& plan, SettingSear
 }  // namespace
 
 std::string measured_text(TunePlan const& plan, SettingError const& error) {
-  return fmt::format("{} {:+.2f} +- {:.2f} % (95 %, {} seeds of {} discs)", plan.goal.quantity, 100 * error.error,
+  return fmt::format("{} {:+.2f} +- {:.2f} % (95 %, {} seeds of {} particles)", plan.goal.quantity, 100 * error.error,
                      100 * error.half_width, error.seeds, plan.discs);
 }
 
 std::string tune_table(TunePlan const& plan, SettingSearch const& search, std::vector<std::string> const& failures) {
   std::string text =
-      fmt::format("{}: error of {}, tests of {} discs\n", plan.study.study.scene.string(), plan.goal.quantity, plan.discs);
+      fmt::format("{}: error of {}, tests of {} particles\n", plan.study.study.scene.string(), plan.goal.quantity, plan.discs);
   text += fmt::format("  {:<8} {:<6} {:<7} {:<6} {:<10} {:>5}  {:>14}  {:>7}\n", "I", "W", "numbers", "step", "inertia", "seeds",
                       "error [%]", "cost");
   for (std::size_t i = 0; i < plan.settings.size(); ++i)

@@ -58,11 +58,12 @@ void print_numbers(std::vector<RunResults> const& runs) {
     TestNumbers const n = test_numbers(h.curves());
     std::vector<double> const& eps_v = h["eps_v"];
     char intact[32] = "- | -";
-    if (run.has_bonds()) std::snprintf(intact, sizeof intact, "%.1f | %.1f", h["intact_initial_pct"][n.peak], n.intact_end);
+    if (run.has_bonds()) std::snprintf(intact, sizeof intact, "%.1f | %.1f", h["bonds_intact_pct"][n.peak], n.intact_end);
     std::printf("| %s | %.4f | %.2f | %.2f | %.0f | %.2f | %+.2f | %+.2f | %+.2f | %s | %.2g | %.0f |\n", run.name.c_str(),
                 h["void_ratio"][0], n.peak_q / 1e6, 100 * n.peak_eps1, n.secant_modulus.value_or(0) / 1e6, n.residual_q / 1e6,
                 100 * n.eps_v_peak, 100 * *std::max_element(eps_v.begin(), eps_v.end()), 100 * n.eps_v_end, intact,
-                h["step"].back() * run.number("/stages/plan/discs").value_or(0), run.number("/wall_seconds/shear").value_or(0));
+                h["step"].back() * run.number("/stages/plan/particles").value_or(0),
+                run.number("/wall_seconds/shear").value_or(0));
   }
 }
 
@@ -90,11 +91,11 @@ void print_control(std::vector<RunResults> const& runs, std::string& notes) {
     double wall_contact = 0, energy = 0;
     for (std::size_t i = 0; i <= last; ++i) {
       wall_contact += std::abs(h["contact_sigma1_Pa"][i] / h["sigma1_Pa"][i] - 1) / static_cast<double>(last + 1);
-      if (h.has("residual_J") && h["boundary_work_J"][i] > 0 && i > last / 20)
-        energy = std::max(energy, std::abs(h["residual_J"][i] / h["boundary_work_J"][i]));
+      if (h.has("residual_J_per_m") && h["boundary_work_J_per_m"][i] > 0 && i > last / 20)
+        energy = std::max(energy, std::abs(h["residual_J_per_m"][i] / h["boundary_work_J_per_m"][i]));
     }
     std::string residual = "-";
-    if (h.has("residual_J")) {
+    if (h.has("residual_J_per_m")) {
       char text[16];
       std::snprintf(text, sizeof text, "%.3f", 100 * energy);
       residual = text;

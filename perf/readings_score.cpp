@@ -1,4 +1,4 @@
-/// Scores readings of the seed paper by its claims, from the members of studies that perf/readings/screen.py wrote.
+/// Scores readings of Jiang et al. (2017) by its claims, from the members of studies that perf/readings/screen.py wrote.
 ///   readings_score MEMBERS...
 /// MEMBERS are folders of runs named <reading>_<saturation>pct_<stress>MPa-seed<n>; those of clean sand are named
 /// beta<shape factor>_<stress>MPa-seed<n>, and a reading that ends in "beta1" is compared with those of beta1. Prints CSV, best

@@ -59,8 +59,8 @@ Specimen lattice(bool hexagonal) {
 }
 
 /// Bonds a share of the pairs that 55 % hydrate would bond.
-Specimen bonded(Specimen s, Composite composite, double share) {
-  bond_all(s, hydrate_scene(0.55, composite));
+Specimen bonded(Specimen s, ContactCoupling coupling, double share) {
+  bond_all(s, hydrate_scene(0.55, coupling));
   for (std::size_t k = 0; k < s.contacts.size(); ++k)
     if (uniform_random(11, 3, k) >= share) s.contacts[k].formation_overlap = no_bond;
   return s;
@@ -73,11 +73,11 @@ SimulationLaws frozen(SimulationLaws laws) {
 }
 
 void add_bonded(std::vector<Case>& all) {
-  for (Composite const composite : {Composite::parallel, Composite::replace}) {
-    std::string const name = composite == Composite::parallel ? "bonds, parallel" : "bonds, replace";
+  for (ContactCoupling const coupling : {ContactCoupling::parallel, ContactCoupling::replaces}) {
+    std::string const name = coupling == ContactCoupling::parallel ? "bonds, parallel" : "bonds, replaces";
     for (double const share : {0.25, 0.5, 1.0}) {
-      auto const specimen = [composite, share] { return bonded(squeezed(4), composite, share); };
-      Scene const scene = hydrate_scene(0.55, composite);
+      auto const specimen = [coupling, share] { return bonded(squeezed(4), coupling, share); };
+      Scene const scene = hydrate_scene(0.55, coupling);
       all.push_back({name, std::to_string(static_cast<int>(100 * share)) + " %", specimen,
                      frozen(unbreakable(bonded_laws(scene, specimen().critical_thickness)))});
     }

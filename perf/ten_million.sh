@@ -12,7 +12,7 @@ job=
 trap 'kill $job 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
 # Bonded under the confining stress of the test, and sheared without the consolidation, which would take hours.
-for key in specimen.particles=$discs test.consolidation_steps=0 test.axial_strain=0.0013 output.records=20 output.snapshots=1; do scene+=(--set "$key"); done
+for key in run.ignore_guards=true specimen.particles=$discs test.consolidation_steps=0 test.axial_strain=0.0013 output.records=20 output.snapshots=1; do scene+=(--set "$key"); done
 # Leaves the sum of the greatest resident memories of the ranks, in MB, in a file: watched FILE COMMAND...
 watched() {
   local file=$1 peak=0 now

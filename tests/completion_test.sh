@@ -23,15 +23,15 @@ mkdir folder
 touch scene.toml
 offers "check" ch
 offers "--version" --ve
-offers "--dry-run" run --dr
+offers "--dry-run" study --dr
 offers "--set" run scene.toml --s
 offers "hydrate.saturation=" run --set hydrate.s
 offers "parallel" run scene.toml --set bond.contact_coupling = pa
 offers "replaces parallel replaces_keeping_force" run --set bond.contact_coupling =
 offers "true false" run --set run.ignore_guards =
 offers "" run --set test.axial_strain =
-offers "printed thm" bond --coefficients ""
-offers "lammpsdump vtu csv" export folder --to ""
+offers "printed conditions" bond --strength-from ""
+offers "vtu lammpsdump csv spreadsheet" export folder --to ""
 offers "quick" init q
 offers "paper/s41-1mpa paper/s41-2mpa paper/s41-3mpa" init paper/s41
 offers "scene.toml" check sc

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the commands of a page of docs/: blocks marked ```sh as they stand, of blocks marked ```sh-long only the beginning: a run as
-# --dry-run, a generation as a check, other verbs with --help; blocks marked ```sh-small as they stand but for their runs, which are
+# Runs the commands of a page of docs/: blocks marked ```sh as they stand, of blocks marked ```sh-long only the beginning: a run and
+# a generation as a check, other verbs with --help; blocks marked ```sh-small as they stand but for their runs, which are
 # those of a small specimen. A block marked ```out holds what the block before it prints, line for line and in order; a line of dots stands
 # for lines left out. All blocks of a page share one empty folder that has examples/.
 # usage: tests/docs_commands.sh <program clathra> <folder of the project> <page>
@@ -22,8 +22,8 @@ blocks() {
 }
 
 shortened() {
-  sed -nE -e 's/[[:space:]]+#.*//' -e 's/^(clathra run .*)/\1 --dry-run/p;t' \
-    -e 's/^clathra generate (.*) -o [^ ]+/clathra check \1/p;t' -e 's/^(clathra [a-z]+) .*/\1 --help/p' "$1"
+  sed -nE -e 's/[[:space:]]+#.*//' -e 's/^clathra (run|generate) /clathra check /;T other' \
+    -e 's/ (-o|--output|--max-walltime|--checkpoint-every) [^ ]+//g; s/ --(resume|overwrite)//g;p;d' -e ':other' -e 's/^(clathra [a-z]+) .*/\1 --help/p' "$1"
 }
 
 # Whether the lines of $1 stand in $2, in their order.

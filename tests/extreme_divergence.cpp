@@ -11,7 +11,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 
 /// A bonded packing between walls under compression.
 Simulation pressed_packing() {
-  Scene const scene = hydrate_scene(0.55, Composite::replace);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::replaces);
   Specimen s = disordered_patch(10, 10, 0.02);
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
@@ -46,20 +46,20 @@ TEST(Diverged, ByANumberThatIsNotFiniteInAnyFieldOfADisc) {
         assign(field == 2 ? p.vx : field == 3 ? p.vy : p.omega, disc, bad);
       std::string const text = fault_of(sim);
       EXPECT_TRUE(names(text, "step ")) << text;
-      EXPECT_TRUE(names(text, "disc ")) << text;
+      EXPECT_TRUE(names(text, "particle ")) << text;
       EXPECT_TRUE(names(text, "not finite")) << field << " " << text;
     }
   }
   if (!testing::Test::HasFailure())
-    print_row("NaN and infinity in position, velocity and spin of a disc", "refused: the disc \"is not finite\"",
-              "names the disc");
+    print_row("NaN and infinity in position, velocity and spin of a particle", "refused: the particle \"is not finite\"",
+              "names the particle");
 }
 
 TEST(Diverged, ByAPositionThatIsNotFiniteThoughNothingTouchesTheDisc) {
   Simulation sim(two_discs(-1e-5), sand_laws(), 1e-5);
   sim.time_step = 1e-7;
   assign(sim.assembly().particles.x, index_of(sim, 1), nan);
-  EXPECT_TRUE(names(fault_of(sim), "disc 1 has a position or velocity that is not finite"));
+  EXPECT_TRUE(names(fault_of(sim), "particle 1 has a position or velocity that is not finite"));
 }
 
 TEST(Diverged, ByAForceThatIsNotFiniteNamesTheDisc) {
@@ -67,7 +67,7 @@ TEST(Diverged, ByAForceThatIsNotFiniteNamesTheDisc) {
   Simulation sim(s, sand_laws(), 1e-5);
   sim.time_step = 1e-7;
   assign(sim.assembly().particles.vx, index_of(sim, 1), nan);
-  EXPECT_TRUE(names(fault_of(sim), "disc 1 has a position or velocity that is not finite"));
+  EXPECT_TRUE(names(fault_of(sim), "particle 1 has a position or velocity that is not finite"));
 }
 
 TEST(Diverged, BeforeTheFirstStepWhereTheSpecimenIsNotFinite) {
@@ -78,7 +78,7 @@ TEST(Diverged, BeforeTheFirstStepWhereTheSpecimenIsNotFinite) {
       Simulation const sim(s, sand_laws(), 1e-5);
       ADD_FAILURE() << "went on";
     } catch (Diverged const& fault) {
-      EXPECT_TRUE(names(fault.what(), "disc 7")) << fault.what();
+      EXPECT_TRUE(names(fault.what(), "particle 7")) << fault.what();
     }
   }
 }
@@ -87,7 +87,7 @@ TEST(Diverged, ByATimeStepThreeTimesTooLong) {
   Simulation sim = pressed_packing();
   sim.time_step = 3 * 2 / sim.assembly().largest_frequency();
   std::string const text = fault_of(sim);
-  EXPECT_TRUE(names(text, "disc ")) << text;
+  EXPECT_TRUE(names(text, "particle ")) << text;
   EXPECT_TRUE(names(text, "step ")) << text;
 }
 
@@ -114,7 +114,7 @@ TEST(Diverged, NamesThePlaceAndTheDeepestContactOfTheDisc) {
     ADD_FAILURE() << "went on";
   } catch (Diverged const& fault) {
     std::string const text = fault.what();
-    EXPECT_TRUE(names(text, "; its deepest contact, with disc 3, overlaps by 1.")) << text;
+    EXPECT_TRUE(names(text, "; its deepest contact, with particle 3, overlaps by 1.")) << text;
     EXPECT_TRUE(names(text, "the step is not why: the grains are too soft")) << text;
     ASSERT_TRUE(fault.placed);
     EXPECT_NEAR(fault.x, s.x[11], 0.1 * grain_radius);
@@ -135,7 +135,7 @@ TEST(Diverged, KnowsWhereADiscWasThatIsNowhere) {
     EXPECT_TRUE(std::isfinite(fault.x) && std::isfinite(fault.y)) << fault.what();
     EXPECT_NEAR(fault.x, x, 12 * grain_d50) << "it has spread from there";
     // In mixed precision its neighbours see it at some whole number of ticks, and stay finite.
-    EXPECT_EQ(names(fault.what(), "discs are like it"), tested_precision() == Precision::full) << fault.what();
+    EXPECT_EQ(names(fault.what(), "particles are like it"), tested_precision() == Precision::full) << fault.what();
   }
 }
 
@@ -146,7 +146,7 @@ TEST(Diverged, ByCoincidentDiscs) {
   Simulation sim(s, sand_laws(), 1e-5);
   sim.time_step = 1e-7;
   std::string const text = fault_of(sim);
-  EXPECT_TRUE(names(text, "disc 11 overlaps a neighbour")) << text;
+  EXPECT_TRUE(names(text, "particle 11 overlaps a neighbour")) << text;
 }
 
 TEST(Diverged, ByACentreInsideAnotherDiscButNotByLess) {
@@ -158,7 +158,7 @@ TEST(Diverged, ByACentreInsideAnotherDiscButNotByLess) {
 }
 
 TEST(Diverged, ByACentreBehindAWallButNotByLess) {
-  for (auto const& [overlap, text] : {std::pair{0.95, "none"}, std::pair{1.05, "disc 0 overlaps a neighbour or a wall"}}) {
+  for (auto const& [overlap, text] : {std::pair{0.95, "none"}, std::pair{1.05, "particle 0 overlaps a neighbour or a wall"}}) {
     Simulation sim(disc_on_floor(overlap * grain_radius), sand_laws(), 1e-5);
     sim.time_step = 1e-10;  // it hardly moves within 200 steps
     EXPECT_TRUE(names(fault_of(sim), text)) << overlap;
@@ -190,7 +190,7 @@ TEST(Diverged, ByADiscFarOutsideTheWalls) {
     } catch (Diverged const& fault) {  // at once, where its force on the wall cannot be summed
       text = fault.what();
     }
-    EXPECT_TRUE(names(text, "disc 6 ")) << out << ": " << text;
+    EXPECT_TRUE(names(text, "particle 6 ")) << out << ": " << text;
   }
 }
 
@@ -205,7 +205,7 @@ TEST(Diverged, ByMoreNeighboursThanARowHolds) {
     Simulation const sim(s, sand_laws(), 1e-5);
     ADD_FAILURE() << "went on";
   } catch (Diverged const& fault) {
-    EXPECT_TRUE(names(fault.what(), "disc 0 has more neighbours than a row holds")) << fault.what();
+    EXPECT_TRUE(names(fault.what(), "particle 0 has more neighbours than a row holds")) << fault.what();
   }
 }
 

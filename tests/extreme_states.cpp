@@ -13,9 +13,9 @@
 namespace clathra {
 namespace {
 
-Simulation bonded(double saturation, Composite composite, std::function<void(SimulationLaws&)> const& change = {}) {
+Simulation bonded(double saturation, ContactCoupling coupling, std::function<void(SimulationLaws&)> const& change = {}) {
   Specimen s = packing();
-  Scene const scene = hydrate_scene(saturation, composite);
+  Scene const scene = hydrate_scene(saturation, coupling);
   bond_all(s, scene);
   SimulationLaws laws = bonded_laws(scene, s.critical_thickness);
   laws.motion.damping = 0.7;
@@ -24,17 +24,18 @@ Simulation bonded(double saturation, Composite composite, std::function<void(Sim
 }
 
 TEST(ExtremeStates, NoDiscOneDiscTwoDiscs) {
-  expect_refusal<std::invalid_argument>("0 discs", "at least one disc", [] { Simulation(open_space(), sand_laws(), 1e-5); });
+  expect_refusal<std::invalid_argument>("0 particles", "at least one particle",
+                                        [] { Simulation(open_space(), sand_laws(), 1e-5); });
   Simulation one(disc_on_floor(1e-6), sand_laws(), 1e-6);
   one.choose_time_step({});
   one.step(1000);
-  expect_row("1 disc on a floor", "kinetic + elastic energy over the first",
+  expect_row("1 particle on a floor", "kinetic + elastic energy over the first",
              (one.assembly().measures().kinetic + one.assembly().measures().wall_energy) / (0.5 * sand_kn * 1e-12), 0.1,
              2.5);  // leapfrog's own energy swings by so much at 0.95 of the limit, and stays
   Simulation two(two_discs(1e-6), sand_laws(), 1e-6);
   two.choose_time_step({});
   two.step(1000);
-  expect_row("2 discs pressed together fly apart", "distance over their diameter",
+  expect_row("2 particles pressed together fly apart", "distance over their diameter",
              disc(two, 1).x - disc(two, 0).x > 0 ? (disc(two, 1).x - disc(two, 0).x) / (2 * grain_radius) : 0, 1, 1e99);
 }
 
@@ -51,20 +52,20 @@ TEST(ExtremeStates, ABoulderThirtyTimesTheFinesHasMoreNeighboursThanARowHolds) {
 }
 
 TEST(ExtremeStates, BondsWithoutStrengthAndBondsThatNeverBreak) {
-  for (Composite const composite : {Composite::parallel, Composite::replace}) {
-    Simulation weak = bonded(0.55, composite, [](SimulationLaws& laws) {
+  for (ContactCoupling const coupling : {ContactCoupling::parallel, ContactCoupling::replaces}) {
+    Simulation weak = bonded(0.55, coupling, [](SimulationLaws& laws) {
       laws.contact.bond.strength.tensile_stress = laws.contact.bond.strength.compressive_stress = 0;
     });
     weak.choose_time_step({});
     weak.step();
-    std::string const name = composite == Composite::parallel ? " (parallel)" : " (replace)";
+    std::string const name = coupling == ContactCoupling::parallel ? " (parallel)" : " (replaces)";
     expect_row("bond strength 0" + name, "bonds broken in the first step", weak.assembly().broken_bonds(), 200, 1e99);
     expect_row("bond strength 0" + name, "bonds left", weak.assembly().measures().bonded, 0, 0);
     weak.step(3000);
     weak.assembly().throw_if_unstable();
     expect_row("bond strength 0, after 3,000 steps" + name, "kinetic over elastic energy",
                weak.assembly().measures().kinetic / weak.assembly().measures().grain_energy, 0, 1e-2);
-    Simulation strong = bonded(0.55, composite, [](SimulationLaws& laws) { laws = unbreakable(laws); });
+    Simulation strong = bonded(0.55, coupling, [](SimulationLaws& laws) { laws = unbreakable(laws); });
     strong.choose_time_step({});
     strong.loading().y = AxisDrive::at_rate(50);
     strong.step(5000);
@@ -99,12 +100,12 @@ TEST(ExtremeStates, OneDiscWideAndAThousandTall) {
   sim.choose_time_step({});
   sim.step(60000);
   sim.assembly().throw_if_unstable();
-  expect_row("a column of 1,000 discs", "force at its top over that at its foot",
+  expect_row("a column of 1,000 particles", "force at its top over that at its foot",
              sim.assembly().reactions().normal[top] / sim.assembly().reactions().normal[bottom], 0.99, 1.01);
 }
 
 TEST(ExtremeStates, TheStepCounterPassesFourBillion) {
-  Simulation sim = bonded(0.55, Composite::parallel);
+  Simulation sim = bonded(0.55, ContactCoupling::parallel);
   sim.choose_time_step({});
   sim.loading().y = AxisDrive::at_rate(200);
   SimulationState late = sim.state(), early = late;
@@ -166,7 +167,7 @@ TEST(ExtremeStates, DenormalsInTheVelocities) {
 }
 
 TEST(ExtremeStates, ADiscFastEnoughToCrossAnotherInOneStep) {
-  expect_refusal<Diverged>("a disc that crosses half a disc in a step", "overlaps", [] {
+  expect_refusal<Diverged>("a particle that crosses half a particle in a step", "overlaps", [] {
     Specimen s = two_discs(-1.0 * grain_radius);
     SimulationLaws const laws = sand_laws();
     Simulation slow(s, laws, 1e-6);
@@ -180,7 +181,7 @@ TEST(ExtremeStates, ADiscFastEnoughToCrossAnotherInOneStep) {
 }
 
 TEST(ExtremeStates, WallsThatMeet) {
-  expect_refusal<Diverged>("walls that meet", "disc", [] {
+  expect_refusal<Diverged>("walls that meet", "particle", [] {
     Simulation sim(packing(), sand_laws(), 0.1 * packing().d50);
     sim.choose_time_step({});
     sim.loading().y = AxisDrive::at_rate(20000);
@@ -202,7 +203,7 @@ TEST(ExtremeStates, AServoWithoutDiscsAtItsWalls) {
     fastest = std::max(fastest, sim.assembly().walls().largest_speed(left, right));
   }
   sim.assembly().throw_if_unstable();
-  expect_row("a servo without discs at its walls", "wall speed over its cap", fastest / cap, 0, 1);
+  expect_row("a servo without particles at its walls", "wall speed over its cap", fastest / cap, 0, 1);
 }
 
 /// Shear forces of all contacts and bonds.
@@ -215,7 +216,7 @@ std::vector<double> shear_forces(Simulation const& sim) {
 /// Steps a bonded specimen that rests between its walls: at the 50 kPa that it was made under, or loaded to 1 MPa.
 /// @param most_change  of any shear force, over their mean;  @param most_of_stress  change on the walls, relative
 void expect_rest(std::string const& when, bool loaded, int steps, double most_change, double most_of_stress) {
-  Simulation sim = bonded(0.55, Composite::parallel);
+  Simulation sim = bonded(0.55, ContactCoupling::parallel);
   if (loaded) {
     prepare_servo(sim, 1e6, 1e-3, packing().d50, {});
     ASSERT_TRUE(hold_stress(sim, 1e6, {1e-3}, 200000, {}, "test"));
@@ -278,7 +279,7 @@ double early_ratio(double inertial_number, double nudge) {
 TEST(ExtremeStates, LongTenTimesSlowerThanVerySlowIsTheSame) {
   double const slow = early_ratio(1e-5, 0), nudged = early_ratio(1e-5, 1e-12), slower = early_ratio(1e-6, 0);
   double const floor = std::max(std::abs(nudged / slow - 1), 1e-3);
-  expect_row("I = 1e-6 against 1e-5", "change of q/p at 0.3 % strain over that by a disc moved by 1e-12 d50, or 0.1 %",
+  expect_row("I = 1e-6 against 1e-5", "change of q/p at 0.3 % strain over that by a particle moved by 1e-12 d50, or 0.1 %",
              std::abs(slower / slow - 1) / floor, 0, 10);
 }
 

@@ -1,5 +1,5 @@
-/// The numerical traps of the seed paper's bond and contact laws, each at the value that triggers it. The numbers in the names
-/// are those of the project's table of traps; the ones left out concern the state of the hydrate.
+/// The numerical traps of Jiang et al.'s (2017) bond and contact laws, each at the value that triggers it. The numbers in the
+/// names are those of the project's table of traps; the ones left out concern the state of the hydrate.
 #include <limits>
 
 #include "extreme_rows.hpp"
@@ -92,7 +92,7 @@ TEST(Trap05, BondsOfFinesHaveNoTensileStrength) {
   // At 55 % the bond of these fines would be wider than the disc. Cut to its width, it needs discs of 11.274 / 2 micrometres.
   EXPECT_GT(bond_of(5.638 * micrometre, h_max_of(55), 0).tension, 0);
   EXPECT_LT(bond_of(5.636 * micrometre, h_max_of(55), 0).tension, 0);
-  expect_row("a bond at R_t <= 0, which is not formed", "R_t of discs of 5 um at 55 % [N/m]",
+  expect_row("a bond at R_t <= 0, which is not formed", "R_t of particles of 5 um at 55 % [N/m]",
              bond_of(5 * micrometre, h_max_of(55), 0).tension, -1e99, 0);
 }
 

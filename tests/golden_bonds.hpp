@@ -1,5 +1,5 @@
 #pragma once
-/// Tables of numbers that were computed once, apart from this code, from the seed paper's equations: equal discs of
+/// Tables of numbers that were computed once, apart from this code, from Jiang et al.'s (2017) equations: equal discs of
 /// d50 = 0.1694 mm, k_n = 3e8 N/m per m, E_m = 289 MPa, strength as printed in Eq. 15. Numbers are kept as text, with the
 /// digits that were printed. Lengths in micrometres, area in square micrometres, forces in N/m.
 namespace clathra::golden {

@@ -4,14 +4,14 @@
 
 namespace clathra {
 
-inline Specimen bonded_patch(Composite composite) {
+inline Specimen bonded_patch(ContactCoupling coupling) {
   Specimen s = disordered_patch(20, 20);
   for (std::size_t i = 0; i < s.size(); ++i) {  // many contacts are loaded when the bonds form
     s.x[i] *= 0.98;
     s.y[i] *= 0.98;
   }
   enclose(s);
-  bond_all(s, hydrate_scene(0.41, composite));
+  bond_all(s, hydrate_scene(0.41, coupling));
   return s;
 }
 
@@ -25,9 +25,9 @@ inline Specimen without_discs(Specimen s) {
 
 /// About to be sheared through breakage.
 /// @param share  this rank's part of the specimen, if there are ranks
-inline Simulation ready(Specimen const& s, Composite composite, Ranks const& ranks = {}, Specimen const* share = nullptr,
+inline Simulation ready(Specimen const& s, ContactCoupling coupling, Ranks const& ranks = {}, Specimen const* share = nullptr,
                         Precision precision = Precision::full) {
-  SimulationLaws laws = bonded_laws(hydrate_scene(0.41, composite), s.critical_thickness);
+  SimulationLaws laws = bonded_laws(hydrate_scene(0.41, coupling), s.critical_thickness);
   laws.precision = precision;
   laws.motion.damping = 0.3;
   laws.wall.friction = 0.2;
@@ -38,8 +38,8 @@ inline Simulation ready(Specimen const& s, Composite composite, Ranks const& ran
   sim.loading().x = AxisDrive::at_rate(-60);
   return sim;
 }
-inline Simulation sheared(Specimen const& s, Composite composite, Precision precision = Precision::full, int steps = 3000) {
-  Simulation sim = ready(s, composite, {}, nullptr, precision);
+inline Simulation sheared(Specimen const& s, ContactCoupling coupling, Precision precision = Precision::full, int steps = 3000) {
+  Simulation sim = ready(s, coupling, {}, nullptr, precision);
   for (int n = 0; n < steps; ++n) sim.step();
   return sim;
 }
@@ -69,16 +69,16 @@ inline void expect_equal_measures(Simulation const& one, Simulation const& many)
 }
 
 struct Golden {
-  Composite composite;
+  ContactCoupling coupling;
   Precision precision;
   std::uint64_t hash;
   int broken;
 };
-inline constexpr Golden golden[] = {{Composite::replace, Precision::full, 0xb32266e6acdafbebULL, 213},
-                                    {Composite::parallel, Precision::full, 0xc2baf36149f36ff8ULL, 469},
-                                    {Composite::memory, Precision::full, 0x92e06ba7ed616b25ULL, 308},
-                                    {Composite::replace, Precision::mixed, 0xa311bc3931ab307bULL, 200},
-                                    {Composite::parallel, Precision::mixed, 0x94108ce6e3b12124ULL, 452},
-                                    {Composite::memory, Precision::mixed, 0x11df95212d47d02cULL, 252}};
+inline constexpr Golden golden[] = {{ContactCoupling::replaces, Precision::full, 0xb32266e6acdafbebULL, 213},
+                                    {ContactCoupling::parallel, Precision::full, 0xc2baf36149f36ff8ULL, 469},
+                                    {ContactCoupling::replaces_keeping_force, Precision::full, 0x92e06ba7ed616b25ULL, 308},
+                                    {ContactCoupling::replaces, Precision::mixed, 0xa311bc3931ab307bULL, 200},
+                                    {ContactCoupling::parallel, Precision::mixed, 0x94108ce6e3b12124ULL, 452},
+                                    {ContactCoupling::replaces_keeping_force, Precision::mixed, 0x11df95212d47d02cULL, 252}};
 
 }  // namespace clathra

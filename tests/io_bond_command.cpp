@@ -15,7 +15,7 @@ namespace clathra {
 namespace {
 
 nlohmann::json bond(std::string const& arguments) {
-  CommandResult const result = run_clathra("bond --reading first_crack --json " + arguments);
+  CommandResult const result = run_clathra("bond --preset first_crack --json " + arguments);
   EXPECT_EQ(result.code, 0) << result.output;
   return nlohmann::json::parse(result.output.substr(result.output.find('{')));  // after notes, which go to stderr
 }
@@ -27,8 +27,8 @@ std::string bond_arguments(double S, double r1, double r2, double gap, double T,
   std::snprintf(
       text.data(), text.size(),
       "--saturation %.17g --d50 '0.1694 mm' --r1 '%.17g um' --r2 '%.17g um' --gap '%.17g um' --temperature '%.17g degC' "
-      "--pore-pressure '%.17g MPa' --hydrate-density '%.17g g/cm^3' --normal-force '%.17g N/m' --coefficients %s",
-      S, r1, r2, gap, T, sigma_w, rho, F_n, printed ? "printed" : "thm");
+      "--pore-pressure '%.17g MPa' --hydrate-density '%.17g g/cm^3' --normal-force '%.17g N/m' --strength-from %s",
+      S, r1, r2, gap, T, sigma_w, rho, F_n, printed ? "printed" : "conditions");
   return text.data();
 }
 
@@ -115,7 +115,7 @@ TEST(BondCommand, AgreesWithTheEquationsEvaluatedIndependently) {
 }
 
 TEST(BondCommand, ReproducesTheGoldenNumbersOfUnequalDiscs) {
-  auto const json = bond("--saturation \"41 %\" --r1 \"0.05 mm\" --r2 \"0.15 mm\" --gap \"2 um\" --coefficients printed");
+  auto const json = bond("--saturation \"41 %\" --r1 \"0.05 mm\" --r2 \"0.15 mm\" --gap \"2 um\" --strength-from printed");
   struct Golden {
     char const *key, *value;
   };
@@ -165,7 +165,7 @@ TEST(BondCommand, OutsideTheEnvelopeNothingIsLeft) {
 
 TEST(BondCommand, RefusesNonsenseWithTheRightCode) {
   EXPECT_EQ(run_clathra("bond").code, 64);
-  EXPECT_EQ(run_clathra("bond --saturation 0.41 --coefficients guessed").code, 64);
+  EXPECT_EQ(run_clathra("bond --saturation 0.41 --strength-from guessed").code, 64);
   CommandResult const length = run_clathra("bond --saturation 0.41 --pore-pressure \"8 mm\"");
   EXPECT_EQ(length.code, 65);
   EXPECT_NE(length.output.find("--pore-pressure needs a pressure, got a length ('8 mm'); example: \"1 MPa\""), std::string::npos)
@@ -193,23 +193,22 @@ TEST(CommandLine, HasOneCodeForEachKindOfFailure) {
   EXPECT_EQ(run_clathra("info no_such.h5").code, 66);
   EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set hydrate.saturation=26").code, 65);
   EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set test.inertial_number=0.02").code, 77);
-  EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set test.inertial_number=0.02 --force").code, 0);
+  EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set test.inertial_number=0.02 --ignore-guards").code, 0);
   EXPECT_EQ(run_clathra("run '" CLATHRA_EXAMPLES "/quick.toml' --output /proc/none").code, 73);
 }
 
 TEST(CommandLine, ListsTheFormatsOfAnExport) {
   CommandResult const result = run_clathra("export . --to vtk");
   EXPECT_EQ(result.code, 64);
-  EXPECT_NE(
-      result.output.find("there is no format 'vtk'; there are lammpsdump (discs as a LAMMPS text dump), vtu (VTK), csv (tables)"),
-      std::string::npos)
+  EXPECT_NE(result.output.find("there is no format 'vtk'; there are vtu (snapshots for VTK, with .pvd series), lammpsdump ("),
+            std::string::npos)
       << result.output;
   EXPECT_EQ(run_clathra("export . --to VTU").code, 66) << "in any case; there are no snapshots here";
 }
 
 TEST(CommandLine, TakesNoEmptyNameForWhatItWrites) {
   std::string const scene = CLATHRA_EXAMPLES "/quick.toml";
-  for (std::string const& arguments : {"run " + scene + " --dry-run --output \"\"", "generate " + scene + " -o \"\"",
+  for (std::string const& arguments : {"run " + scene + " --output \"\"", "generate " + scene + " -o \"\"",
                                        std::string("report . -o \"\""), std::string("export . --to csv -o \"\"")}) {
     CommandResult const result = run_clathra(arguments);
     EXPECT_EQ(result.code, 64) << arguments << result.output;
@@ -254,9 +253,9 @@ TEST(BenchCommand, PrintsATableOfSizesInBothPrecisions) {
   for (std::size_t n = 0; n < 4; ++n) {
     double const discs = n < 2 ? 2000 : 4000;
     EXPECT_EQ(rows[n]["precision"], n % 2 == 0 ? "double" : "mixed");
-    EXPECT_NEAR(rows[n]["discs"], discs, 0.1 * discs);
+    EXPECT_NEAR(rows[n]["particles"], discs, 0.1 * discs);
     double const speed = rows[n]["disc_steps_per_second"], step = rows[n]["seconds_per_step"];
-    EXPECT_NEAR(speed * step, rows[n]["discs"], 1);
+    EXPECT_NEAR(speed * step, rows[n]["particles"], 1);
     EXPECT_GE(rows[n]["launches_per_step"], for_gpu ? 0.1 : 3);  // drift, contacts, walls; there a graph of sixteen steps is one
     EXPECT_LT(rows[n]["launches_per_step"], 20);
     EXPECT_GT(rows[n]["bandwidth_share"], 0);

@@ -19,7 +19,7 @@ TEST(DivergedRun, LeavesTheSurroundingsOfTheDiscForParaView) {
                            "/specimen.h5 --output '" +
                            folder.string() + "' --set test.axial_strain='0.1 %' ";
   CommandResult const result =
-      run_clathra(soft + "--force --set grains.normal_stiffness='1 MPa' --set grains.shear_stiffness='1 MPa'");
+      run_clathra(soft + "--ignore-guards --set grains.normal_stiffness='1 MPa' --set grains.shear_stiffness='1 MPa'");
   EXPECT_EQ(result.code, 76) << result.output;
   for (char const* const part : {"clathra: diverged: step ", ", since a step after ", "; it is at (",
                                  "the grains are too soft for this stress", "diverged/particles.xdmf (ParaView)"})

@@ -61,13 +61,12 @@ std::vector<KeyTest> const key_tests = {
     {"bond.preset", "long_lever", moves},
     {"bond.law", "constant_thickness", moves},
     {"bond.contact_coupling", "replaces", moves},
-    {"bond.moment_scale", "paper_si", moves},
-    {"bond.moment_ratio", "0.1", moves},
+    {"bond.rolling_lever", "0.1 B", moves},
     {"bond.thickness_mapping", "scaled", moves},
     {"bond.friction_floor", "true", moves},
     {"bond.strength_from", "printed", moves},
-    {"bond.critical_thickness_from", "areal_target", moves},
-    {"bond.critical_thickness", "15 um", moves, "bond.critical_thickness_from=given_thickness"},
+    {"bond.critical_thickness_from", "bond_area", moves},
+    {"bond.critical_thickness", "15 um", moves, "bond.critical_thickness_from=given"},
     {"bond.constant_thickness", "10 um", moves, "bond.law=constant_thickness"},
     {"specimen.preparation_stress", "100 kPa", moves, "", true},
     {"bond.after_consolidation", "false", moves},
@@ -82,7 +81,7 @@ std::vector<KeyTest> const key_tests = {
     {"run.seed", "2", moves, "", true},
     {"run.threads", "2", leaves},
     {"run.precision", "double", moves},
-    {"run.time_step_rule", "bound", moves},
+    {"run.time_step_rule", "fixed", moves},
     {"run.time_step_safety", "0.5", moves},
     {"damping.local", "0.2", moves},
     {"run.rotational_inertia_factor", "2", moves},
@@ -106,7 +105,7 @@ class EveryKey : public testing::Test {
     fs::create_directories(folder());
     std::ofstream(folder() / "base.toml")
         << "[specimen]\nparticles = 300\n[hydrate]\nsaturation = \"55 %\"\n[test]\naxial_strain = \"1 %\"\n"
-           "inertial_number = 8e-4\n[bond]\nmoment_ratio = 0.02\n[output]\nrecords = 5\nsnapshots = 0\n";
+           "inertial_number = 8e-4\n[bond]\nrolling_lever = \"0.02 B\"\n[output]\nrecords = 5\nsnapshots = 0\n";
     std::ofstream(folder() / "sizes.csv") << "d_mm,percent_finer\n0.12,0\n0.16,50\n0.28,100\n";
     ASSERT_EQ(run_clathra("generate " + scene() + " -o " + (folder() / "specimen.h5").string()).code, 0);
   }

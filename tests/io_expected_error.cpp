@@ -15,10 +15,10 @@ Scene scene_of(double saturation) {
   scene.run.precision = Precision::full;
   return scene;
 }
-RateNumbers at(double inertial_number, double wave_number = 0) {
+RateNumbers at(double inertial_number, double platen_wave_stress = 0) {
   RateNumbers n;
   n.inertial_number = inertial_number;
-  n.wave_number = wave_number;
+  n.platen_wave_stress = platen_wave_stress;
   return n;
 }
 RateNumbers at(RateEffect const& row) { return at(row.inertial_number); }
@@ -97,13 +97,15 @@ constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
     {"hydrate.pore_pressure", [](Scene& s) { s.hydrate.pore_pressure = 1e7; }},
     {"hydrate.density", [](Scene& s) { s.hydrate.density = 850; }},
     {"bond.law", [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; }},
-    {"bond.contact_coupling", [](Scene& s) { s.bond.contact_coupling = Composite::memory; }},
-    {"bond.moment_scale", [](Scene& s) { s.bond.moment_scale = MomentScale::paper_si; }},
-    {"bond.moment_ratio", [](Scene& s) { s.bond.moment_ratio = 0.1; }},
-    {"bond.thickness_mapping", [](Scene& s) { s.bond.thickness_mapping = RodThickness::scaled; }},
+    {"bond.contact_coupling", [](Scene& s) { s.bond.contact_coupling = ContactCoupling::replaces_keeping_force; }},
+    {"bond.rolling_lever",
+     [](Scene& s) {
+       s.bond.rolling_lever = {1, 0};
+     }},
+    {"bond.thickness_mapping", [](Scene& s) { s.bond.thickness_mapping = ThicknessMapping::scaled; }},
     {"bond.friction_floor", [](Scene& s) { s.bond.friction_floor = true; }},
-    {"bond.strength_from", [](Scene& s) { s.bond.strength_from = CoefficientSource::printed; }},
-    {"bond.critical_thickness_from", [](Scene& s) { s.bond.critical_thickness_from = BondingMode::areal_target; }},
+    {"bond.strength_from", [](Scene& s) { s.bond.strength_from = StrengthFrom::printed; }},
+    {"bond.critical_thickness_from", [](Scene& s) { s.bond.critical_thickness_from = CriticalThicknessFrom::bond_area; }},
     {"bond.after_consolidation", [](Scene& s) { s.bond.after_consolidation = false; }},
     {"specimen.preparation_stress", [](Scene& s) { s.specimen.preparation_stress = 1e5; }},
     {"test.confining_stress", [](Scene& s) { s.test.confining_stress = 5e7; }},
@@ -140,7 +142,7 @@ TEST(ExpectedError, IsNotGivenForWhatWasNotMeasured) {
             "specimen.void_ratio, grains.friction");
   for (auto const& [key, change] : others) EXPECT_EQ(why(change, slow), key);
   Scene sand = scene_of(0);
-  sand.hydrate.temperature = 7, sand.bond.moment_ratio = 0.1;
+  sand.hydrate.temperature = 7, sand.bond.rolling_lever = {0, 0.1};
   EXPECT_TRUE(expected_error(sand, slow).peak_q) << "of bonds that there are not";
   sand.specimen.void_ratio = 0.24, sand.grading.d50 = 0.1694e-3;
   EXPECT_TRUE(expected_error(sand, slow).peak_q);

@@ -231,7 +231,7 @@ TEST_F(GradingFileOfAScene, IsWarnedOfWhereItsMedianHangsOnAPlateau) {
 }
 
 TEST_F(GradingFileOfAScene, IsWarnedOfWhereItsDiscsAreEqual) {
-  std::string const wanted = "warning: the discs are as good as equal (d90 / d10 = ";
+  std::string const wanted = "warning: the particles are as good as equal (d90 / d10 = ";
   EXPECT_EQ(warned(check("d_mm,finer\n0.2,0\n0.21,100\n")).substr(0, wanted.size()), wanted);
   EXPECT_EQ(warned(check("d_mm,finer\n0.2,0\n0.23,100\n")), "");
   EXPECT_EQ(warned(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set grading.table=uniform --disc-steps-per-second 1e6"))

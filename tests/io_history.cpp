@@ -64,18 +64,18 @@ TEST_F(History, HasTheColumnsThatTheDocumentationPromises) {
                                    "p_Pa",
                                    "void_ratio",
                                    "bonds_intact",
-                                   "intact_initial_pct",
-                                   "intact_interacting_pct",
+                                   "bonds_intact_pct",
+                                   "bonded_contacts_pct",
                                    "broken_tension",
                                    "broken_compression",
                                    "broken_shear",
                                    "broken_rolling",
                                    "coordination",
                                    "inertial_number",
-                                   "wave_number",
+                                   "platen_wave_stress",
                                    "unbalanced"})
     EXPECT_EQ(std::count(header.begin(), header.end(), column), 1) << column;
-  EXPECT_EQ(std::count(header.begin(), header.end(), "residual_J"), 0);
+  EXPECT_EQ(std::count(header.begin(), header.end(), "residual_J_per_m"), 0);
 }
 
 TEST_F(History, WritesNumbersThatReadBackToTheSameBits) {
@@ -111,15 +111,15 @@ TEST_F(History, AppendsTheEnergyLedgerWhereThereIsOne) {
   auto const lines = split(content(folder / "history.csv"), '\n');
   auto const names = split(lines[0], ','), cells = split(lines[1], ',');
   ASSERT_EQ(names.size(), cells.size());
-  EXPECT_EQ(names.back(), "residual_J");
+  EXPECT_EQ(names.back(), "residual_J_per_m");
   EXPECT_EQ(cells.back(), "7");
-  EXPECT_EQ(names[names.size() - 11], "boundary_work_J");
+  EXPECT_EQ(names[names.size() - 11], "boundary_work_J_per_m");
 }
 
 TEST_F(History, GoesOnWithItsOwnColumns) {
   fs::path const path = folder / "history.csv";
   HistoryRow row;
-  row.step = 3, row.q_Pa = 5e6, row.intact_interacting_pct = 12.5, row.mechanical_coordination = 4, row.unbalanced = 0.25;
+  row.step = 3, row.q_Pa = 5e6, row.bonded_contacts_pct = 12.5, row.mechanical_coordination = 4, row.unbalanced = 0.25;
   {
     HistoryFile file(path, false);
     file.write(row);
@@ -136,7 +136,7 @@ TEST_F(History, GoesOnWithItsOwnColumns) {
   std::vector<HistoryEntry> const entries = read_history(path, content(path).size());
   ASSERT_EQ(entries.size(), 2u);
   EXPECT_EQ(entries[1].row.step, 4);
-  EXPECT_EQ(entries[1].row.intact_interacting_pct, 12.5);
+  EXPECT_EQ(entries[1].row.bonded_contacts_pct, 12.5);
   EXPECT_EQ(entries[1].row.unbalanced, 0.25);
   for (char const* const column : {"unbalanced", "mechanical_coordination"}) {
     std::string const lacking = std::regex_replace(text, std::regex(column), "other");

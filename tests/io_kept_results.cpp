@@ -262,7 +262,7 @@ TEST_F(KeptResults, WithoutLocksAllWhoWriteIntoAFolderWarn) {
   for (std::string const& command :
        {"run " + scene + " --output '" + out.string() + "'",
         "study '" + (folder / "study.toml").string() + "' --output '" + (folder / "study").string() + "'",
-        "tune " + scene + " --particles 100 --budget 20s --folder '" + (folder / "tune").string() + "' -o '" +
+        "tune " + scene + " --particles 100 --max-walltime 20s --folder '" + (folder / "tune").string() + "' -o '" +
             (folder / "tuned.toml").string() + "'",
         "reproduce --particles 100 --seeds 1 --max-walltime 0.1s --output '" + (folder / "reproduce").string() + "'"}) {
     CommandResult const result = run_clathra(preload + command);

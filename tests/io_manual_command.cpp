@@ -27,7 +27,7 @@ TEST(Manual, NamesEveryVerbOfTheHelpEveryKeyAndEveryExitCode) {
   }
   EXPECT_GE(verbs, 6);
   for (Key const& key : schema()) EXPECT_NE(text.find(".B " + std::string(key.name) + "\n"), std::string::npos) << key.name;
-  for (int const code : {0, 64, 65, 66, 70, 73, 74, 75, 76, 77, 130})
+  for (int const code : {0, 64, 65, 66, 70, 71, 73, 74, 75, 76, 77, 78, 79, 130})
     EXPECT_NE(text.find(".B " + std::to_string(code) + "\n"), std::string::npos) << code;
 }
 

@@ -1,4 +1,4 @@
-/// The claims on the seed paper, from planted tests; the scorecard; points of a laboratory.
+/// The claims on Jiang et al. (2017), from planted tests; the scorecard; points of a laboratory.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -144,10 +144,10 @@ TEST(PaperClaims, WithoutTestsNothingIsDecidedButEquation3) {
 }
 
 TEST(Scorecard, SaysTheSameToPeopleAndPrograms) {
-  Scorecard const card{"Title", {{"discs", "20000"}}, paper_claims({}, obedient_tests(), d50)};
+  Scorecard const card{"Title", {{"particles", "20000"}}, paper_claims({}, obedient_tests(), d50)};
   std::string const text = scorecard_markdown(card);
   EXPECT_NE(text.find("| (9) The friction angle has no trend with saturation | pass | 1 of 1 |"), std::string::npos);
-  EXPECT_NE(text.find("- discs: 20000\n"), std::string::npos);
+  EXPECT_NE(text.find("- particles: 20000\n"), std::string::npos);
   nlohmann::json const json = nlohmann::json::parse(scorecard_json(card));
   ASSERT_EQ(json.at("claims").size(), 17U);
   nlohmann::json const& phi = json.at("claims").at(8).at("parts").at(0);
@@ -159,7 +159,7 @@ TEST(Scorecard, SaysTheSameToPeopleAndPrograms) {
 
 TEST_F(NumbersOfHistory, AreThoseOfAPlantedCurve) {
   std::ofstream file(folder / "history.csv");
-  file << "step,eps1,eps_v,q_Pa,sigma3_Pa,intact_initial_pct,broken_rolling\n";
+  file << "step,eps1,eps_v,q_Pa,sigma3_Pa,bonds_intact_pct,broken_rolling\n";
   for (int i = 0; i <= 750; ++i) {
     double const e = 0.1504 * i / 750, after = std::max(0.0, e - 0.03);
     double const q = e < 0.03 ? 8e6 * (1 - std::pow(1 - e / 0.03, 2)) : 4e6 + 4e6 * std::exp(-after / 0.01);

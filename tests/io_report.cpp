@@ -71,7 +71,7 @@ TEST_F(Report, ShowsTheSummaryAndTheWarningsWithHarmlessText) {
   EXPECT_NE(page.find("<td>2.000 (12–15 %)</td>"), std::string::npos) << "residual q";
   EXPECT_NE(page.find("<td>250</td>"), std::string::npos) << "E50";
   EXPECT_NE(page.find("<td>0x0000000000000abc</td>"), std::string::npos);
-  EXPECT_NE(page.find("<td>thickness_dependent, parallel, similitude, printed, thm</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>thickness_dependent, parallel, 0.25 B, identity, conditions</td>"), std::string::npos);
   EXPECT_NE(page.find("the &lt;wall&gt; is &quot;near&quot;"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
 }
@@ -100,7 +100,7 @@ TEST_F(Report, StacksTheLedgerUpToTheWork) {
   test.energy = true;
   std::string const page = page_on({made("a", test)});
   EXPECT_NE(page.find("Where the work went"), std::string::npos);
-  auto const curves = curves_of(page, "Energy ledger");
+  auto const curves = curves_of(page, "Energy balance");
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_NEAR(curves[0].back().second, 300, 1);
   std::regex const areas("<polygon data-name");
@@ -186,7 +186,7 @@ TEST_F(Report, DrawsWhatAHistoryWithFewerColumnsHasAndSaysWhatIsLeftOut) {
   std::string const history = content_of(run / "history.csv");
   std::ofstream(run / "history.csv") << columns_of(history, {"step", "eps1", "sigma1_Pa", "sigma3_Pa", "eps_v"});
   std::string const page = page_on({run});
-  EXPECT_NE(page.find("The history.csv of a has no void_ratio, bonds_intact, intact_initial_pct, broken_tension, "), page.npos);
+  EXPECT_NE(page.find("The history.csv of a has no void_ratio, bonds_intact, bonds_intact_pct, broken_tension, "), page.npos);
   EXPECT_NEAR(curves_of(page, "Deviator stress").at(0)[40].second, 5, 0.01) << "sigma1 - sigma3";
   EXPECT_NE(page.find("<td>5.000</td>"), page.npos) << "peak q";
   EXPECT_EQ(page.find("<title>Share of intact bonds"), page.npos);

@@ -112,7 +112,7 @@ TEST(ReportPictures, DrawNothingOutsideAndNothingThatIsNoNumber) {
   }
   for (Rgb const pixel : canvas.pixels()) EXPECT_EQ(pixel, (Rgb{255, 255, 255}));
   canvas.disc(10.5, 5.5, 0.1, colours::black);
-  EXPECT_NEAR(canvas.pixel(10, 5).red, 255 * (1 - 0.04), 1) << "a disc of a fifth of a pixel is a pale pixel";
+  EXPECT_NEAR(canvas.pixel(10, 5).red, 255 * (1 - 0.04), 1) << "a particle of a fifth of a pixel is a pale pixel";
 }
 
 TEST(ReportPictures, KeepTheirFlatColoursWhenThereAreMoreThanAPaletteHolds) {

@@ -63,7 +63,7 @@ TEST_F(ReportStrength, GivesItsNumbersToOtherPrograms) {
     folders += made("s" + std::to_string(static_cast<int>(sigma3 / 1e6)), test).string() + " ";
   }
   std::string const file = (folder / "numbers.json").string(), html = (folder / "page.html").string();
-  EXPECT_EQ(run_clathra("report " + folders + " --json " + file + " -o " + html).output, file + "\n" + html + "\n");
+  EXPECT_EQ(run_clathra("report " + folders + " --numbers " + file + " -o " + html).output, file + "\n" + html + "\n");
   auto const json = nlohmann::json::parse(content_of(file));
   ASSERT_EQ(json["runs"].size(), 3u);
   EXPECT_EQ(json["runs"][1]["name"], "s2");
@@ -78,7 +78,7 @@ TEST_F(ReportStrength, GivesItsNumbersToOtherPrograms) {
   EXPECT_NEAR(strength["peak"]["r_squared"].get<double>(), 1, 1e-9);
   EXPECT_NEAR(strength["peak"]["curvature_per_Pa"].get<double>() * 1e6, 0, 1e-6);
   EXPECT_TRUE(strength["peak"]["still_rising"].empty());
-  CommandResult const refused = run_clathra("report " + folders + " --json " + (folder / "none" / "n.json").string());
+  CommandResult const refused = run_clathra("report " + folders + " --numbers " + (folder / "none" / "n.json").string());
   EXPECT_EQ(refused.code, 73) << refused.output;
 }
 
@@ -210,7 +210,7 @@ TEST_F(ReportStrength, OfPairedSeedsIsTheMeanOverThemWithTheIntervalOfAStudy) {
   cohesions.pop_back();
   MeanInterval const mean = mean_interval(cohesions);
   std::string const file = (folder / "numbers.json").string();
-  ASSERT_EQ(run_clathra("report " + folders + " --json " + file).code, 0);
+  ASSERT_EQ(run_clathra("report " + folders + " --numbers " + file).code, 0);
   auto const peak = nlohmann::json::parse(content_of(file))["strength"][0]["peak"];
   EXPECT_EQ(peak["seeds"], (nlohmann::json{1, 2}));
   EXPECT_EQ(peak["incomplete_seeds"], (nlohmann::json::array({3})));

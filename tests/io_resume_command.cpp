@@ -207,7 +207,7 @@ TEST_F(RunFolder, TakesTheOlderCheckpointWhereRowsBehindItWereChanged) {
 TEST_F(RunFolder, IsThatOfTheSameSceneHoweverItsPathsAreWrittenAndWhoeverComputes) {
   std::string const here = "cd " + base().string() + " && ", program = CLATHRA_BINARY;
   std::string const ways[] = {here + program + " run scene.toml --output copy --resume --threads 2",
-                              here + program + " run ./scene.toml --output ./copy/ --resume --force",
+                              here + program + " run ./scene.toml --output ./copy/ --resume --ignore-guards",
                               here + "mkdir -p deep && cd deep && " + program + " run ../../" + base().filename().string() +
                                   "/scene.toml --output ../copy --resume",
                               program + " run " + (base() / "scene.toml").string() + " --output " + (base() / "copy").string() +

@@ -69,7 +69,7 @@ TEST_F(RunCommand, SaysOverWhatItsResidualIsTakenAndWhatItsSecondsCount) {
     EXPECT_TRUE(json["meaning"].contains("wall_seconds." + std::string(stage))) << stage;
   // The numbers of a report are those of the run.
   std::string const numbers = (folder / "numbers.json").string();
-  EXPECT_EQ(run_clathra("report " + (folder / "out").string() + " --json " + numbers).output, numbers + "\n");
+  EXPECT_EQ(run_clathra("report " + (folder / "out").string() + " --numbers " + numbers).output, numbers + "\n");
   auto const reported = nlohmann::json::parse(content(numbers))["runs"][0]["numbers"];
   EXPECT_GE(reported.size(), 11u);
   for (auto const& [name, value] : reported.items()) EXPECT_EQ(json["stages"]["shear"][name], value) << name;
@@ -134,16 +134,9 @@ TEST_F(RunCommand, GenerateAndInfoShareTheSpecimenFile) {
             record("out")["state_hash"].get<std::string>() + "\n");
   CommandResult const info = run_clathra("info " + file.string());
   EXPECT_EQ(info.code, 0);
-  EXPECT_NE(info.output.find("discs              300\n"), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("particles          300\n"), std::string::npos) << info.output;
   EXPECT_NE(info.output.find("void ratio         0.2"), std::string::npos) << info.output;
   EXPECT_NE(run_clathra("info " + (folder / "out").string()).output.find("peak_q_Pa"), std::string::npos);
-}
-
-TEST_F(RunCommand, ADryRunWritesNothing) {
-  CommandResult const result = run("out", "--dry-run");
-  EXPECT_EQ(result.code, 0);
-  EXPECT_NE(result.output.find("time step"), std::string::npos);
-  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST_F(RunCommand, ClosedOrFullStandardStreamsChangeNoByteOfTheResults) {
@@ -254,9 +247,9 @@ TEST_F(RunCommand, SnapshotsFollowTheStrainAndVerifyNoticesAChangedFile) {
   EXPECT_NE(first.output.find("bonded "), std::string::npos) << first.output;
   CommandResult const exported = run_clathra("export " + out + " --to csv");
   EXPECT_EQ(exported.code, 0) << exported.output;
-  EXPECT_TRUE(fs::exists(folder / "out" / "export" / "discs_000000000000.csv"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "export" / "particles_000000000000.csv"));
   EXPECT_EQ(run_clathra("export " + out + "/snap/000000000000.h5 --to lammpsdump").code, 0);
-  EXPECT_TRUE(fs::exists(folder / "out" / "export" / "discs_000000000000.lammpstrj"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "export" / "particles_000000000000.lammpstrj"));
   std::ofstream(folder / "out" / "history.csv", std::ios::app) << "1\n";
   fs::remove(folder / "out" / "final.h5");
   CommandResult const changed = run_clathra("verify " + out);

@@ -25,7 +25,7 @@ std::string needs_of_examples() {
   std::ostringstream text;
   for (fs::path const& path : scenes) {
     SceneNeeds const needs = needs_of(load_scene(path).scene);
-    text << fs::relative(path, CLATHRA_EXAMPLES).string() << ": " << needs.bytes(FieldOf::disc) << " a disc, "
+    text << fs::relative(path, CLATHRA_EXAMPLES).string() << ": " << needs.bytes(FieldOf::disc) << " a particle, "
          << needs.bytes(FieldOf::entry) << " an entry;";
     for (NeededField const& field : needs.fields)
       if (field.asked_by != "every scene") text << ' ' << field.name;
@@ -46,7 +46,7 @@ TEST(SceneNeeds, OfTheExamplesAreThoseOnRecord) {
 TEST(SceneNeeds, AreWhatInfoPrints) {
   CommandResult const out = run_clathra("info --cost " CLATHRA_EXAMPLES "/sand.toml");
   EXPECT_EQ(out.code, 0);
-  for (char const* const part : {"bytes a disc", "friction", "output.snapshots", "kick_and_drift"})
+  for (char const* const part : {"bytes a particle", "friction", "output.snapshots", "kick_and_drift"})
     EXPECT_NE(out.output.find(part), std::string::npos) << part;
   EXPECT_EQ(out.output.find("hydrate"), std::string::npos) << "nothing of bonds is there";
   EXPECT_EQ(run_clathra("info --cost nowhere.toml").code, 66);

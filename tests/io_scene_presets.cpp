@@ -27,17 +27,17 @@ LoadedScene load(std::string const& text, Texts const& overrides = {}) {
 std::string const sized = "[specimen]\nparticles = 2000\n";
 
 TEST(ScenePresets, APresetStandsInForTheDefaultsThatAreNotStated) {
-  for (PresetGroup const* const group : {&readings(), &accuracies()})
+  for (PresetGroup const* const group : {&bond_presets(), &run_presets()})
     for (Preset const& preset : group->presets) {
       std::string const named = std::string(group->key) + "=" + std::string(preset.name);
-      Texts const stated = {"bond.moment_ratio=0.3", "bond.contact_coupling=replaces_keeping_force",
+      Texts const stated = {"bond.rolling_lever=0.3 B", "bond.contact_coupling=replaces_keeping_force",
                             "run.rotational_inertia_factor=2", "test.inertial_number=3e-4", "test.max_platen_wave_stress=0.3"};
       Scene const scene = load(sized, {named}).scene;
       Texts overrides = stated;
       overrides.push_back(named);
       Scene const other = load(sized, overrides).scene;
-      EXPECT_EQ(other.bond.moment_ratio, 0.3);
-      EXPECT_EQ(other.bond.contact_coupling, Composite::memory);
+      EXPECT_EQ(other.bond.rolling_lever, (RollingLever{0, 0.3}));
+      EXPECT_EQ(other.bond.contact_coupling, ContactCoupling::replaces_keeping_force);
       EXPECT_EQ(other.run.rotational_inertia_factor, 2);
       EXPECT_EQ(other.test.inertial_number, 3e-4);
       ASSERT_EQ(preset.keys.size(), group->presets.front().keys.size());
@@ -56,9 +56,9 @@ TEST(ScenePresets, APresetStandsInForTheDefaultsThatAreNotStated) {
 
 TEST(ScenePresets, TheFirstPresetsAreTheDefaults) {
   Scene const defaults, usual = load(sized).scene;
-  EXPECT_EQ(defaults.bond.preset, readings().presets.front().name);
-  EXPECT_EQ(defaults.run.preset, accuracies().presets.front().name);
-  for (PresetGroup const* const group : {&readings(), &accuracies()})
+  EXPECT_EQ(defaults.bond.preset, bond_presets().presets.front().name);
+  EXPECT_EQ(defaults.run.preset, run_presets().presets.front().name);
+  for (PresetGroup const* const group : {&bond_presets(), &run_presets()})
     for (PresetKey const& said : group->presets.front().keys)
       EXPECT_EQ(value_text(*find_key(said.key), defaults), value_text(*find_key(said.key), usual)) << said.key;
   for (auto const& [text, hint] : {std::pair("bond.preset=litteral", "literal"), std::pair("run.preset=standart", "standard")})
@@ -72,7 +72,7 @@ TEST(ScenePresets, TheFirstPresetsAreTheDefaults) {
 }
 
 TEST(ScenePresets, AStatedStrainRateIsNoAffairOfAnAccuracy) {
-  for (std::string_view const name : accuracies().names) {
+  for (std::string_view const name : run_presets().names) {
     std::string const accuracy = "[run]\npreset = \"" + std::string(name) + "\"\n";
     Scene const stated = load(sized + accuracy + "[test]\nstrain_rate = \"5 %/min\"\n").scene;
     EXPECT_EQ(stated.test.strain_rate, 0.05 / 60);
@@ -94,7 +94,7 @@ TEST(ScenePresets, GrainsThatAreTooStiffForMixedPrecisionGetDouble) {
 }
 
 TEST(ScenePresets, TheEchoOfAnAccuracyLoadsToItsValues) {
-  for (std::string_view const name : accuracies().names) {
+  for (std::string_view const name : run_presets().names) {
     Scene const scene = load(sized, {"run.preset=" + std::string(name)}).scene;
     Scene const again = parse_scene(resolved_scene(scene, "."), "resolved.toml", ".").scene;
     for (Key const& key : schema()) EXPECT_EQ(value_text(key, scene), value_text(key, again)) << name << ": " << key.name;
@@ -104,7 +104,7 @@ TEST(ScenePresets, TheEchoOfAnAccuracyLoadsToItsValues) {
 TEST(ScenePresets, TheNameOfAnAccuracyIsNoDifferenceItsValuesAre) {
   Scene const draft = load(sized, {"run.preset=draft"}).scene;
   Texts same;
-  for (PresetKey const& said : accuracies().of("draft").keys)
+  for (PresetKey const& said : run_presets().of("draft").keys)
     same.push_back(std::string(said.key) + "=" + std::string(said.value));
   EXPECT_EQ(scene_differences(scene_texts(draft, "."), load(sized, same).scene, "."), "");
   std::string const other = scene_differences(scene_texts(draft, "."), load(sized).scene, ".");
@@ -129,7 +129,7 @@ TEST(ScenePresets, EachAccuracyRunsAndIsResumedInItsOwnOnly) {
     ASSERT_EQ(first.code, 0) << first.output;
     auto const record = nlohmann::json::parse(std::ifstream(folder / "out" / "run.json"));
     EXPECT_EQ(record["scene"]["run"]["preset"], accuracy);
-    for (PresetKey const& said : accuracies().of(accuracy).keys) {
+    for (PresetKey const& said : run_presets().of(accuracy).keys) {
       Scene wanted;
       set_stated(*find_key(said.key), wanted, said.value);
       Scene const resolved = load_scene(folder / "out" / "resolved.toml").scene;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// A bonded patch between walls that was squeezed until some of its bonds broke.
 Simulation squeezed_patch() {
-  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::parallel);
   Specimen s = disordered_patch(12, 12, 0.02);
   enclose(s);
   bond_all(s, scene);
@@ -215,7 +215,7 @@ TEST_F(SnapshotFile, LammpsDumpListsEveryDisc) {
 TEST_F(SnapshotFile, ExportsUnderNamesOfTheStep) {
   EXPECT_EQ(export_snapshot(snapshot, ExportFormat::csv, folder / "x").size(), 2u);
   EXPECT_EQ(export_snapshot(snapshot, ExportFormat::vtu, folder / "x").size(), 2u);
-  EXPECT_TRUE(fs::exists(folder / "x" / "discs_000000004000.vtu"));
+  EXPECT_TRUE(fs::exists(folder / "x" / "particles_000000004000.vtu"));
   std::string const pairs = content(folder / "x" / "contacts_000000004000.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(pairs.begin(), pairs.end(), '\n')), snapshot.a.size() + 1);
   EXPECT_NE(pairs.find(",broken_"), std::string::npos);
@@ -227,7 +227,7 @@ TEST_F(SnapshotFile, ExportsUnderNamesOfTheStep) {
 
 /// A million bonded discs under stress, with the noise of real forces: a packed cell of 2,000 repeated.
 Simulation million_discs() {
-  Scene scene = hydrate_scene(0.55, Composite::parallel);
+  Scene scene = hydrate_scene(0.55, ContactCoupling::parallel);
   scene.specimen.particles = 2000;
   scene.specimen.void_ratio = 0.23;
   scene.specimen.preparation_stress = 1e6;
@@ -270,7 +270,7 @@ TEST_F(SnapshotFile, LongAMillionDiscsAreWrittenInTenSecondsAndThirtyMegabytes) 
   write_snapshot(folder / "big.h5", big);
   double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   auto const bytes = static_cast<double>(fs::file_size(folder / "big.h5"));
-  std::printf("%d discs, %zu pairs: %.1f s, %.1f MB\n", sim.assembly().discs(), big.a.size(), seconds, bytes * 1e-6);
+  std::printf("%d particles, %zu pairs: %.1f s, %.1f MB\n", sim.assembly().discs(), big.a.size(), seconds, bytes * 1e-6);
   if (char const* const keep = std::getenv("CLATHRA_KEEP"))
     fs::copy_file(folder / "big.h5", keep, fs::copy_options::overwrite_existing);
   EXPECT_LT(seconds, 10);

@@ -17,9 +17,9 @@ TEST_F(SpecimenCheck, ASpecimenOfOursIsTakenWithoutAWord) {
 }
 
 TEST_F(SpecimenCheck, TheD50MustBeThatOfTheDiscs) {
-  refuses("its attribute d50 is 0.3388 mm, that of its discs is 0.168976 mm", [](Specimen& s) { s.d50 *= 2; });
-  refuses("its attribute d50 is 0.0001694 mm, that of its discs is 0.168976 mm", [](Specimen& s) { s.d50 *= 1e-3; });
-  refuses("its attribute d50 is 169.4 mm, that of its discs is 0.168976 mm", [](Specimen& s) { s.d50 *= 1e3; });
+  refuses("its attribute d50 is 0.3388 mm, that of its particles is 0.168976 mm", [](Specimen& s) { s.d50 *= 2; });
+  refuses("its attribute d50 is 0.0001694 mm, that of its particles is 0.168976 mm", [](Specimen& s) { s.d50 *= 1e-3; });
+  refuses("its attribute d50 is 169.4 mm, that of its particles is 0.168976 mm", [](Specimen& s) { s.d50 *= 1e3; });
   refuses("its attribute d50", [](Specimen& s) { s.d50 *= 0.9; });
   takes([](Specimen& s) { s.d50 *= 1.03; });
 }
@@ -27,26 +27,26 @@ TEST_F(SpecimenCheck, TheD50MustBeThatOfTheDiscs) {
 /// Either is the d50, and all between them.
 TEST_F(SpecimenCheck, WhereTheCurveIsFlatTheD50MayBeAnyOfItsSizes) {
   for (double const d50 : {2e-4, 4e-4, 8e-4}) takes(two_sizes(d50));
-  refuses("its attribute d50 is 1 mm, that of its discs is 0.2 mm", two_sizes(1e-3));
-  refuses("its attribute d50 is 0.18 mm, that of its discs is 0.2 mm", two_sizes(1.8e-4));
+  refuses("its attribute d50 is 1 mm, that of its particles is 0.2 mm", two_sizes(1e-3));
+  refuses("its attribute d50 is 0.18 mm, that of its particles is 0.2 mm", two_sizes(1.8e-4));
 }
 
 TEST_F(SpecimenCheck, TheVoidRatioMustBeThatOfTheDiscsBetweenTheWalls) {
-  refuses("its attribute void_ratio is 0.2684, that of its discs between its walls is 0.2664",
+  refuses("its attribute void_ratio is 0.2684, that of its particles between its walls is 0.2664",
           [](Specimen& s) { s.void_ratio = 0.2684; });
   takes([](Specimen& s) { s.void_ratio += 0.9e-3; });
-  refuses("that of its discs between its walls is", [](Specimen& s) {
+  refuses("that of its particles between its walls is", [](Specimen& s) {
     for (double& r : s.radius) r *= 1.15;
     s.d50 *= 1.15;
   });
-  refuses("d50) from the nearest disc", [](Specimen& s) { s.top += s.height(); });
+  refuses("d50) from the nearest particle", [](Specimen& s) { s.top += s.height(); });
 }
 
 TEST_F(SpecimenCheck, DiscsMustLieBetweenTheWalls) {
-  refuses("disc 17 has its centre 0.847 mm outside of the left wall",
+  refuses("particle 17 has its centre 0.847 mm outside of the left wall",
           [](Specimen& s) { s.x[place(s, 17)] = s.left - 5 * 0.1694e-3; });
   refuses("outside of the right wall, 5", [](Specimen& s) { s.right = s.left + s.width() / 2; });
-  refuses("disc 3 has its centre 1e-06 mm outside of the top wall", [](Specimen& s) { s.y[place(s, 3)] = s.top + 1e-9; });
+  refuses("particle 3 has its centre 1e-06 mm outside of the top wall", [](Specimen& s) { s.y[place(s, 3)] = s.top + 1e-9; });
 }
 
 TEST_F(SpecimenCheck, DiscsMustNotBeAtOnePlace) {
@@ -56,8 +56,8 @@ TEST_F(SpecimenCheck, DiscsMustNotBeAtOnePlace) {
       s.x[b] = s.x[a] + away, s.y[b] = s.y[a];
     };
   };
-  refuses("and disc 60 overlap by", onto(0));
-  refuses("disc 12 at (", onto(1e-5));
+  refuses("and particle 60 overlap by", onto(0));
+  refuses("particle 12 at (", onto(1e-5));
 }
 
 TEST_F(SpecimenCheck, TheDensityMustBeThatOfGrains) {
@@ -147,8 +147,8 @@ TEST_F(SpecimenCheck, AttributesThatCannotBeAreRefused) {
 }
 
 TEST_F(SpecimenCheck, MotionAndForcesThatCannotBeAreRefused) {
-  refuses("disc 17 moves or spins at 1e+08 m/s", [](Specimen& s) { s.vx[place(s, 17)] = -1e8; });
-  refuses("disc 3 moves or spins at", [](Specimen& s) { s.omega[place(s, 3)] = 1e9; });
+  refuses("particle 17 moves or spins at 1e+08 m/s", [](Specimen& s) { s.vx[place(s, 17)] = -1e8; });
+  refuses("particle 3 moves or spins at", [](Specimen& s) { s.omega[place(s, 3)] = 1e9; });
   auto const contact = [](double SpecimenContact::*number, double value) {
     return [=](Specimen& s) { s.contacts.push_back({}), s.contacts.back().id_b = 1, s.contacts.back().*number = value; };
   };
@@ -164,7 +164,7 @@ TEST_F(SpecimenCheck, MotionAndForcesThatCannotBeAreRefused) {
   refuses("the bond 0 - 1 has no h_max: critical_thickness is left out or 0", bond(0, -1e-6));
   refuses("the bond 0 - 1 formed across 12 um, h_max (critical_thickness) is 10 um", bond(1e-5, -1.2e-5));
   takes(bond(1e-5, -1e-5));
-  refuses("contact 0 - 100 names a disc that is not there: ids go to 99",
+  refuses("contact 0 - 100 names a particle that is not there: ids go to 99",
           [](Specimen& s) { s.contacts.push_back({}), s.contacts.back().id_b = 100; });
   takes(contact(&SpecimenContact::shear, 1e4));
 }
@@ -176,7 +176,7 @@ TEST_F(SpecimenCheck, PlacesMustBeExactEnoughForOverlaps) {
       for (double& x : s.x) x += by;
     };
   };
-  refuses("it reaches to 1e+06 m from the origin, 5.92e+09 times the d50 of its discs", move(1e6));
+  refuses("it reaches to 1e+06 m from the origin, 5.92e+09 times the d50 of its particles", move(1e6));
   takes(move(1e3));
 }
 
@@ -185,7 +185,7 @@ TEST_F(SpecimenCheck, ATestTakesNoPeriodicCell) {
   EXPECT_TRUE(says(run_clathra("info '" + file.string() + "'"), ", periodic"));
   std::ofstream(folder / "study.toml") << "scene = \"a.toml\"\n";
   for (CommandResult const& result :
-       {by_scene("check"), by_scene("run", "--dry-run"),
+       {by_scene("check"), by_scene("run"),
         run_clathra("study '" + (folder / "study.toml").string() + "' --output '" + (folder / "out").string() + "' --dry-run")}) {
     EXPECT_EQ(result.code, 65) << result.output;
     EXPECT_TRUE(says(result, "is a periodic cell: a test loads a specimen by its walls"));

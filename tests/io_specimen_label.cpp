@@ -73,14 +73,14 @@ TEST(SpecimenLabel, BondsOfAnotherSceneAreRefusedWithBothValuesWhateverIsForced)
   expect("hydrate.saturation was 0.55, is 0.26", [](Scene& s) { s.hydrate.saturation = 0.26; });
   expect("hydrate.density was 900 kg/m^3, is 920 kg/m^3", [](Scene& s) { s.hydrate.density = 920; });
   expect("bond.contact_coupling was parallel, is replaces_keeping_force",
-         [](Scene& s) { s.bond.contact_coupling = Composite::memory; });
+         [](Scene& s) { s.bond.contact_coupling = ContactCoupling::replaces_keeping_force; });
   expect("bond.law was thickness_dependent, is constant_thickness",
          [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; });
-  expect("bond.strength_from was thm, is printed", [](Scene& s) { s.bond.strength_from = CoefficientSource::printed; });
-  expect("bond.moment_scale was similitude, is rod_mm", [](Scene& s) { s.bond.moment_scale = MomentScale::rod_mm; });
-  expect("bond.moment_ratio was ", [](Scene& s) { s.bond.moment_ratio = 0.1; });
-  expect("bond.critical_thickness_from was eq3, is areal_target",
-         [](Scene& s) { s.bond.critical_thickness_from = BondingMode::areal_target; });
+  expect("bond.strength_from was conditions, is printed", [](Scene& s) { s.bond.strength_from = StrengthFrom::printed; });
+  expect("bond.rolling_lever was 0.25 B, is 1 mm", [](Scene& s) { s.bond.rolling_lever = {1e-3, 0}; });
+  expect("bond.rolling_lever was ", [](Scene& s) { s.bond.rolling_lever = {0, 0.1}; });
+  expect("bond.critical_thickness_from was saturation, is bond_area",
+         [](Scene& s) { s.bond.critical_thickness_from = CriticalThicknessFrom::bond_area; });
   expect("hydrate.saturation was 0.55, is 0", [](Scene& s) { s.hydrate.saturation = 0; });
   expect("bond.law was thickness_dependent, is none", [](Scene& s) { s.bond.law = BondLawKind::none; });
   expect("its grains have a density of 2600 kg/m^3, grains.density is 2700 kg/m^3", [](Scene& s) { s.grains.density = 2700; });
@@ -111,10 +111,10 @@ TEST(SpecimenLabel, BondsThatAreNotLabelledAreJudgedByWhatTheyShow) {
   EXPECT_TRUE(refuses(verdict(specimen, other), "which Eq. 3 gives at a saturation of 0.55; hydrate.saturation is 0.26, which"));
   EXPECT_TRUE(refuses(verdict(specimen, scene_at(0)), "the scene makes none (hydrate.saturation is 0"));
   other = scene;
-  other.bond.contact_coupling = Composite::replace;
+  other.bond.contact_coupling = ContactCoupling::replaces;
   EXPECT_TRUE(refuses(verdict(specimen, other), "act in parallel to the grain contacts, bond.contact_coupling is replace"));
   other = scene;
-  other.bond.critical_thickness_from = BondingMode::given_thickness;
+  other.bond.critical_thickness_from = CriticalThicknessFrom::given;
   other.bond.critical_thickness = 1e-5;
   EXPECT_TRUE(refuses(verdict(specimen, other), "bond.critical_thickness is 10 um"));
   other.bond.critical_thickness = specimen.critical_thickness;
@@ -159,8 +159,8 @@ class SpecimenOfARun : public testing::Test {
 
 TEST_F(SpecimenOfARun, GoesOnUnderItsOwnLabelOnly) {
   ASSERT_EQ(clathra("run", "--output " + out("first")).code, 0);
-  std::string const last = reading(out("first") + "/final.h5"), other = " --force --set hydrate.saturation=\"26 %\" ";
-  for (std::string const verb : {"run --dry-run", "run", "check"}) {
+  std::string const last = reading(out("first") + "/final.h5"), other = " --ignore-guards --set hydrate.saturation=\"26 %\" ";
+  for (std::string const verb : {"run", "check"}) {
     CommandResult const refused = clathra(verb, last + other + (verb == "run" ? "--output " + out("second") : ""));
     EXPECT_EQ(refused.code, 77) << verb << refused.output;
     EXPECT_TRUE(says(refused.output, "final.h5: holds bonds of another scene: hydrate.saturation was 0.55, is 0.26")) << verb;

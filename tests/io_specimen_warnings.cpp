@@ -7,9 +7,9 @@ namespace {
 
 TEST_F(SpecimenCheck, ASpecimenThatIsNotAtRestIsWarnedOf) {
   write([](Specimen& s) { s.vx[place(s, 17)] = 30; });
-  EXPECT_NE(warnings().find("disc 17 moves or spins at 30 m/s, worth 2340 kPa"), std::string::npos) << warnings();
+  EXPECT_NE(warnings().find("particle 17 moves or spins at 30 m/s, worth 2340 kPa"), std::string::npos) << warnings();
   write([](Specimen& s) { s.vx[place(s, 17)] = 3, s.stress = 0; });
-  EXPECT_NE(warnings().find("disc 17 moves or spins at 3 m/s"), std::string::npos) << warnings();
+  EXPECT_NE(warnings().find("particle 17 moves or spins at 3 m/s"), std::string::npos) << warnings();
   write([](Specimen& s) { s.vx[place(s, 17)] = 0.1; });
   EXPECT_EQ(warnings(), "");
 }
@@ -26,10 +26,9 @@ TEST_F(SpecimenCheck, ABoxSmallerThanItsSandIsWarnedOf) {
 TEST_F(SpecimenCheck, ABoxLargerThanItsSandIsWarnedOf) {
   write([](Specimen& s) { s.top += s.height(); });
   leave_out({"void_ratio"});
-  EXPECT_NE(warnings().find("d50) from the nearest disc: the box is larger than its sand"), std::string::npos) << warnings();
+  EXPECT_NE(warnings().find("d50) from the nearest particle: the box is larger than its sand"), std::string::npos) << warnings();
   EXPECT_TRUE(says(run_clathra("info '" + file.string() + "'"), "warning: " + file.string() + ": the top wall is "));
-  EXPECT_TRUE(says(by_scene("check", "--force"), "the box is larger than its sand"));
-  EXPECT_TRUE(says(by_scene("run", "--force --dry-run"), "the box is larger than its sand"));
+  EXPECT_TRUE(says(by_scene("check", "--ignore-guards"), "the box is larger than its sand"));
 }
 
 TEST_F(SpecimenCheck, DiscsTooLargeForTheirPlacesAreWarnedOf) {
@@ -55,11 +54,11 @@ TEST_F(SpecimenCheck, SizesThatMakeOddTestsAreWarnedOf) {
     for (double& r : s.radius) r = 5e-5;
   });
   leave_out({"void_ratio", "d50"});
-  EXPECT_NE(warnings().find("the discs are as good as equal (d90 / d10 = 1)"), std::string::npos) << warnings();
+  EXPECT_NE(warnings().find("the particles are as good as equal (d90 / d10 = 1)"), std::string::npos) << warnings();
 }
 
 TEST_F(SpecimenCheck, AStressThatTheOverlapsDoNotShowIsWarnedOf) {
-  std::string const wanted = "says that it rests under 1000 kPa; by the overlaps of its discs and a kn of 100 MPa it carries";
+  std::string const wanted = "says that it rests under 1000 kPa; by the overlaps of its particles and a kn of 100 MPa it carries";
   write([](Specimen&) {});
   EXPECT_NE(warnings(1e8).find(wanted), std::string::npos) << warnings(1e8);
   // The stiffness that it came to rest with is what counts, where the file says it.
@@ -97,13 +96,12 @@ TEST_F(SpecimenCheck, ATestIsForecastFromTheDiscsOfTheFile) {
 
 TEST_F(SpecimenCheck, WhatATestCannotBearIsRefusedAsWhereItIsGenerated) {
   write([](Specimen&) {});
-  std::string const ranks = "100 discs cannot be cut among 3 ranks: each needs 50, so at most 2 can share them";
+  std::string const ranks = "100 particles cannot be cut among 3 ranks: each needs 50, so at most 2 can share them";
   CommandResult const among = by_scene("check", "--ranks 3");
   EXPECT_EQ(among.code, 77);
   EXPECT_TRUE(says(among, ranks)) << among.output;
   for (char const* const verb : {"check", "run"}) {
-    CommandResult const skin =
-        by_scene(verb, std::string("--set run.verlet_skin='0.6 mm'") + (verb[0] == 'r' ? " --dry-run" : ""));
+    CommandResult const skin = by_scene(verb, "--set run.verlet_skin='0.6 mm'");
     EXPECT_EQ(skin.code, 77) << skin.output;
     EXPECT_TRUE(says(skin, "of this grading the skin may be")) << skin.output;
   }

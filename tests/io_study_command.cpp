@@ -76,7 +76,7 @@ TEST_F(StudyCommand, LeavesATableWithARowForEachMemberAndStatisticsOfEachGroup) 
 
 TEST_F(StudyCommand, NamesAMemberThatFailsAndGoesOnWithTheOthers) {
   CommandResult const result = study("seeds = 1\n[matrix]\nspecimen.void_ratio = [0.1, 0.28, 0.29]\n");
-  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_EQ(result.code, 78) << result.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished", "finished"}));
   EXPECT_NE(cells("member", "message")[0].find(" without friction: looser than the 0.1 that was asked for"), std::string::npos)
       << csv();
@@ -90,7 +90,7 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
     CommandResult const result = study(four, option);
     EXPECT_EQ(result.code, 77) << result.output;
     for (char const* const part :
-         {"2 of 4 groups would be refused, so nothing was started: --skip-refused goes on without them, --force",
+         {"2 of 4 groups would be refused, so nothing was started: --skip-refused goes on without them, --ignore-guards",
           "the group inertial-number0.5 would be refused: inertial number I = 0.5",
           "the group inertial-number0.3 would be refused: inertial number I = 0.3"})
       EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
@@ -103,8 +103,9 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
   EXPECT_NE(skipped.output.find("2 finished, 2 refused by guards and left out"), std::string::npos) << skipped.output;
   EXPECT_EQ(study(four, "--collect --skip-refused").code, 0);
   EXPECT_EQ(cells("member", "state")[3], "refused");
-  CommandResult const forced = study("seeds = 1\n[matrix]\ntest.inertial_number = [0.02, 1e-3]\n", "--force --allow-mixed");
-  EXPECT_EQ(forced.code, 0) << forced.output;
+  CommandResult const ignored =
+      study("seeds = 1\n[matrix]\ntest.inertial_number = [0.02, 1e-3]\n", "--ignore-guards --allow-mixed");
+  EXPECT_EQ(ignored.code, 0) << ignored.output;
 }
 
 /// Of the scene as of the forecast.
@@ -169,7 +170,7 @@ TEST_F(StudyCommand, MakesNewSpecimensOfAGradingThatWasEditedInPlace) {
   std::string const before = csv();
   std::ofstream(folder / "sizes.csv") << "d_mm,percent_finer\n0.14,0\n0.16,30\n0.17,50\n0.18,80\n0.2,100\n";
   CommandResult const again = study(graded);
-  EXPECT_EQ(again.code, 77) << again.output;
+  EXPECT_EQ(again.code, 78) << again.output;
   EXPECT_NE(again.output.find("holds the finished run of another scene"), std::string::npos) << again.output;
   EXPECT_NE(csv().find("the specimen file had digest"), std::string::npos) << csv();
 }
@@ -201,7 +202,7 @@ TEST_F(StudyCommand, NamesAMemberWithABadNumberAndGoesOnWithTheOthers) {
     std::string text = whole;
     std::ofstream(record) << text.insert(text.rfind(number) + number.size(), bad);
     CommandResult const result = study(two);
-    EXPECT_EQ(result.code, 77) << result.output;
+    EXPECT_EQ(result.code, 78) << result.output;
     EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished", "finished", "finished"})) << number;
     EXPECT_NE(cells("member", "message")[0].find("run.json"), std::string::npos) << csv();
   }
@@ -297,7 +298,7 @@ TEST_F(StudyCommand, KnowsAMemberWhoseRowsAreNotThoseOfItsRun) {
   std::string const whole = read_text_file(rows, 1 << 24);
   std::ofstream(rows) << whole.substr(0, whole.size() * 8 / 10);
   CommandResult const result = study("seeds = 2\n", "--collect");
-  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_EQ(result.code, 78) << result.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished"}));
   EXPECT_NE(result.output.find("history.csv: is not the one that its run.json says"), std::string::npos) << result.output;
 }
@@ -306,7 +307,7 @@ TEST_F(StudyCommand, DoesNotExtendMembersOfAShorterTest) {
   ASSERT_EQ(study("seeds = 1\n").code, 0);
   std::string const before = csv();
   CommandResult const longer = study("seeds = 1\n", "--set test.axial_strain=0.005");
-  EXPECT_EQ(longer.code, 77) << longer.output;
+  EXPECT_EQ(longer.code, 78) << longer.output;
   EXPECT_NE(longer.output.find("a study does not extend it"), std::string::npos) << longer.output;
   EXPECT_EQ(study("seeds = 1\n").code, 0);
   EXPECT_EQ(csv(), before);
@@ -323,7 +324,7 @@ TEST_F(StudyCommand, SaysWhereAMistakeIs) {
     EXPECT_NE(result.output.find(option.substr(0, option.find(' '))), std::string::npos) << result.output;
   }
   CommandResult const loose = study("seeds = 1\n", "--set specimen.void_ratio=0.9");
-  EXPECT_EQ(loose.code, 77) << loose.output;
+  EXPECT_EQ(loose.code, 78) << loose.output;
   EXPECT_NE(cells("member", "message")[0].find("could not be made: "), std::string::npos) << csv();
   EXPECT_NE(cells("member", "message")[0].find("denser"), std::string::npos) << csv();
 }

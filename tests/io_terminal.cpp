@@ -62,7 +62,7 @@ TEST_F(Terminal, GetsNoControlCharacterOfASceneOrAName) {
                  65);
   expect_escaped("check " + scene(right) + " --set \"$(printf 'run.\\033[31mseed=3')\"", "unknown key 'run.\\x1b[31mseed'", 65);
   expect_escaped("check \"$(printf 'no\\033[31mfile\\n.toml')\"", "no\\x1b[31mfile\\x0a.toml: cannot be opened", 66);
-  expect_escaped("check " + scene(right, "red\033[31m.toml"), "red\\x1b[31m.toml: the scene is right", 0);
+  expect_escaped("check " + scene(right, "red\033[31m.toml"), "red\\x1b[31m.toml: valid", 0);
   expect_escaped("check a.toml \"$(printf -- '--\\033[31mred')\"", "\\x1b[31mred", 64);
   expect_escaped("\"$(printf 'ch\\033[31meck')\"", "no verb 'ch\\x1b[31meck'", 64);
 }

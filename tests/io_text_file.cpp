@@ -137,7 +137,7 @@ TEST_F(TextFile, OfASceneThroughAPipeIsThatOfARunToo) {
     CommandResult const made = run_clathra("--version > /dev/null; env -u GLIBC_TUNABLES -u OMP_NUM_THREADS " + command + " -o " +
                                            (folder / "made.h5").string());
     EXPECT_EQ(made.code, 0) << made.output;
-    EXPECT_NE(made.output.find("made.h5: 77 discs\n"), std::string::npos) << command << ": " << made.output;
+    EXPECT_NE(made.output.find("made.h5: 77 particles\n"), std::string::npos) << command << ": " << made.output;
   }
 }
 

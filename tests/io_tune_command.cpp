@@ -37,16 +37,16 @@ class TuneCommand : public testing::Test {
 TEST_F(TuneCommand, WritesASceneWithTheCheapestSettingThatIsWithinTheTolerance) {
   // Costs follow the measured speed of the machine, which tests beside this one may measure anew between its two searches.
   ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
-  CommandResult const result = tune("--tolerance 60% --quantity peak_q --budget 10min");
+  CommandResult const result = tune("--tolerance 60% --quantity peak_q --max-walltime 10min");
   ASSERT_EQ(result.code, 0) << result.output;
-  EXPECT_NE(result.output.find("mine.toml: error of peak_q_Pa, tests of 300 discs\n"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("mine.toml: error of peak_q_Pa, tests of 300 particles\n"), std::string::npos) << result.output;
   EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.003 +\\S+ +double  0\\.475  x1 +[5-9] +[+-]\\S+ ± ")))
       << result.output;
   EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  0\\.0002 +\\S+ +mixed   usual  x3 .* 1  \\S+, as it stands\n")))
       << result.output;
   EXPECT_TRUE(std::regex_search(result.output, std::regex(", chosen\n"))) << result.output;
   EXPECT_TRUE(std::regex_search(result.output,
-                                std::regex("choice    peak_q_Pa [+-]\\S+ \\+- \\S+ % \\(95 %, [5-9] seeds of 300 discs\\); "
+                                std::regex("choice    peak_q_Pa [+-]\\S+ \\+- \\S+ % \\(95 %, [5-9] seeds of 300 particles\\); "
                                            "0\\.\\S+ of the cost as it stands\n")))
       << result.output;
   LoadedScene const loaded = load_scene(tuned);
@@ -76,8 +76,8 @@ TEST_F(TuneCommand, WritesASceneWithTheCheapestSettingThatIsWithinTheTolerance) 
 }
 
 TEST_F(TuneCommand, SaysSoWhereTheBudgetDoesNotTellAndWritesNothing) {
-  CommandResult const result = tune("--tolerance 0.001% --budget 1s");
-  EXPECT_EQ(result.code, 77) << result.output;
+  CommandResult const result = tune("--tolerance 0.001% --max-walltime 1s");
+  EXPECT_EQ(result.code, 79) << result.output;
   EXPECT_NE(result.output.find("undetermined: the first 5 seeds need about "), std::string::npos) << result.output;
   EXPECT_FALSE(fs::exists(tuned));
 }
@@ -87,8 +87,8 @@ TEST_F(TuneCommand, GivesFlatSpecimensRungsOfEnoughGrainsAcross) {
   std::ofstream(scene)
       << "[specimen]\nwidth = \"210 mm\"\nheight = \"1.81 mm\"\nvoid_ratio = 0.26\ncompaction_layers = 2\n[test]\n"
          "axial_strain = \"0.2 %\"\n[output]\nrecords = 10\nsnapshots = 0\n";
-  CommandResult const result = tune("--tolerance 0.001% --budget 1s --particles 60");
-  EXPECT_EQ(result.code, 77) << result.output;
+  CommandResult const result = tune("--tolerance 0.001% --max-walltime 1s --particles 60");
+  EXPECT_EQ(result.code, 79) << result.output;
   EXPECT_NE(result.output.find("undetermined: the first 5 seeds need about "), std::string::npos) << result.output;
 }
 
@@ -99,7 +99,7 @@ TEST_F(TuneCommand, RefusesWhatItCannotTune) {
   CommandResult const quantity = tune("--quantity peek_q");
   EXPECT_EQ(quantity.code, 65);
   EXPECT_NE(quantity.output.find("a test has no number 'peek_q'; did you mean 'peak_q'?"), std::string::npos) << quantity.output;
-  EXPECT_EQ(tune("--budget soon").code, 64);
+  EXPECT_EQ(tune("--max-walltime soon").code, 64);
   CommandResult const file = tune("--set specimen.file=" CLATHRA_GOLDEN "/specimen.h5");
   EXPECT_EQ(file.code, 77);
   EXPECT_NE(file.output.find("tune needs specimens of several seeds"), std::string::npos) << file.output;

@@ -48,7 +48,7 @@ TEST(StrainField, FindsTheBandAndSurvivesADiscThatFlewAway) {
   EXPECT_NEAR(strain[20 + 40 * 3], 0, 1e-4);
   s.x[0] = 1e6, s.y[0] = -1e6;
   EXPECT_EQ(shear_strain(s).size(), s.x.size());
-  EXPECT_TRUE(std::isnan(shear_strain(made_up_lattice(1, 1)).at(0))) << "one disc has no strain";
+  EXPECT_TRUE(std::isnan(shear_strain(made_up_lattice(1, 1)).at(0))) << "one particle has no strain";
 }
 
 TEST(StrainField, IsNotKnownWhereDiscsLieInALine) {

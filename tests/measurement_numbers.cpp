@@ -81,13 +81,13 @@ TEST(TestNumbers, AreRecordedByTheirNames) {
   EXPECT_NEAR(record.at("largest_eps_v"), 0.01, 1e-12);
   EXPECT_NEAR(record.at("largest_eps_v_eps1"), 0.02, 1e-12);
   EXPECT_NEAR(record.at("peak_q_Pa"), 4.875e6, 1);
-  EXPECT_DOUBLE_EQ(record.at("peak_intact_initial_pct"), 100 - 3.9);
+  EXPECT_DOUBLE_EQ(record.at("peak_bonds_intact_pct"), 100 - 3.9);
   EXPECT_DOUBLE_EQ(record.at("residual_q_Pa"), 4e6);
   EXPECT_NEAR(record.at("secant_modulus_Pa"), 5e6 / 0.02, 1e-3);
   TestNumbers unknown = n;
   unknown.intact_end = std::numeric_limits<double>::quiet_NaN();
   unknown.secant_modulus.reset();
-  EXPECT_EQ(record_of(unknown).count("end_intact_initial_pct") + record_of(unknown).count("secant_modulus_Pa"), 0u);
+  EXPECT_EQ(record_of(unknown).count("end_bonds_intact_pct") + record_of(unknown).count("secant_modulus_Pa"), 0u);
 }
 
 }  // namespace

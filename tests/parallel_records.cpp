@@ -14,7 +14,7 @@ struct Columns {
   std::vector<double> eps1, eps_v, q, sigma3, intact, largest_q, largest_q_eps1, dilation;
   void add(HistoryRow const& row) {
     eps1.push_back(row.eps1), eps_v.push_back(row.eps_v), q.push_back(row.q_Pa), sigma3.push_back(row.sigma3_Pa);
-    intact.push_back(row.intact_initial_pct), largest_q.push_back(row.largest_q_Pa), largest_q_eps1.push_back(row.largest_q_eps1);
+    intact.push_back(row.bonds_intact_pct), largest_q.push_back(row.largest_q_Pa), largest_q_eps1.push_back(row.largest_q_eps1);
     dilation.push_back(row.dilation_deg);
   }
   TestNumbers numbers() const { return test_numbers({eps1, eps_v, q, sigma3, intact, largest_q, largest_q_eps1, dilation}); }

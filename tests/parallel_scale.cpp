@@ -26,7 +26,7 @@ std::vector<double> numbers_of(double scale) {
   laws.wall.friction = 0.3;
   laws.contact.grain.damping_ratio = 0.02;
   Simulation sim(scaled(s, scale), laws, 0.05 * grain_d50 * scale);
-  sim.choose_time_step({TimeStepRule::spectrum, 0.6});
+  sim.choose_time_step({TimeStepRule::adaptive, 0.6});
   sim.loading().servo.integral_time = 1e-5 * scale;
   sim.loading().x = AxisDrive::at_stress(1e6, 1);
   sim.loading().y = AxisDrive::at_rate(300 / scale);

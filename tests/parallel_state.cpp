@@ -7,12 +7,12 @@ namespace {
 
 TEST(State, AfterThousandsOfStepsThroughBreakageIsTheGoldenOne) {
   for (Golden const& g : golden) {
-    Simulation const sim = sheared(bonded_patch(g.composite), g.composite, g.precision);
+    Simulation const sim = sheared(bonded_patch(g.coupling), g.coupling, g.precision);
     EXPECT_GT(sim.assembly().upkeep.searches(), 5);
     EXPECT_GT(sim.assembly().broken_bonds(), 20);
     EXPECT_EQ(sim.assembly().broken_bonds(), g.broken);
     EXPECT_EQ(sim.assembly().hash(), g.hash)
-        << "composite " << static_cast<int>(g.composite) << ", " << precision_names[static_cast<int>(g.precision)] << ": 0x"
+        << "coupling " << static_cast<int>(g.coupling) << ", " << precision_names[static_cast<int>(g.precision)] << ": 0x"
         << std::hex << sim.assembly().hash();
   }
 }
@@ -22,10 +22,10 @@ INSTANTIATE_TEST_SUITE_P(, StateIn, testing::Values(Precision::full, Precision::
                          [](auto const& test) { return std::string(precision_names[static_cast<int>(test.param)]); });
 
 TEST_P(StateIn, DoesNotKnowTheOrderOfTheInput) {
-  Specimen const s = bonded_patch(Composite::parallel);
-  Simulation const one = sheared(s, Composite::parallel, GetParam());
+  Specimen const s = bonded_patch(ContactCoupling::parallel);
+  Simulation const one = sheared(s, ContactCoupling::parallel, GetParam());
   for (std::uint64_t seed : {1, 2}) {
-    Simulation const other = sheared(shuffled(s, seed), Composite::parallel, GetParam());
+    Simulation const other = sheared(shuffled(s, seed), ContactCoupling::parallel, GetParam());
     EXPECT_EQ(other.assembly().hash(), one.assembly().hash());
     expect_equal_measures(one, other);
     auto const first = one.assembly().break_events(0), second = other.assembly().break_events(0);
@@ -42,7 +42,7 @@ TEST_P(StateIn, DoesNotKnowTheOrderOfTheInput) {
 
 /// Sheared through breakage between servo walls, at time steps that follow the limit, with all accounts.
 Simulation between_servo_walls(Precision precision) {
-  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
+  Simulation sim = ready(bonded_patch(ContactCoupling::parallel), ContactCoupling::parallel, {}, nullptr, precision);
   sim.loading().x = AxisDrive::at_stress(2e6, 20);
   sim.set_ledger(true);
   sim.keep_breaks(BreakRecord::details);
@@ -113,9 +113,9 @@ TEST(State, OfUnboundSandDoesNotKnowTheOrderOfTheInput) {
 }
 
 TEST(State, SurvivesTheWayThroughASpecimenAndGoesOnWithTheSameBits) {
-  for (Composite composite : {Composite::replace, Composite::parallel}) {
-    Specimen const s = bonded_patch(composite);
-    Simulation original = ready(s, composite);
+  for (ContactCoupling coupling : {ContactCoupling::replaces, ContactCoupling::parallel}) {
+    Specimen const s = bonded_patch(coupling);
+    Simulation original = ready(s, coupling);
     SimulationLaws laws = original.assembly().laws;
     laws.wall.friction = 0;  // a specimen does not hold the shear of rough walls
     original.set_laws(laws);
@@ -153,7 +153,7 @@ std::vector<double> forces_of(Simulation const& sim) {
 }
 
 TEST(State, TakenWhileASearchIsDueKeepsTheForcesOfEachDisc) {
-  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel);
+  Simulation sim = ready(bonded_patch(ContactCoupling::parallel), ContactCoupling::parallel);
   sim.step(2000);
   std::vector<double> const before = forces_of(sim);
   auto const order = [&] {
@@ -177,7 +177,7 @@ TEST(State, OfABondAcrossAPeriodicEdgeIsKeptByASearchInAnyStep) {
   double const gap = 1e-6;
   add_disc(s, grain_radius + gap, s.top / 2, grain_radius, 1);
   add_disc(s, s.right - grain_radius, s.top / 2, grain_radius, -1);
-  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::parallel);
   s.critical_thickness = h_max_of(scene);
   s.contacts.push_back({0, 1});
   s.contacts[0].formation_overlap = -gap;
@@ -194,8 +194,8 @@ TEST(State, OfABondAcrossAPeriodicEdgeIsKeptByASearchInAnyStep) {
 }
 
 TEST(State, EveryBitOfAFieldChangesItsHash) {
-  Specimen const s = bonded_patch(Composite::parallel);
-  SimulationLaws const laws = bonded_laws(hydrate_scene(0.41, Composite::parallel), s.critical_thickness);
+  Specimen const s = bonded_patch(ContactCoupling::parallel);
+  SimulationLaws const laws = bonded_laws(hydrate_scene(0.41, ContactCoupling::parallel), s.critical_thickness);
   Simulation sim(s, laws, 1e-5);
   std::uint64_t const hash = sim.assembly().hash();
   for_each_field(sim.assembly().particles, [&](DiscField const& about, auto const& field) {

@@ -16,6 +16,9 @@ TEST(Consolidation, ThatIsCutShortIsSaidAndNeverCalledQuasiStatic) {
   EXPECT_GT(whole.preparation().at("consolidation_steps"), 400);
   for (int const steps : {0, 350}) {
     scene.test.consolidation_steps = steps;
+    scene.run.ignore_guards = false;
+    EXPECT_THROW(BiaxialTest(scene, small_specimen(), {}), Refused) << "however many steps are stated";
+    scene.run.ignore_guards = true;
     BiaxialTest const cut(scene, small_specimen(), {});
     EXPECT_EQ(cut.preparation().at("consolidation_steps"), steps);
     EXPECT_EQ(cut.preparation().at("quasi_static"), 0);
@@ -92,8 +95,8 @@ TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
   EXPECT_TRUE(slow.warnings.empty()) << slow.warnings[0];
   scene.hydrate.saturation = 0.55;
   scene.test.axial_strain = 0.02;
-  scene.bond.moment_ratio = 1.0 / 14;  // many break
-  scene.test.inertial_number = 9e-4;   // no warning of the rate
+  scene.bond.rolling_lever = {0, 1.0 / 14};  // many break
+  scene.test.inertial_number = 9e-4;         // no warning of the rate
   scene.test.max_platen_wave_stress = 0;
   for (int const records : {1, 7, 300}) {
     scene.output.records = records;
@@ -110,7 +113,7 @@ TEST(WaveNumber, BoundsTheRateByTheHeightOfTheSpecimenThatIsSheared) {
   Scene scene = small_test();
   BiaxialTest free(scene, small_specimen(), {});
   StageRecord const plan = free.plan();
-  double const wave = plan.at("wave_number"), rate = plan.at("strain_rate_per_s");
+  double const wave = plan.at("platen_wave_stress"), rate = plan.at("strain_rate_per_s");
   EXPECT_EQ(free.preparation().count("rate_share"), 0u);
   scene.test.max_platen_wave_stress = 1.01 * wave;
   BiaxialTest const loose(scene, small_specimen(), {});
@@ -118,17 +121,17 @@ TEST(WaveNumber, BoundsTheRateByTheHeightOfTheSpecimenThatIsSheared) {
   EXPECT_EQ(loose.state_hash(), free.state_hash());
   scene.test.max_platen_wave_stress = wave / 4;
   BiaxialTest bounded(scene, small_specimen(), {});
-  EXPECT_EQ(bounded.plan().at("wave_number"), wave / 4);
+  EXPECT_EQ(bounded.plan().at("platen_wave_stress"), wave / 4);
   EXPECT_NEAR(bounded.plan().at("strain_rate_per_s"), rate / 4, 1e-12 * rate);
   EXPECT_NEAR(bounded.plan().at("inertial_number"), scene.test.inertial_number / 4, 1e-16);
   EXPECT_NEAR(bounded.preparation().at("rate_share"), 0.25, 1e-12);
-  EXPECT_NEAR(bounded.record().wave_number, wave / 4, 1e-3 * wave);
+  EXPECT_NEAR(bounded.record().platen_wave_stress, wave / 4, 1e-3 * wave);
   // The rate of a test is chosen once: as it gets lower the bound does not let it go faster.
   scene.test.axial_strain = 0.001;
   while (!bounded.finished() && bounded.axial_strain() < 0.001) (void)bounded.advance(1000, 0.001);
   HistoryRow const row = bounded.record();
-  EXPECT_LT(row.wave_number, wave / 4);
-  EXPECT_NEAR(row.wave_number, wave / 4 * (1 - row.eps1), 2e-3 * wave);
+  EXPECT_LT(row.platen_wave_stress, wave / 4);
+  EXPECT_NEAR(row.platen_wave_stress, wave / 4 * (1 - row.eps1), 2e-3 * wave);
 }
 
 // A check, a row of history and one of energies may fall on one step and share what was measured; the next step is another state.
@@ -193,7 +196,7 @@ TEST(Bonds, ThatBreakBeforeTheTestAreSaid) {
   EXPECT_FALSE(said(BiaxialTest(scene, small_specimen(), {}).warnings(), part));
   scene.test.confining_stress = 8e6;
   scene.hydrate.saturation = 0.3;
-  scene.bond.moment_ratio = 1.0 / 40;
+  scene.bond.rolling_lever = {0, 1.0 / 40};
   BiaxialTest const weak(scene, small_specimen(), {});
   EXPECT_GT(weak.preparation().at("broken_in_consolidation"), 0.2 * weak.preparation().at("bonds"));
   EXPECT_TRUE(said(weak.warnings(), part));
@@ -207,7 +210,7 @@ TEST(Collapse, OfAForcedTestIsSaid) {
   scene.grains.normal_stiffness = 6e6, scene.grains.shear_stiffness = 4e6;
   BiaxialTest test(scene, small_specimen(), {});
   while (!test.finished()) (void)test.advance(1000);
-  EXPECT_TRUE(said(test.shear_warnings(), "forced: the void ratio has fallen to"));
+  EXPECT_TRUE(said(test.shear_warnings(), "guard ignored: the void ratio has fallen to"));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ constexpr double golden_k_bn = 1.4209e8;  // S = 55 %, gap 0: table of golden nu
 
 /// Force over shortening of a chain of `bonds` bonds between two walls, at rest.
 double stiffness_of_chain(int bonds) {
-  Scene const scene = hydrate_scene(0.55, Composite::replace);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::replaces);
   Specimen s = open_space();
   for (int n = 0; n <= bonds; ++n) add_disc(s, 2 * grain_radius * n, 0);
   enclose(s);
@@ -42,8 +42,8 @@ TEST(ChainOfBonds, HasTheStiffnessOfOneBondDividedByTheirNumber) {
 }
 
 /// A loaded pair that moves as it is told: a grain contact of 300 N/m with a bond made on it.
-Simulation driven_pair(Composite composite) {
-  Scene const scene = hydrate_scene(0.55, composite);
+Simulation driven_pair(ContactCoupling coupling) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = two_discs(1e-6, grain_radius, 1.5 * grain_radius);
   s.void_ratio = 1;
   s.contacts.push_back({0, 1, 20, 1e-3});
@@ -93,7 +93,8 @@ Work go_round(Simulation& sim, std::array<double, 6> const& phase, double amplit
 }
 
 TEST(ClosedPath, OfABondedPairDoesNoNetWork) {
-  for (Composite composite : {Composite::replace, Composite::parallel, Composite::memory}) {
+  for (ContactCoupling coupling :
+       {ContactCoupling::replaces, ContactCoupling::parallel, ContactCoupling::replaces_keeping_force}) {
     Draw draw(7);
     // Small paths: lever arms change with the overlap, which leaves work of the third order in the amplitude.
     double const amplitude = 1e-6 * grain_radius;
@@ -101,11 +102,11 @@ TEST(ClosedPath, OfABondedPairDoesNoNetWork) {
     for (int path = 0; path < 100; ++path) {
       std::array<double, 6> phase;
       for (double& p : phase) p = draw.between(0, 2 * pi);
-      Simulation sim = driven_pair(composite);
+      Simulation sim = driven_pair(coupling);
       Work const work = go_round(sim, phase, amplitude, 200);
       EXPECT_LT(std::abs(work.net), within(1e-6, 1e-2) * work.gross) << path;
-      if (composite != Composite::replace || path % 10 != 0) continue;
-      Simulation large = driven_pair(composite), slow = driven_pair(composite);
+      if (coupling != ContactCoupling::replaces || path % 10 != 0) continue;
+      Simulation large = driven_pair(coupling), slow = driven_pair(coupling);
       coarse += std::abs(go_round(large, phase, 1e3 * amplitude, 200).net);
       fine += std::abs(go_round(slow, phase, 1e3 * amplitude, 800).net);
     }
@@ -117,7 +118,7 @@ TEST(LoadAndUnload, OfABondInOneDirectionGivesTheWorkBack) {
   for (std::size_t direction = 0; direction < 6; ++direction) {
     std::array<double, 6> phase;
     phase.fill(-pi / 2);
-    Simulation sim = driven_pair(Composite::replace);
+    Simulation sim = driven_pair(ContactCoupling::replaces);
     double const amplitude = 1e-3 * grain_radius;
     double net = 0, gross = 0;
     double last = disc(sim, 0).fx;
@@ -146,7 +147,7 @@ TEST(LoadAndUnload, OfABondInOneDirectionGivesTheWorkBack) {
 /// slip taken over the distance at the step's end feeds their coupling a little in each step: of the order of the squared turn a
 /// step, so that 600 steps a turn let rounding errors grow tenfold in sixty turns. Sand turns a millionth of that a step.)
 TEST(RigidTurn, LeavesTheForcesOfAFreePairUnchanged) {
-  Scene const scene = hydrate_scene(0.55, Composite::replace);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::replaces);
   constexpr int steps = 1200;
   double const dt = 1e-7, turn = 2 * pi / steps, u0 = 2e-6;
   SimulationLaws const laws = bonded_laws(scene, h_max_of(scene));
@@ -193,8 +194,8 @@ struct LoadedPair {
   double dx = 0, dy = 0;
   SpecimenContact history;
 };
-LoadedPair loaded_pair(Composite composite) {
-  LoadedPair pair{driven_pair(composite), 0, 0, {}};
+LoadedPair loaded_pair(ContactCoupling coupling) {
+  LoadedPair pair{driven_pair(coupling), 0, 0, {}};
   for (int n = 0; n < 100; ++n) {
     drive(pair.sim, 0, 1e-2, 0, 5);
     drive(pair.sim, 1, 0, 2e-2, 20);
@@ -208,8 +209,8 @@ LoadedPair loaded_pair(Composite composite) {
 }
 
 TEST(RigidTurn, HundredsOfTimesLeaveTheForcesOfALoadedPairUnchanged) {
-  for (Composite composite : {Composite::replace, Composite::parallel}) {
-    LoadedPair pair = loaded_pair(composite);
+  for (ContactCoupling coupling : {ContactCoupling::replaces, ContactCoupling::parallel}) {
+    LoadedPair pair = loaded_pair(coupling);
     bool const mixed = tested_precision() == Precision::mixed;
     int const steps = mixed ? 1000 : 100, turns = 100000 / steps;
     double const turn = 2 * pi / steps;
@@ -231,10 +232,11 @@ TEST(RigidTurn, HundredsOfTimesLeaveTheForcesOfALoadedPairUnchanged) {
 }
 
 TEST(RigidTurn, CarriesShearRoundToSecondOrder) {
-  for (Composite composite : {Composite::replace, Composite::parallel, Composite::memory}) {
+  for (ContactCoupling coupling :
+       {ContactCoupling::replaces, ContactCoupling::parallel, ContactCoupling::replaces_keeping_force}) {
     double drift[3];
     for (int level = 0; level < 3; ++level) {
-      LoadedPair pair = loaded_pair(composite);
+      LoadedPair pair = loaded_pair(coupling);
       ASSERT_NE(pair.history.shear + pair.history.bond_shear, 0);
       int const steps = (tested_precision() == Precision::mixed ? 500 : 4000) << level;
       double const turn = 2 * pi / steps;

@@ -29,8 +29,8 @@ constexpr double wall_rate = 50;  // [1/s]
 
 /// The event of a pair whose branch points to `angle` [deg] from disc 0, which is listed second.
 /// @param earlier  steps of the walls before the strain counts;  @param later  steps from then to the break
-BreakEvents broken(Composite composite, double angle, Motion const& motion, int earlier, int& later) {
-  Scene const scene = hydrate_scene(0.55, composite);
+BreakEvents broken(ContactCoupling coupling, double angle, Motion const& motion, int earlier, int& later) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = open_space();
   double const nx = std::cos(angle * pi / 180), ny = std::sin(angle * pi / 180), distance = 2 * grain_radius + gap;
   add_disc(s, distance * nx, distance * ny);
@@ -56,9 +56,9 @@ struct Expected {
   double increment;         // of a step over the strength
 };
 
-void expect_details(Composite composite, double angle, Motion const& motion, Expected const& e) {
+void expect_details(ContactCoupling coupling, double angle, Motion const& motion, Expected const& e) {
   int steps = 0;
-  BreakEvents const events = broken(composite, angle, motion, 20, steps);
+  BreakEvents const events = broken(coupling, angle, motion, 20, steps);
   ASSERT_TRUE(events.detailed);
   ASSERT_EQ(events.rows.size(), 1u);
   ASSERT_EQ(events.details.size(), 1u);
@@ -75,32 +75,33 @@ void expect_details(Composite composite, double angle, Motion const& motion, Exp
   EXPECT_NEAR(d.relative_rotation, e.rotation, (e.increment + 3 * printed_digits) * std::abs(e.rotation) + 1e-12);
 }
 
-constexpr Composite composites[] = {Composite::replace, Composite::parallel, Composite::memory};
+constexpr ContactCoupling couplings[] = {ContactCoupling::replaces, ContactCoupling::parallel,
+                                         ContactCoupling::replaces_keeping_force};
 
 TEST(BreakDetails, OfAPulledBond) {
   double const step = R_t / k_bn / 1000;
-  for (Composite composite : composites)
+  for (ContactCoupling coupling : couplings)
     for (double angle : {0.0, 30.0, 90.0, 130.0, 200.0})
-      expect_details(composite, angle, {step / dt, 0, 0}, {BreakMode::tension, R_t * R_t / (2 * k_bn), 0, 1.01e-3});
+      expect_details(coupling, angle, {step / dt, 0, 0}, {BreakMode::tension, R_t * R_t / (2 * k_bn), 0, 1.01e-3});
 }
 
 TEST(BreakDetails, OfACrushedBond) {
   double const step = R_c / k_bn / 1000;
-  for (Composite composite : composites)
-    expect_details(composite, 75, {-step / dt, 0, 0}, {BreakMode::compression, R_c * R_c / (2 * k_bn), 0, 1.01e-3});
+  for (ContactCoupling coupling : couplings)
+    expect_details(coupling, 75, {-step / dt, 0, 0}, {BreakMode::compression, R_c * R_c / (2 * k_bn), 0, 1.01e-3});
 }
 
 TEST(BreakDetails, OfAShearedBond) {
   double const R_s = shear_strength(), spin = 300, step = k_bs * spin * (2 * grain_radius + gap) * dt;
-  for (Composite composite : composites)
-    expect_details(composite, 130, {0, spin, spin}, {BreakMode::shear, R_s * R_s / (2 * k_bs), 0, 1.01 * step / R_s});
+  for (ContactCoupling coupling : couplings)
+    expect_details(coupling, 130, {0, spin, spin}, {BreakMode::shear, R_s * R_s / (2 * k_bs), 0, 1.01 * step / R_s});
 }
 
 TEST(BreakDetails, OfARolledBondWithTheSignOfTheTurn) {
   double const R_r = moment_strength(), spin = 20, step = k_bm * 2 * spin * dt;
-  for (Composite composite : composites)
+  for (ContactCoupling coupling : couplings)
     for (double turn : {1.0, -1.0})  // of disc 1 against disc 0
-      expect_details(composite, 130, {0, -turn * spin, turn * spin},
+      expect_details(coupling, 130, {0, -turn * spin, turn * spin},
                      {BreakMode::rolling, R_r * R_r / (2 * k_bm), turn * R_r / k_bm, 1.01 * step / R_r});
 }
 

@@ -12,8 +12,8 @@ constexpr double printed_digits = 1e-4;
 
 /// A pair bonded by the scene at an overlap (negative: across a gap), moved from outside. `shear` and `moment` are the grain
 /// contact's history before.
-Simulation held_pair(Composite composite, double overlap, double shear = 0, double moment = 0) {
-  Scene const scene = hydrate_scene(0.55, composite);
+Simulation held_pair(ContactCoupling coupling, double overlap, double shear = 0, double moment = 0) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = two_discs(overlap);
   s.void_ratio = 1;
   if (shear != 0) s.contacts.push_back({0, 1, shear, moment});
@@ -63,11 +63,12 @@ void expect_break_between(double last, double increment, double strength) {
   EXPECT_LT(increment, 2e-3 * strength);
 }
 
-constexpr Composite composites[] = {Composite::replace, Composite::parallel, Composite::memory};
+constexpr ContactCoupling couplings[] = {ContactCoupling::replaces, ContactCoupling::parallel,
+                                         ContactCoupling::replaces_keeping_force};
 
 TEST(BrokenBond, FailsInTensionAtTheTensileStrength) {
-  for (Composite composite : composites) {
-    Simulation sim = held_pair(composite, 0);
+  for (ContactCoupling coupling : couplings) {
+    Simulation sim = held_pair(coupling, 0);
     double const step = R_t / k_bn / 1000;
     Break const b = move_until_broken(sim, -step / dt, 0, 0);
     expect_break_between(-b.last.normal, k_bn * step, R_t);
@@ -80,11 +81,11 @@ TEST(BrokenBond, FailsInTensionAtTheTensileStrength) {
 }
 
 TEST(BrokenBond, FailsInCompressionAtTheCompressiveStrength) {
-  for (Composite composite : composites) {
-    Simulation sim = held_pair(composite, 0);
+  for (ContactCoupling coupling : couplings) {
+    Simulation sim = held_pair(coupling, 0);
     double const step = R_c / k_bn / 1000;
     Break const b = move_until_broken(sim, step / dt, 0, 0);
-    double const grain = composite == Composite::parallel ? sand_kn * step * (b.steps - 1) : 0;
+    double const grain = coupling == ContactCoupling::parallel ? sand_kn * step * (b.steps - 1) : 0;
     expect_break_between(b.last.normal - grain, k_bn * step, R_c);
     EXPECT_EQ(sim.assembly().break_counts()[BreakMode::compression], 1);
     EXPECT_NEAR(force(sim).normal / (sand_kn * step * b.steps), 1, within(1e-9, 1e-5));
@@ -96,7 +97,7 @@ TEST(BrokenBond, FailsInShearAtTheShearStrengthOfItsNormalForce) {
     double normal, strength;
   };
   for (Row row : {Row{0, R_s_0}, Row{200, 1009.9}, Row{1000, 1382.5}}) {
-    Simulation sim = held_pair(Composite::replace, 0);
+    Simulation sim = held_pair(ContactCoupling::replaces, 0);
     move(sim, row.normal / k_bn / 100 / dt, 0, 0, 100);
     double const spin = 1000.0, arm = grain_radius - 0.5 * row.normal / k_bn;
     Break const b = move_until_broken(sim, 0, spin, spin);
@@ -112,7 +113,7 @@ TEST(BrokenBond, FailsInRollingAtTheRollingStrengthOfItsNormalForce) {
     double normal, strength;
   };
   for (Row row : {Row{0, R_r_0}, Row{200, 2035.4}, Row{1000, 2786.4}}) {
-    Simulation sim = held_pair(Composite::replace, 0);
+    Simulation sim = held_pair(ContactCoupling::replaces, 0);
     move(sim, row.normal / k_bn / 100 / dt, 0, 0, 100);
     double const spin = 40.0;
     Break const b = move_until_broken(sim, 0, spin, -spin);
@@ -123,7 +124,7 @@ TEST(BrokenBond, FailsInRollingAtTheRollingStrengthOfItsNormalForce) {
 }
 
 TEST(BrokenBond, FailsOnTheEllipseUnderShearAndMomentTogether) {
-  Simulation sim = held_pair(Composite::replace, 0);
+  Simulation sim = held_pair(ContactCoupling::replaces, 0);
   Break const b = move_until_broken(sim, 0, 900, 850);
   double const shear = std::abs(b.last.shear) / R_s_0, moment = std::abs(b.last.moment) / (R_r_0 * L_r);
   EXPECT_GT(shear, 0.05);
@@ -137,7 +138,7 @@ TEST(BrokenBond, UnderCompressionFollowsTheGrainLawFromTheSameStepOn) {
     double formed_at, before;  // overlap at formation [m], force at an overlap of 2 um just before [N/m]
   };
   for (Row row : {Row{0, 284.18}, Row{-5e-6, 962.85}}) {
-    Simulation sim = held_pair(Composite::replace, row.formed_at);
+    Simulation sim = held_pair(ContactCoupling::replaces, row.formed_at);
     EXPECT_NEAR(force(sim).normal, 0, within(0, 5e-3));
     move(sim, (2e-6 - row.formed_at) / 100 / dt, 0, 0, 100);
     EXPECT_NEAR(force(sim).normal, row.before, 0.05);
@@ -154,7 +155,7 @@ TEST(BrokenBond, UnderCompressionFollowsTheGrainLawFromTheSameStepOn) {
 }
 
 TEST(BrokenBond, InParallelLeavesTheGrainContactAsItWas) {
-  Simulation sim = held_pair(Composite::parallel, 2e-6);
+  Simulation sim = held_pair(ContactCoupling::parallel, 2e-6);
   EXPECT_NEAR(force(sim).normal, 600, within(1e-6, 1e-2));  // the bond is free of stress
   Break const b = move_until_broken(sim, 0, 800, 800);
   EXPECT_NEAR(b.last.normal, 600, within(1e-6, 1e-2));
@@ -166,25 +167,25 @@ TEST(BrokenBond, InParallelLeavesTheGrainContactAsItWas) {
 
 TEST(NewBond, IsFreeOfStressAndTreatsThePresentContactAsItsCompositeSays) {
   double const overlap = 1e-6, shear = 30, moment = 2e-3;
-  PairForce const replaced = force(held_pair(Composite::replace, overlap, shear, moment));
+  PairForce const replaced = force(held_pair(ContactCoupling::replaces, overlap, shear, moment));
   EXPECT_NEAR(replaced.normal, 0, within(0, 5e-3));
   EXPECT_EQ(replaced.shear, 0);
   EXPECT_EQ(replaced.moment, 0);
-  for (Composite composite : {Composite::parallel, Composite::memory}) {
-    PairForce const kept = force(held_pair(composite, overlap, shear, moment));
+  for (ContactCoupling coupling : {ContactCoupling::parallel, ContactCoupling::replaces_keeping_force}) {
+    PairForce const kept = force(held_pair(coupling, overlap, shear, moment));
     EXPECT_NEAR(kept.normal, 300, within(1e-6, 1e-2));
     EXPECT_NEAR(kept.shear, shear, within(1e-12, 1e-4));
     EXPECT_NEAR(kept.moment, moment, within(1e-12, 1e-8));
-    Simulation sim = held_pair(composite, overlap, shear, moment);
+    Simulation sim = held_pair(coupling, overlap, shear, moment);
     move(sim, 1e-7 / 10 / dt, 0, 0, 10);
-    double const stiffness = composite == Composite::parallel ? sand_kn + k_bn : k_bn;
+    double const stiffness = coupling == ContactCoupling::parallel ? sand_kn + k_bn : k_bn;
     EXPECT_NEAR((force(sim).normal - 300) / (stiffness * 1e-7), 1, 1e-4);
   }
 }
 
 /// A free pair of unequal discs, bonded across a small gap, flying apart and spinning.
-Simulation flying_pair(Composite composite, double apart, double spin) {
-  Scene const scene = hydrate_scene(0.55, composite);
+Simulation flying_pair(ContactCoupling coupling, double apart, double spin) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = two_discs(-1e-6, grain_radius, 1.7 * grain_radius);
   s.void_ratio = 1;
   s.vx = {0.3 - apart, 0.3 + 0.3 * apart};
@@ -214,9 +215,9 @@ Momentum momentum(Simulation const& sim) {
 }
 
 TEST(BrokenBond, ConservesLinearAndAngularMomentum) {
-  for (Composite composite : composites) {
+  for (ContactCoupling coupling : couplings) {
     for (double apart : {3.0, -2.5}) {  // by tension; by shear and rolling under compression
-      Simulation sim = flying_pair(composite, apart, 2e4);
+      Simulation sim = flying_pair(coupling, apart, 2e4);
       Momentum const start = momentum(sim);
       int broke_at = 0;
       for (int n = 1; n <= 400; ++n) {

@@ -11,8 +11,8 @@ double lost(DissipationTotals const& l) { return l.sliding + l.rolling + l.dashp
 struct BrokenPair {
   double residual, breakage;
 };
-BrokenPair break_pair(Composite composite, int refinement) {
-  Scene const scene = hydrate_scene(0.55, composite);
+BrokenPair break_pair(ContactCoupling coupling, int refinement) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = two_discs(-1e-6, grain_radius, 1.3 * grain_radius);
   s.void_ratio = 1;
   s.vx = {-16, 12};
@@ -30,8 +30,9 @@ BrokenPair break_pair(Composite composite, int refinement) {
 }
 
 TEST(EnergyLedger, OfABrokenPairClosesToFirstOrder) {
-  for (Composite composite : {Composite::replace, Composite::parallel, Composite::memory}) {
-    BrokenPair const coarse = break_pair(composite, 2), fine = break_pair(composite, 8);
+  for (ContactCoupling coupling :
+       {ContactCoupling::replaces, ContactCoupling::parallel, ContactCoupling::replaces_keeping_force}) {
+    BrokenPair const coarse = break_pair(coupling, 2), fine = break_pair(coupling, 8);
     EXPECT_NEAR(fine.breakage / (0.5 * 827.0 * 827.0 / 1.42e8), 1, 0.1);
     EXPECT_LT(std::abs(coarse.residual), 0.05 * coarse.breakage);
     EXPECT_LT(std::abs(fine.residual), 0.5 * std::abs(coarse.residual));
@@ -40,7 +41,7 @@ TEST(EnergyLedger, OfABrokenPairClosesToFirstOrder) {
 
 TEST(EnergyLedger, CountsWhatBreakingStiffens) {
   // S = 55 %, u_0 = 0, u_n = 2 um: 284 -> 600 N/m sets (k_n - k_bn) u^2 / 2 = 3.16e-4 J/m free; the shear is clipped to 300 N/m.
-  Scene const scene = hydrate_scene(0.55, Composite::replace);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::replaces);
   Specimen s = two_discs(0);
   s.void_ratio = 1;
   bond_all(s, scene);
@@ -65,8 +66,8 @@ struct Balance {
   double work = 0, residual = 0, flow = 0;
   int broken = 0;
 };
-Balance shear_packing(Composite composite, double dt_share, double dashpot) {
-  Scene const scene = hydrate_scene(0.41, composite);
+Balance shear_packing(ContactCoupling coupling, double dt_share, double dashpot) {
+  Scene const scene = hydrate_scene(0.41, coupling);
   Specimen s = disordered_patch(14, 16);
   bond_all(s, scene);
   SimulationLaws laws = bonded_laws(scene, s.critical_thickness);
@@ -91,18 +92,19 @@ Balance shear_packing(Composite composite, double dt_share, double dashpot) {
 }
 
 TEST(EnergyLedger, OfAShearedPackingCloses) {
-  for (Composite composite : {Composite::replace, Composite::parallel, Composite::memory}) {
-    Balance const coarse = shear_packing(composite, 0.7, 0), fine = shear_packing(composite, 0.35, 0);
+  for (ContactCoupling coupling :
+       {ContactCoupling::replaces, ContactCoupling::parallel, ContactCoupling::replaces_keeping_force}) {
+    Balance const coarse = shear_packing(coupling, 0.7, 0), fine = shear_packing(coupling, 0.35, 0);
     EXPECT_GT(coarse.broken, 50);
     EXPECT_LT(std::abs(coarse.residual), 2e-3 * coarse.flow);
     EXPECT_LT(std::abs(fine.residual), within(4e-4, 8e-4) * fine.flow);
   }
-  Balance const damped = shear_packing(Composite::parallel, 0.3, 0.1);
+  Balance const damped = shear_packing(ContactCoupling::parallel, 0.3, 0.1);
   EXPECT_LT(std::abs(damped.residual), 1e-3 * damped.flow);
 }
 
 TEST(EnergyLedger, StandsStillWithoutIt) {
-  Scene const scene = hydrate_scene(0.41, Composite::parallel);
+  Scene const scene = hydrate_scene(0.41, ContactCoupling::parallel);
   Specimen s = disordered_patch(6, 6);
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);

@@ -47,16 +47,16 @@ class Launches {
   static void count(char const* name, std::uint32_t, std::uint64_t*) { ++counted()[name]; }
 };
 
-Simulation packing(SimulationLaws const& laws, bool hydrate, Composite composite = Composite::parallel) {
+Simulation packing(SimulationLaws const& laws, bool hydrate, ContactCoupling coupling = ContactCoupling::parallel) {
   Specimen s = disordered_patch(8, 8);
-  if (hydrate) bond_all(s, hydrate_scene(0.55, composite));
+  if (hydrate) bond_all(s, hydrate_scene(0.55, coupling));
   Simulation sim(s, laws, 0.1 * grain_d50);
   sim.time_step = 1e-8;
   sim.loading().y = AxisDrive::at_rate(1);
   return sim;
 }
-SimulationLaws hydrate_laws(Composite composite) {
-  Scene const scene = hydrate_scene(0.55, composite);
+SimulationLaws hydrate_laws(ContactCoupling coupling) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   return bonded_laws(scene, h_max_of(scene));
 }
 
@@ -88,14 +88,16 @@ TEST(Features, CostBytesOnlyWhereTheyAreOn) {
   std::size_t const real = tested_precision() == Precision::full ? sizeof(double) : sizeof(float);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(0.5, 0), false)), index_and_reference() + real);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(), false)), index_and_reference() + 2 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::replace), true, Composite::replace)),
+  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(ContactCoupling::replaces), true, ContactCoupling::replaces)),
             index_and_reference() + 4 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::memory), true, Composite::memory)), index_and_reference() + 4 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(Composite::parallel), true)), index_and_reference() + 6 * real);
+  EXPECT_EQ(bytes_per_entry(
+                packing(hydrate_laws(ContactCoupling::replaces_keeping_force), true, ContactCoupling::replaces_keeping_force)),
+            index_and_reference() + 4 * real);
+  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(ContactCoupling::parallel), true)), index_and_reference() + 6 * real);
 }
 
 TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
-  Simulation sand = packing(sand_laws(), false), bonded = packing(hydrate_laws(Composite::parallel), true);
+  Simulation sand = packing(sand_laws(), false), bonded = packing(hydrate_laws(ContactCoupling::parallel), true);
   {
     Launches const launches;
     sand.step(50);
@@ -153,7 +155,7 @@ TEST(Features, AreListedWithTheirBytesAndKernels) {
   expect_needs("sand with energy", scene);
   scene.hydrate.saturation = 0.55;
   expect_needs("parallel with energy", scene);
-  scene.bond.contact_coupling = Composite::replace;
+  scene.bond.contact_coupling = ContactCoupling::replaces;
   scene.output.snapshots = 0;
   expect_needs("replace with energy, without snapshots", scene);
   scene.grains.friction = 0;
@@ -192,7 +194,7 @@ TEST(Features, ALedgerHasNoAccountThatItsSceneHasNoUseFor) {
   EXPECT_EQ(accounts_of(sand, false), "sliding rolling damping ");
   EXPECT_EQ(accounts_of(sand_laws(0.5, 0), false), "sliding ");
   EXPECT_EQ(accounts_of(sand_laws(0, 0), false), "");
-  SimulationLaws viscous = hydrate_laws(Composite::parallel);
+  SimulationLaws viscous = hydrate_laws(ContactCoupling::parallel);
   viscous.contact.grain.damping_ratio = 0.02;
   EXPECT_EQ(accounts_of(viscous, true), "sliding rolling dashpot breakage ");
 }
@@ -201,12 +203,12 @@ TEST(Features, GrainsWithoutFrictionKeepNoShear) {
   std::size_t const real = tested_precision() == Precision::full ? sizeof(double) : sizeof(float), index = sizeof(int);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 0), false)), index);
   EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 2), false)), index + real);
-  SimulationLaws smooth = hydrate_laws(Composite::parallel);
+  SimulationLaws smooth = hydrate_laws(ContactCoupling::parallel);
   smooth.contact.grain.friction = 0;
   EXPECT_EQ(bytes_per_entry(packing(smooth, true)), index_and_reference() + 5 * real);
-  smooth = hydrate_laws(Composite::replace);
+  smooth = hydrate_laws(ContactCoupling::replaces);
   smooth.contact.grain.friction = 0;
-  EXPECT_EQ(bytes_per_entry(packing(smooth, true, Composite::replace)),
+  EXPECT_EQ(bytes_per_entry(packing(smooth, true, ContactCoupling::replaces)),
             index_and_reference() + 4 * real);  // the shear of the bonds
 }
 
@@ -221,7 +223,7 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
     return sim.specimen();
   };
   for (bool const hydrate : {false, true}) {
-    SimulationLaws laws = hydrate ? hydrate_laws(Composite::parallel) : sand_laws();
+    SimulationLaws laws = hydrate ? hydrate_laws(ContactCoupling::parallel) : sand_laws();
     laws.contact.grain.friction = 0;
     Simulation loose = packing(laws, hydrate);
     Specimen const dense = shear(loose, 2000);
@@ -240,7 +242,7 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
 
 TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
   auto const sheared = [](BreakRecord record) {
-    Simulation sim = packing(hydrate_laws(Composite::parallel), true);
+    Simulation sim = packing(hydrate_laws(ContactCoupling::parallel), true);
     sim.keep_breaks(record);
     sim.loading().y = AxisDrive::at_rate(2000);
     sim.loading().x = AxisDrive::at_rate(-1500);

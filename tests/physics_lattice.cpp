@@ -29,7 +29,7 @@ Specimen periodic_lattice(int columns, int rows) {
 }
 
 SimulationLaws lattice_laws() {
-  Scene const scene = hydrate_scene(0.55, Composite::replace);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::replaces);
   return bonded_laws(scene, h_max_of(scene));
 }
 ContactStiffness<Real> bond_of(SimulationLaws const& laws) {

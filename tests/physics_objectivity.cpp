@@ -14,7 +14,7 @@ Specimen wild_cluster(double vx, double vy) {
     s.vy[i] = 5 * (uniform_random(1, 12, i) - 0.5) + vy;
     s.omega[i] = 5e4 * (uniform_random(1, 13, i) - 0.5);
   }
-  bond_all(s, hydrate_scene(0.41, Composite::parallel));
+  bond_all(s, hydrate_scene(0.41, ContactCoupling::parallel));
   s.left = s.bottom = -1e9;
   s.right = s.top = 1e9;
   return s;
@@ -22,7 +22,7 @@ Specimen wild_cluster(double vx, double vy) {
 
 Simulation run_cluster(double vx, double vy, double dt, int steps) {
   Specimen const s = wild_cluster(vx, vy);
-  Simulation sim(s, bonded_laws(hydrate_scene(0.41, Composite::parallel), s.critical_thickness), 0.05 * grain_d50);
+  Simulation sim(s, bonded_laws(hydrate_scene(0.41, ContactCoupling::parallel), s.critical_thickness), 0.05 * grain_d50);
   sim.time_step = dt;
   sim.step(steps);
   return sim;
@@ -46,8 +46,8 @@ TEST(ConstantVelocity, OfTheWholeDoesNotShowInTheRelativeMotion) {
 }
 
 /// Largest force [N/m] in a stress-free bonded cluster after rigid turns about its middle, over that of one bond at its strength.
-double force_after_turns(int steps_a_turn, int turns, Composite composite) {
-  Scene const scene = hydrate_scene(0.55, composite);
+double force_after_turns(int steps_a_turn, int turns, ContactCoupling coupling) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = hexagonal_patch(5, 5, 2 * grain_radius + 1e-6);
   s.void_ratio = 1;
   bond_all(s, scene);
@@ -78,8 +78,8 @@ double force_after_turns(int steps_a_turn, int turns, Composite composite) {
 }
 
 TEST(RigidRotation, OfABondedClusterStrainsNoBond) {
-  for (Composite composite : {Composite::replace, Composite::parallel}) {
-    double const coarse = force_after_turns(1000, 1, composite), fine = force_after_turns(2000, 1, composite);
+  for (ContactCoupling coupling : {ContactCoupling::replaces, ContactCoupling::parallel}) {
+    double const coarse = force_after_turns(1000, 1, coupling), fine = force_after_turns(2000, 1, coupling);
     EXPECT_LT(coarse, 1e-3);
     EXPECT_TRUE(shrinks(coarse, fine, 2, 0.1, 3e-5));
   }

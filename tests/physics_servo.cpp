@@ -8,7 +8,7 @@ namespace {
 
 /// A bonded lattice between walls, under an isotropic stress, that cannot break.
 Simulation elastic_block(double stress, double alpha) {
-  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::parallel);
   Specimen s = hexagonal_patch(16, 18);
   enclose(s);
   bond_all(s, scene);

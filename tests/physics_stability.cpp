@@ -57,8 +57,8 @@ TEST(StabilityLimit, OfADiscOnARoughFloorIsThatOfItsShearSpring) {
 }
 
 /// A bonded packing, at rest but for a trace of noise, that can neither slip nor break.
-Simulation trembling_packing(Composite composite, double alpha = 0, double dashpot = 0) {
-  Scene const scene = hydrate_scene(0.55, composite);
+Simulation trembling_packing(ContactCoupling coupling, double alpha = 0, double dashpot = 0) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = disordered_patch(12, 12, 0.02);
   bond_all(s, scene);
   for (std::size_t i = 0; i < s.size(); ++i) s.vx[i] = 1e-3 * uniform_random(3, 5, i);
@@ -81,16 +81,16 @@ double growth_of(Simulation&& sim, double time_step, int steps) {
   return sim.assembly().measures().kinetic / before;
 }
 
-double growth(Composite composite, double share, int steps) {
-  double const limit = exact_limit(trembling_packing(composite), 2000);
-  return growth_of(trembling_packing(composite), share * limit, steps);
+double growth(ContactCoupling coupling, double share, int steps) {
+  double const limit = exact_limit(trembling_packing(coupling), 2000);
+  return growth_of(trembling_packing(coupling), share * limit, steps);
 }
 
 TEST(StabilityLimit, OfABondedPackingDividesStableFromDiverging) {
-  for (Composite composite : {Composite::replace, Composite::parallel}) {
-    EXPECT_LT(growth(composite, 0.98, 3000), 30);
-    EXPECT_GT(growth(composite, 1.05, 3000), 1e6);
-    Simulation const sim = trembling_packing(composite);
+  for (ContactCoupling coupling : {ContactCoupling::replaces, ContactCoupling::parallel}) {
+    EXPECT_LT(growth(coupling, 0.98, 3000), 30);
+    EXPECT_GT(growth(coupling, 1.05, 3000), 1e6);
+    Simulation const sim = trembling_packing(coupling);
     EXPECT_NEAR(exact_limit(sim, 20) / exact_limit(sim, 2000), 1, 0.05);  // 20 iterations come from above
     EXPECT_GE(exact_limit(sim, 20), exact_limit(sim, 2000) * (1 - 1e-9));
     EXPECT_LT(estimate(sim), exact_limit(sim, 2000));
@@ -119,8 +119,8 @@ Simulation trembling_sand(double alpha, double dashpot) {
 }
 
 TEST(StableLimit, IsNeverAboveTheExactOneAndNearIt) {
-  for (Composite composite : {Composite::replace, Composite::parallel}) {
-    Simulation const sim = trembling_packing(composite);
+  for (ContactCoupling coupling : {ContactCoupling::replaces, ContactCoupling::parallel}) {
+    Simulation const sim = trembling_packing(coupling);
     EXPECT_LT(sim.assembly().stable_limit(), exact_limit(sim, 2000));
     EXPECT_GT(sim.assembly().stable_limit(), 0.5 * exact_limit(sim, 2000));  // its gaps are small: most may close
   }
@@ -164,8 +164,8 @@ TEST(StableTimeStep, IsCappedAtTheLimitOfDampingAndDashpots) {
 
 // A bond in place of the contact is softer than that: when it breaks the grains' own stiffness is back.
 TEST(StableTimeStep, KnowsTheStiffnessBehindBondsThatMayBreak) {
-  for (Composite composite : {Composite::replace, Composite::memory}) {
-    Scene const scene = hydrate_scene(0.55, composite);
+  for (ContactCoupling coupling : {ContactCoupling::replaces, ContactCoupling::replaces_keeping_force}) {
+    Scene const scene = hydrate_scene(0.55, coupling);
     Specimen s = two_discs(1e-6);
     bond_all(s, scene);
     Simulation const bonded(s, bonded_laws(scene, s.critical_thickness), 0.1 * grain_d50);

@@ -22,9 +22,9 @@ double bound_over_exact(Simulation const& sim) {
 
 Simulation loaded_sand(double friction = 0.5) { return {packing(), sand_laws(friction, 2), 0.1 * packing().d50}; }
 
-Simulation bonded_packing(double saturation, Composite composite) {
+Simulation bonded_packing(double saturation, ContactCoupling coupling) {
   Specimen s = packing();
-  Scene const scene = hydrate_scene(saturation, composite);
+  Scene const scene = hydrate_scene(saturation, coupling);
   bond_all(s, scene);
   return Simulation(s, bonded_laws(scene, s.critical_thickness), 0.1 * s.d50);
 }
@@ -33,8 +33,8 @@ TEST(LimitOfStability, IsBoundedFromAboveWithinThreePercentInPackings) {
   EXPECT_GE(bound_over_exact(loaded_sand()), 1);
   EXPECT_LE(bound_over_exact(loaded_sand()), 1.03);
   for (double const saturation : {0.26, 0.55}) {
-    for (Composite const composite : {Composite::parallel, Composite::replace}) {
-      Simulation const sim = bonded_packing(saturation, composite);
+    for (ContactCoupling const coupling : {ContactCoupling::parallel, ContactCoupling::replaces}) {
+      Simulation const sim = bonded_packing(saturation, coupling);
       EXPECT_LE(bound_over_exact(sim), 1.03) << saturation;
       EXPECT_GE(bound_over_exact(sim), 1) << saturation;
     }
@@ -64,9 +64,9 @@ TEST(LimitOfStability, IsBoundedWithinFifteenPercentOnLatticesAndWithScaledInert
 
 TEST(TimeStep, IsAShareOfTheLimitAndOfTheEstimate) {
   Simulation sim = loaded_sand();
-  sim.choose_time_step({TimeStepRule::spectrum, 0.9});
+  sim.choose_time_step({TimeStepRule::adaptive, 0.9});
   EXPECT_EQ(sim.time_step, 0.9 * sim.assembly().stable_limit());
-  sim.choose_time_step({TimeStepRule::bound, 0.5});
+  sim.choose_time_step({TimeStepRule::fixed, 0.5});
   EXPECT_EQ(sim.time_step, 0.5 * local_time_step(sim.assembly().springs()));
 }
 
@@ -99,8 +99,8 @@ TEST(TimeStep, IsNeverAboveTheLimitWhileACloudCollapses) {
 }
 
 TEST(TimeStep, IsNeverAboveTheLimitWhileBondsBreak) {
-  for (Composite const composite : {Composite::parallel, Composite::replace}) {
-    Simulation sim = bonded_packing(0.55, composite);
+  for (ContactCoupling const coupling : {ContactCoupling::parallel, ContactCoupling::replaces}) {
+    Simulation sim = bonded_packing(0.55, coupling);
     sim.choose_time_step({});
     sim.loading().y = AxisDrive::at_rate(100);
     sim.loading().x = AxisDrive::at_rate(-60);

@@ -1,5 +1,5 @@
 #pragma once
-/// The equations of the seed paper as they are printed, in long double: written apart from src/kernels to check it.
+/// The equations of Jiang et al. (2017) as they are printed, in long double: written apart from src/kernels to check it.
 #include <cmath>
 
 namespace clathra::printed {

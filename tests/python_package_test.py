@@ -39,7 +39,7 @@ class Package(unittest.TestCase):
         np.testing.assert_allclose(run.history["q_Pa"], run.history["sigma1_Pa"] - run.history["sigma3_Pa"], rtol=1e-12, atol=1e-6)
         self.assertEqual(run.history["largest_q_Pa"].max(), run.numbers["peak_q_Pa"])
         units = run.history.attrs["units"]
-        self.assertEqual([units[name] for name in ("q_Pa", "time_s", "eps1", "boundary_work_J", "intact_initial_pct")], ["Pa", "s", "", "J/m", "%"])
+        self.assertEqual([units[name] for name in ("q_Pa", "time_s", "eps1", "boundary_work_J_per_m", "bonds_intact_pct")], ["Pa", "s", "", "J/m", "%"])
         self.assertEqual([clathra.units_of(name) for name in ("step", "strain_rate_per_s", "peak_curvature_per_Pa", "dilation_angle_deg")],
                          ["", "1/s", "1/Pa", "deg"])
 
@@ -117,7 +117,7 @@ class Package(unittest.TestCase):
     def test_runs_of_a_group_that_failed_are_none(self):
         with self.assertRaises(clathra.ClathraError) as caught:
             clathra.study({"scene": "base.toml", "seeds": 1, "matrix": {"specimen.void_ratio": [np.float64(0.1), 0.28]}}, "failing", progress=False)
-        self.assertEqual(caught.exception.code, 77)
+        self.assertEqual(caught.exception.code, 78)
         study = clathra.open_study("failing")
         self.assertEqual([len(study.runs(group)) for group in study.members["group"]], [0, 1])
 

@@ -7,8 +7,8 @@ namespace {
 
 TEST(Checkpoint, TakesNothingFromTheGoldenState) {
   for (Golden const& g : golden) {
-    Specimen const whole = bonded_patch(g.composite), empty = without_discs(whole);
-    auto sim = std::make_unique<Simulation>(ready(whole, g.composite, world(), world().root() ? &whole : &empty, g.precision));
+    Specimen const whole = bonded_patch(g.coupling), empty = without_discs(whole);
+    auto sim = std::make_unique<Simulation>(ready(whole, g.coupling, world(), world().root() ? &whole : &empty, g.precision));
     for (int n = 0; n < 3000; ++n) {
       if (n % 700 == 350) sim = std::make_unique<Simulation>(sim->state(), sim->assembly().laws, world());
       sim->step();
@@ -20,9 +20,9 @@ TEST(Checkpoint, TakesNothingFromTheGoldenState) {
 }
 
 TEST(Checkpoint, KeepsTheDetailsOfBrokenBonds) {
-  Specimen const whole = bonded_patch(Composite::parallel), empty = without_discs(whole);
-  Simulation alone = ready(whole, Composite::parallel);
-  auto sim = std::make_unique<Simulation>(ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty));
+  Specimen const whole = bonded_patch(ContactCoupling::parallel), empty = without_discs(whole);
+  Simulation alone = ready(whole, ContactCoupling::parallel);
+  auto sim = std::make_unique<Simulation>(ready(whole, ContactCoupling::parallel, world(), world().root() ? &whole : &empty));
   alone.keep_breaks(BreakRecord::details);
   sim->keep_breaks(BreakRecord::details);
   for (int n = 0; n < 3000; ++n) {
@@ -43,8 +43,8 @@ TEST(Checkpoint, KeepsTheDetailsOfBrokenBonds) {
 }
 
 TEST(Checkpoint, KeepsAccountsAndDisplacements) {
-  Specimen const whole = bonded_patch(Composite::parallel), empty = without_discs(whole);
-  Simulation sim = ready(whole, Composite::parallel, world(), world().root() ? &whole : &empty);
+  Specimen const whole = bonded_patch(ContactCoupling::parallel), empty = without_discs(whole);
+  Simulation sim = ready(whole, ContactCoupling::parallel, world(), world().root() ? &whole : &empty);
   sim.set_ledger(true);
   sim.mark_start();
   sim.choose_time_step({});

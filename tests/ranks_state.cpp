@@ -41,8 +41,8 @@ Decomposition lopsided(Specimen const& s) {
 
 TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
   for (Golden const& g : golden) {
-    Specimen const whole = bonded_patch(g.composite), part = dealt(whole);
-    Simulation sim = ready(whole, g.composite, world(), &part, g.precision);
+    Specimen const whole = bonded_patch(g.coupling), part = dealt(whole);
+    Simulation sim = ready(whole, g.coupling, world(), &part, g.precision);
     sim.step(3000);
     EXPECT_EQ(sim.assembly().hash(), g.hash);
     EXPECT_EQ(sim.assembly().broken_bonds(), g.broken);
@@ -51,8 +51,8 @@ TEST(Ranks, ReachTheGoldenStateThroughBreakage) {
 }
 
 TEST(Ranks, FollowTheLimitOfStabilityAlike) {
-  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
-  Simulation one = ready(whole, Composite::parallel), many = ready(whole, Composite::parallel, world(), &part);
+  Specimen const whole = bonded_patch(ContactCoupling::parallel), part = dealt(whole);
+  Simulation one = ready(whole, ContactCoupling::parallel), many = ready(whole, ContactCoupling::parallel, world(), &part);
   for (Simulation* sim : {&one, &many}) sim->choose_time_step({});
   for (int n = 0; n < 1500; ++n) {
     one.step();
@@ -97,8 +97,8 @@ TEST(Ranks, MissNoContactOfFlyingDiscs) {
 }
 
 TEST(Ranks, MeasureWhatOneRankMeasures) {
-  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
-  Simulation one = ready(whole, Composite::parallel), many = ready(whole, Composite::parallel, world(), &part);
+  Specimen const whole = bonded_patch(ContactCoupling::parallel), part = dealt(whole);
+  Simulation one = ready(whole, ContactCoupling::parallel), many = ready(whole, ContactCoupling::parallel, world(), &part);
   one.set_ledger(true);
   many.set_ledger(true);
   for (int n = 0; n < 1500; ++n) {
@@ -110,8 +110,8 @@ TEST(Ranks, MeasureWhatOneRankMeasures) {
 }
 
 TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
-  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
-  Simulation sim = ready(whole, Composite::parallel, world(), &part);
+  Specimen const whole = bonded_patch(ContactCoupling::parallel), part = dealt(whole);
+  Simulation sim = ready(whole, ContactCoupling::parallel, world(), &part);
   int fewest = sim.assembly().discs();
   for (int n = 0; n < 3000; ++n) {
     if (n == 400 || n == 2000) sim.set_decomposition(lopsided(whole));
@@ -124,9 +124,9 @@ TEST(Ranks, MayOwnNothingAndMayBeCutAnewAtAnyTime) {
     EXPECT_EQ(world().min(fewest), 0);
   }
   Golden const& g = golden[1];
-  ASSERT_EQ(g.composite, Composite::parallel);
+  ASSERT_EQ(g.coupling, ContactCoupling::parallel);
   // Cutting anew asks for a neighbour search, and searches order rows: the lone rank searches at the same steps.
-  Simulation one = ready(whole, Composite::parallel);
+  Simulation one = ready(whole, ContactCoupling::parallel);
   for (int n = 0; n < 3000; ++n) {
     if (n == 400 || n == 1200 || n == 2000) one.request_search();
     one.step();
@@ -165,8 +165,8 @@ Seen seen(Simulation const& sim, Ranks const& ranks) {
 }
 
 TEST(Ranks, ShowTheSameDiscsAndPairs) {
-  Specimen const whole = bonded_patch(Composite::parallel), part = dealt(whole);
-  Simulation one = ready(whole, Composite::parallel), many = ready(whole, Composite::parallel, world(), &part);
+  Specimen const whole = bonded_patch(ContactCoupling::parallel), part = dealt(whole);
+  Simulation one = ready(whole, ContactCoupling::parallel), many = ready(whole, ContactCoupling::parallel, world(), &part);
   one.mark_start();
   many.mark_start();
   for (int n = 0; n < 3000; ++n) {
@@ -181,8 +181,8 @@ TEST(Ranks, ShowTheSameDiscsAndPairs) {
 }
 
 TEST(Ranks, OwnEqualPartsOfTheWork) {
-  Specimen const whole = bonded_patch(Composite::replace), part = dealt(whole);
-  Simulation sim = ready(whole, Composite::replace, world(), &part);
+  Specimen const whole = bonded_patch(ContactCoupling::replaces), part = dealt(whole);
+  Simulation sim = ready(whole, ContactCoupling::replaces, world(), &part);
   int const ranks = world().count();
   double const fair = static_cast<double>(sim.assembly().discs()) / ranks;
   EXPECT_NEAR(sim.assembly().particles.owned, fair, 2 + 0.1 * fair);
@@ -200,10 +200,10 @@ TEST(Ranks, OwnEqualPartsOfTheWork) {
 }
 
 TEST(Ranks, HandOutASpecimenWhosePartsAreTheWhole) {
-  Specimen const whole = bonded_patch(Composite::replace), part = dealt(whole);
-  Simulation sim = ready(whole, Composite::replace, world(), &part);
+  Specimen const whole = bonded_patch(ContactCoupling::replaces), part = dealt(whole);
+  Simulation sim = ready(whole, ContactCoupling::replaces, world(), &part);
   sim.step(500);
-  Simulation alone = ready(whole, Composite::replace);
+  Simulation alone = ready(whole, ContactCoupling::replaces);
   for (int n = 0; n < 500; ++n) alone.step();
   Specimen const mine = sim.specimen(), all = alone.specimen();
   EXPECT_EQ(world().sum(static_cast<std::int64_t>(mine.size())), static_cast<std::int64_t>(all.size()));

@@ -47,7 +47,7 @@ inline HistoryRow made_up_row(MadeUpTest const& test, int i) {
     row.bonds_intact = 1000 - 2 * i;
     row.broken[BreakMode::rolling] = i;
     row.broken[BreakMode::shear] = i;
-    row.intact_initial_pct = static_cast<double>(row.bonds_intact) / 10;
+    row.bonds_intact_pct = static_cast<double>(row.bonds_intact) / 10;
   }
   return row;
 }
@@ -59,7 +59,7 @@ inline void write_made_up_record(std::filesystem::path const& folder, MadeUpTest
   record.input = parse_scene("[specimen]\nparticles = 2000\n", "my.toml", "", test.overrides);
   record.input.scene.hydrate.saturation = test.saturation;
   record.input.scene.test.confining_stress = test.sigma3;
-  record.stages["plan"]["discs"] = 2000;
+  record.stages["plan"]["particles"] = 2000;
   record.warnings = {"the <wall> is \"near\""};
   record.state_hash = 0xabcull;
   record.exit_reason = "finished";

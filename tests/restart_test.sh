@@ -10,7 +10,7 @@ fail() { echo "restart: $*"; cat log || true; exit 1; }
 
 "$clathra" generate "$scene" -o specimen.h5 >log 2>&1 || fail "no specimen"
 given=(run "$scene" --set specimen.file=specimen.h5 --set test.axial_strain=0.008
-  --set output.event_details=true --set bond.moment_ratio=0.04 --set output.records=60 --set output.snapshots=3 --set output.energy=true --set output.keep_checkpoint=false)
+  --set output.event_details=true --set bond.rolling_lever="0.04 B" --set output.records=60 --set output.snapshots=3 --set output.energy=true --set output.keep_checkpoint=false)
 begun=$(date +%s%N)
 "$clathra" "${given[@]}" --output alone >log 2>&1 || fail "the run that is left alone failed"
 [ "$(head -n 1 alone/events.csv | tr , '\n' | grep -c .)" = 13 ] || fail "events without details"
@@ -70,8 +70,8 @@ grep -q -- "--resume goes on" log || fail "does not say how to go on"
 hash=$("$clathra" info --state-hash stopped/ckpt/0.h5)
 [ "${#hash}" = 18 ] || fail "a checkpoint without a state hash: '$hash'"
 code=0
-"$clathra" "${given[@]}" --output stopped --resume --set bond.moment_scale=rod_mm >log 2>&1 || code=$?
-[ "$code" = 77 ] && grep -q "bond.moment_scale was .*, is" log || fail "a checkpoint of another scene is not refused with the key ($code)"
+"$clathra" "${given[@]}" --output stopped --resume --set bond.rolling_lever="1 mm" >log 2>&1 || code=$?
+[ "$code" = 77 ] && grep -q "bond.rolling_lever was .*, is" log || fail "a checkpoint of another scene is not refused with the key ($code)"
 grep -q "rod_mm" stopped/run.json && fail "a refused scene left its record in the folder"
 printf 'x' | dd of=stopped/ckpt/0.h5 bs=1 seek=5000 conv=notrunc 2>/dev/null
 code=0
@@ -114,7 +114,7 @@ compare full
 if [ -n "$mpiexec" ]; then
   code=0
   "$mpiexec" -n 3 "$clathra" "${given[@]}" --output few --set specimen.file= --set specimen.particles=120 >log 2>&1 || code=$?
-  [ "$code" = 77 ] && grep -q "120 discs cannot be cut among 3 ranks" log || fail "too many ranks are not refused ($code)"
+  [ "$code" = 77 ] && grep -q "120 particles cannot be cut among 3 ranks" log || fail "too many ranks are not refused ($code)"
   code=0
   "$mpiexec" -n 2 "$clathra" info specimen.h5 >log 2>&1 || code=$?
   [ "$code" = 64 ] && grep -q "runs on one rank, 2 were started" log || fail "a verb of one rank on two ($code)"

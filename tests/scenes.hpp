@@ -137,21 +137,20 @@ inline SimulationLaws sand_laws(double friction = 0.5, double shape_factor = 2) 
 }
 
 /// A scene with hydrate, strength and stiffness as printed, L_r = B/14.
-inline Scene hydrate_scene(double saturation, Composite composite, MomentScale scale = MomentScale::similitude) {
+inline Scene hydrate_scene(double saturation, ContactCoupling coupling, RollingLever lever = {0, 1.0 / 14}) {
   Scene scene;
-  scene.bond.moment_ratio = 1.0 / 14;
   scene.bond.grain_stiffness_factor = 1;
   scene.hydrate.saturation = saturation;
-  scene.bond.contact_coupling = composite;
-  scene.bond.strength_from = CoefficientSource::printed;
-  scene.bond.moment_scale = scale;
+  scene.bond.contact_coupling = coupling;
+  scene.bond.strength_from = StrengthFrom::printed;
+  scene.bond.rolling_lever = lever;
   return scene;
 }
 
 /// Sand with the bonds of a scene, without any damping.
 inline SimulationLaws bonded_laws(Scene const& scene, double h_max) {
   SimulationLaws laws = sand_laws();
-  laws.contact.bond_kind = scene.bond.contact_coupling == Composite::parallel ? BondKind::parallel : BondKind::replace;
+  laws.contact.bond_kind = scene.bond.contact_coupling == ContactCoupling::parallel ? BondKind::parallel : BondKind::replace;
   laws.contact.bond = make_bond_law(scene, grain_d50, h_max);
   return laws;
 }

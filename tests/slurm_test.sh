@@ -62,7 +62,7 @@ seeds = 7
 [matrix]
 test.confining_stress = ["1 MPa", "2 MPa", "3 MPa"]
 END
-options=(--seeds 3 --force --set grains.friction=0.4 --set "damping.local=25 %" --checkpoint-every "10 min")
+options=(--seeds 3 --ignore-guards --set grains.friction=0.4 --set "damping.local=25 %" --checkpoint-every "10 min")
 "$clathra" study study.toml "${options[@]}" --output at-once >at-once.log 2>&1 || fail "the study at once failed"
 launcher="env \"NOTE=a 'quoted' \$note\" srun"
 "$clathra" study study.toml "${options[@]}" --output "it's hér€" --max-walltime "1 h" --threads 1 --launcher "$launcher" \

@@ -31,12 +31,12 @@ def plant(folder, seed, numbers, q, finished=True, energy=False, rate=1e-4, **ru
     member.mkdir(parents=True)
     scene = {**SCENE, "run": {**SCENE["run"], **run}, "test": {**SCENE["test"], "inertial_number": rate}}
     document = {"scene": scene, "seed": seed, "disc_steps": 1000, "input": {"specimen_digest_xxh3_128": f"{seed:x}".ljust(32, "0")},
-                "stages": {"plan": {"discs": 2000.0, "inertial_number": rate}, "shear": numbers}, "exit": {"reason": "finished" if finished else "stopped"}}
+                "stages": {"plan": {"particles": 2000.0, "inertial_number": rate}, "shear": numbers}, "exit": {"reason": "finished" if finished else "stopped"}}
     (member / "run.json").write_text(json.dumps(document))
     with open(member / "history.csv", "w", newline="") as file:
         rows = csv.writer(file)
-        ledger = ["boundary_work_J"] + [f"{name}_J" for name in collect.LEDGER] if energy else []
-        rows.writerow(["eps1", "q_Pa", "contact_sigma1_Pa", "contact_sigma3_Pa", "wave_number"] + ledger)
+        ledger = ["boundary_work_J_per_m"] + [f"{name}_J" for name in collect.LEDGER] if energy else []
+        rows.writerow(["eps1", "q_Pa", "contact_sigma1_Pa", "contact_sigma3_Pa", "platen_wave_stress"] + ledger)
         for number, (walls, contacts) in enumerate(q):
             rows.writerow([0.01 * number, walls, contacts + 1e6, 1e6, 0.04] + ([4, 2, 0, 1, 0.5, 0, 0.25] if energy else []))
 
@@ -131,8 +131,8 @@ class Tradeoff(unittest.TestCase):
         self.assertEqual(two_rates.fastest_rise(tests, 0.55, within=0.5), two_rates.FIXED)
         self.assertAlmostEqual(two_rates.half_peak_strain(tests, 0.55, two_rates.plain(2e-4)), 2e6 / 1e8)
 
-    def test_the_help_of_options_quotes_the_committed_data(self):
-        tests, page = compare.Tests(compare.load(PROJECT / "perf/tradeoff/data.csv")), (PROJECT / "docs/scene.md").read_text()
+    def test_what_is_said_key_by_key_quotes_the_committed_data(self):
+        tests, page = compare.Tests(compare.load(PROJECT / "perf/tradeoff/data.csv")), (PROJECT / "docs/accuracy.md").read_text()
         sand, bonded = table.SAND, table.BONDED
 
         def peak(saturation, factor, level, rate, against):

@@ -32,8 +32,8 @@ std::vector<BondLaw> various_laws() {
     law.thickness_weight = 0;
     law.plate_thickness = law.thickness_partner = 0.3 * law.critical_thickness;
     laws.push_back(law);
-    for (RodThickness const rod : {RodThickness::clamped, RodThickness::scaled}) {
-      Scene scene = hydrate_scene(static_cast<double>(saturation), Composite::replace);
+    for (ThicknessMapping const rod : {ThicknessMapping::clamped, ThicknessMapping::scaled}) {
+      Scene scene = hydrate_scene(static_cast<double>(saturation), ContactCoupling::replaces);
       scene.bond.thickness_mapping = rod;
       laws.push_back(make_bond_law(scene, grain_d50, law.critical_thickness));
     }

@@ -7,8 +7,8 @@ namespace clathra {
 namespace {
 
 /// A bonded packing that walls crush: contacts close and open, bonds break.
-Simulation crushed_packing(Composite composite) {
-  Scene const scene = hydrate_scene(0.55, composite);
+Simulation crushed_packing(ContactCoupling coupling) {
+  Scene const scene = hydrate_scene(0.55, coupling);
   Specimen s = disordered_patch(10, 10, 0.03);
   bond_all(s, scene);
   Simulation sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);
@@ -19,8 +19,8 @@ Simulation crushed_packing(Composite composite) {
 }
 
 TEST(ContactRows, EntriesKnownToCarryNothingMayBeLeftOut) {
-  for (Composite const composite : {Composite::replace, Composite::parallel}) {
-    Simulation quick = crushed_packing(composite), thorough = crushed_packing(composite);
+  for (ContactCoupling const coupling : {ContactCoupling::replaces, ContactCoupling::parallel}) {
+    Simulation quick = crushed_packing(coupling), thorough = crushed_packing(coupling);
     for (int n = 0; n < 4000; ++n) {
       quick.step();
       thorough.set_laws(thorough.assembly().laws);  // forgets what the last step found: every entry is evaluated
@@ -33,7 +33,7 @@ TEST(ContactRows, EntriesKnownToCarryNothingMayBeLeftOut) {
 }
 
 TEST(ContactRows, FallInWorkWithinAWindowSoThatSlicesAreEven) {
-  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::parallel);
   Specimen s = disordered_patch(20, 20, 0.03);
   bond_all(s, scene);
   s.contacts.resize(2 * s.contacts.size() / 3);  // some discs carry less than others
@@ -124,14 +124,14 @@ TEST(ContactRows, HoldAllThatIsNearHoweverManyItIs) {
       int const j = rows.neighbour(rows.entry(i, k));
       listed.push_back({std::hypot(p.x(i) - p.x(j), p.y(i) - p.y(j)) - p.radius(i) - p.radius(j) >= 0, p.id(j)});
     }
-    EXPECT_EQ(listed, expected) << "row of disc " << p.id(i);
+    EXPECT_EQ(listed, expected) << "row of particle " << p.id(i);
     longest = std::max(longest, static_cast<int>(listed.size()));
   }
   EXPECT_GT(longest, 20);
 }
 
 TEST(ContactRows, KeepTheWidthThatTheLawGivesABond) {
-  Simulation sim = crushed_packing(Composite::parallel);
+  Simulation sim = crushed_packing(ContactCoupling::parallel);
   sim.step(200);
   HostDiscs const p(sim.assembly().particles);
   HostRows const rows(sim.assembly().rows);

@@ -18,7 +18,7 @@ constexpr double d50 = golden::d50;
 Scene table_scene(double saturation) {
   Scene scene;
   scene.hydrate.saturation = saturation;
-  scene.bond.strength_from = CoefficientSource::printed;
+  scene.bond.strength_from = StrengthFrom::printed;
   scene.bond.grain_stiffness_factor = 1;
   return scene;
 }
@@ -150,15 +150,15 @@ TEST(BondCard, AnOverlapCountsAsAGapOfZeroAndSaturationUpTo20PercentBindsNothing
   EXPECT_EQ(none.k_bm, 0);
 }
 
-TEST(BondLaw, TheMomentLengthFollowsTheScaleOfTheScene) {
+TEST(BondLaw, TheRollingLeverIsALengthOrAPartOfTheWidth) {
   Scene scene = table_scene(0.55);
-  auto const length_of = [&](MomentScale scale) {
-    scene.bond.moment_scale = scale;
+  auto const length_of = [&](RollingLever const& lever) {
+    scene.bond.rolling_lever = lever;
     return evaluate_bond(scene, d50, d50 / 2, d50 / 2, 0, 0).moment_length;
   };
-  EXPECT_EQ(length_of(MomentScale::paper_si), 1);
-  EXPECT_EQ(length_of(MomentScale::rod_mm), 1e-3);
-  EXPECT_NEAR(length_of(MomentScale::similitude), 69.482e-6 / 4, 1e-9);
+  EXPECT_EQ(length_of({1, 0}), 1);
+  EXPECT_EQ(length_of({1e-3, 0}), 1e-3);
+  EXPECT_NEAR(length_of({0, 0.25}), 69.482e-6 / 4, 1e-9);
 }
 
 TEST(BondLaw, TheConstantThicknessLawGivesEveryGapTheSameBond) {
@@ -192,8 +192,8 @@ struct GaplessBond {
 TEST(BondLaw, OfScaledRodsHasTheAddendsOfEquation11ScaledByArea) {
   for (GaplessBond const& expected : {GaplessBond{0.26, 479, 1541}, {0.41, 784, 2522}, {0.55, 916, 2948}}) {
     Scene scene = table_scene(expected.saturation);
-    scene.bond.strength_from = CoefficientSource::thm;
-    scene.bond.thickness_mapping = RodThickness::scaled;
+    scene.bond.strength_from = StrengthFrom::conditions;
+    scene.bond.thickness_mapping = ThicknessMapping::scaled;
     BondCard const card = evaluate_bond(scene, d50, d50 / 2, d50 / 2, 0, 0);
     EXPECT_NEAR(card.R_t, expected.tension, 1);
     EXPECT_NEAR(card.R_c, expected.compression, 1);
@@ -209,7 +209,7 @@ TEST(BondLaw, OfScaledRodsHasTheAddendsOfEquation11ScaledByArea) {
 
 TEST(BondLaw, OfClampedRodsIsThatOfTheThinnestOneTested) {
   Scene scene = table_scene(0.41);
-  scene.bond.thickness_mapping = RodThickness::clamped;
+  scene.bond.thickness_mapping = ThicknessMapping::clamped;
   for (double const gap : {0.0, 5e-6}) {
     BondCard const card = evaluate_bond(scene, d50, d50 / 2, d50 / 2, gap, 0);
     EXPECT_NEAR(card.f_s * card.K_s, 0.520, 5e-4);

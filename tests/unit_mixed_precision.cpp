@@ -94,7 +94,8 @@ TEST(MixedPrecision, FindsADiscWhosePlaceIsNoNumber) {
     } catch (Diverged const& fault) {
       text = fault.what();
     }
-    EXPECT_NE(text.find("disc 1 has a position or velocity that is not finite"), std::string::npos) << nowhere << ": " << text;
+    EXPECT_NE(text.find("particle 1 has a position or velocity that is not finite"), std::string::npos)
+        << nowhere << ": " << text;
   }
 }
 
@@ -194,7 +195,7 @@ TEST(MixedPrecision, KeepsAHistoryWhereADashpotPressesBeyondAllNumbers) {
 }
 
 TEST(LeastStrength, OfSinglePrecisionLiesBelowThatOfDoubleByLittle) {
-  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::parallel);
   BondLaw const law = make_bond_law(scene, grain_d50, h_max_of(scene));
   LeastStrengthOf<double> const exact = least_strength<double>(law);
   LeastStrengthOf<float> const single = least_strength<float>(law);

@@ -38,7 +38,7 @@ TEST(NearPairs, AreThoseOfAllPairsForAnyReachAndAnySizes) {
     for (std::size_t const own : {s.size(), s.size() / 3}) {
       std::vector<std::pair<int, int>> found;
       for (NearPair const& p : near_pairs(s, own, reach)) found.emplace_back(s.id[p.a], s.id[p.b]);
-      EXPECT_EQ(found, one_by_one(s, own, reach)) << "reach " << reach << ", " << own << " of " << s.size() << " discs";
+      EXPECT_EQ(found, one_by_one(s, own, reach)) << "reach " << reach << ", " << own << " of " << s.size() << " particles";
     }
   }
 }

@@ -53,7 +53,7 @@ TEST(PeriodicImages, OfAnyCellAreThoseOfItsLattice) {
     int across = 0;
     for (int i = 0; i < p.owned; ++i) {
       double const up = (y(i) - cell.y) / cell.edges.yy, along = (x(i) - cell.x - up * tilt) / cell.edges.xx;
-      EXPECT_TRUE(up >= 0 && up < 1 && along >= -1e-15 && along < 1) << i << ": the cell holds all discs";
+      EXPECT_TRUE(up >= 0 && up < 1 && along >= -1e-15 && along < 1) << i << ": the cell holds all particles";
       for (int j = 0; j < p.owned; ++j)
         for (int a = -2; a <= 2; ++a)
           for (int b = -2; b <= 2; ++b) {

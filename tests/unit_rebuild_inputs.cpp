@@ -30,7 +30,7 @@ TEST(RebuildInputs, FindsBoundsAndSpeeds) {
 }
 
 TEST(RebuildInputs, FindsTheWidestGapOfAnIntactBond) {
-  Scene const scene = hydrate_scene(0.55, Composite::parallel);
+  Scene const scene = hydrate_scene(0.55, ContactCoupling::parallel);
   Specimen s = disordered_patch(10, 10, 0.03);
   bond_all(s, scene);
   Simulation const sim(s, bonded_laws(scene, s.critical_thickness), 0.05 * grain_d50);

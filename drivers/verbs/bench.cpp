@@ -28,7 +28,7 @@ struct BenchOptions {
 nlohmann::ordered_json json_of(ThroughputRow const& row) {
   Throughput const& t = row.measured;
   return {{"precision", precision_names[static_cast<int>(row.precision)]},
-          {"discs", row.discs},
+          {"particles", row.discs},
           {"disc_steps_per_second", t.disc_steps_per_second},
           {"contact_steps_per_s", t.contact_steps_per_s},
           {"seconds_per_step", 1e-6 * row.microseconds_per_step()},
@@ -57,15 +57,16 @@ nlohmann::ordered_json json_of(BenchOptions const& options) {
 std::string text_of(nlohmann::ordered_json const& c) {
   auto const number = [&](char const* key) { return c.at(key).get<double>(); };
   return fmt::format(
-      "{} discs, {}, {} precision, {} threads, {} lanes, {}\n"
+      "{} particles, {}, {} precision, {} threads, {} lanes, {}\n"
       "disc-steps        {:.4g} million a second\n"
       "contact steps     {:.4g} million a second (pairs that touch or are bonded)\n"
-      "memory            {:.0f} bytes a disc\n"
-      "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a disc and step at the "
+      "memory            {:.0f} bytes a particle\n"
+      "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a particle and step at "
+      "the "
       "least)\n"
       "arithmetic        {:.3g} % of the {:.3g} GFLOP/s that products and sums reach\n"
       "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
-      c.at("discs").dump(), c.at("case").get<std::string>(), c.at("precision").get<std::string>(), c.at("threads").dump(),
+      c.at("particles").dump(), c.at("case").get<std::string>(), c.at("precision").get<std::string>(), c.at("threads").dump(),
       c.at("lanes").dump(), c.at("backend").get<std::string>(), number("disc_steps_per_second") * 1e-6,
       number("contact_steps_per_s") * 1e-6, number("bytes_per_disc"), number("bandwidth_share") * 100,
       number("bandwidth_bytes_per_s") * 1e-9, number("bytes_moved_per_disc_and_step"), number("flop_share") * 100,
@@ -123,20 +124,22 @@ void add_bench(CLI::App& program, Verb& chosen) {
           ->check(CLI::IsMember(std::vector<std::string>(std::begin(precision_names), std::end(precision_names))))
           ->capture_default_str();
   CLI::Option const* const discs =
-      verb->add_option("--particles", options->setup.discs, "number of discs, about; the largest of a card")
+      verb->add_option("--particles", options->setup.discs, "number of particles, about; the largest of a card")
           ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))
           ->capture_default_str();
   verb->add_option("--threads", options->threads, "threads")->check(CLI::Range(1, 4096))->type_name("N");
   verb->add_option("--seconds", options->seconds, "time to measure")->check(CLI::Range(0.01, 3600.0))->capture_default_str();
   verb->add_flag("--json", options->json, "one JSON object, SI units");
-  verb->add_flag("--card", options->card,
-                 "a table instead: 2000 discs, ten times as many each time, and --particles (1000000), in both precisions, with "
-                 "the share of the bandwidth that updating as much memory reaches")
+  verb->add_flag(
+          "--card", options->card,
+          "a table instead: 2000 particles, ten times as many each time, and --particles (1000000), in both precisions, with "
+          "the share of the bandwidth that updating as much memory reaches")
       ->excludes(precision);
   verb->footer("Example: clathra bench --case bonded --particles 20000 --threads 1 --json");
   verb->callback([options, discs, &chosen] {
     if (options->card && discs->count() == 0) options->setup.discs = 1'000'000;
-    if (options->card && options->setup.discs < 2000) throw CLI::ValidationError("--particles", "a card begins with 2000 discs");
+    if (options->card && options->setup.discs < 2000)
+      throw CLI::ValidationError("--particles", "a card begins with 2000 particles");
     chosen = [options] { return bench(*options); };
   });
 }

@@ -17,7 +17,7 @@ namespace {
 /// Options as text, with units.
 struct BondOptions {
   std::string saturation, d50 = "0.1694 mm", r1, r2, gap = "0 um", temperature = "5 degC", pore_pressure = "8 MPa";
-  std::string density = "0.9 g/cm^3", normal_force = "0 N/m", reading = Scene{}.bond.preset, coefficients;
+  std::string density = "0.9 g/cm^3", normal_force = "0 N/m", preset = Scene{}.bond.preset, strength_from;
   bool json = false;
 };
 
@@ -31,14 +31,14 @@ double read(char const* option, std::string const& text, Dimension dimension) {
 
 BondCard evaluate(BondOptions const& options) {
   Scene scene;
-  scene.bond.preset = options.reading;
-  apply_preset(readings().of(options.reading), scene, [](std::string_view) { return false; });
+  scene.bond.preset = options.preset;
+  apply_preset(bond_presets().of(options.preset), scene, [](std::string_view) { return false; });
   scene.hydrate.saturation = read("--saturation", options.saturation, Dimension::ratio);
   scene.hydrate.temperature = read("--temperature", options.temperature, Dimension::temperature);
   scene.hydrate.pore_pressure = read("--pore-pressure", options.pore_pressure, Dimension::pressure);
   scene.hydrate.density = read("--hydrate-density", options.density, Dimension::density);
-  if (!options.coefficients.empty())
-    scene.bond.strength_from = options.coefficients == "printed" ? CoefficientSource::printed : CoefficientSource::thm;
+  if (!options.strength_from.empty())
+    scene.bond.strength_from = options.strength_from == "printed" ? StrengthFrom::printed : StrengthFrom::conditions;
   double const d50 = read("--d50", options.d50, Dimension::length);
   double const r1 = options.r1.empty() ? d50 / 2 : read("--r1", options.r1, Dimension::length);
   double const r2 = options.r2.empty() ? r1 : read("--r2", options.r2, Dimension::length);
@@ -46,6 +46,7 @@ BondCard evaluate(BondOptions const& options) {
   double const force = read("--normal-force", options.normal_force, Dimension::line_force);
   if (!(d50 > 0) || !(r1 > 0) || !(r2 > 0)) throw CLI::ValidationError("--d50, --r1 and --r2 must be above 0");
   if (std::string const problem = hydrate_problem(scene.hydrate); !problem.empty()) print_error("note: " + problem);
+  if (std::string const warning = fit_warning(scene.hydrate); !warning.empty()) print_error("note: " + warning);
   if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) print_error("note: " + warning);
   try {
     return evaluate_bond(scene, d50, r1, r2, gap, force);
@@ -109,23 +110,24 @@ ExitCode bond(BondOptions const& options) {
 
 void add_bond(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<BondOptions>();
-  CLI::App* const verb = program.add_subcommand("bond", "Evaluate the bond law between two discs");
+  CLI::App* const verb = program.add_subcommand("bond", "Evaluate the bond law between two particles");
   verb->add_option("--saturation", options->saturation, "hydrate saturation, 0.41 or \"41 %\"")->required();
   verb->add_option("--d50", options->d50, "median diameter of the sand")->capture_default_str();
-  verb->add_option("--r1", options->r1, "radius of the first disc (default: d50/2)");
-  verb->add_option("--r2", options->r2, "radius of the second disc (default: r1)");
+  verb->add_option("--r1", options->r1, "radius of the first particle (default: d50/2)");
+  verb->add_option("--r2", options->r2, "radius of the second particle (default: r1)");
   verb->add_option("--gap", options->gap, "distance of the surfaces; an overlap is negative")->capture_default_str();
   verb->add_option("--temperature", options->temperature, "temperature")->capture_default_str();
   verb->add_option("--pore-pressure", options->pore_pressure, "pore pressure")->capture_default_str();
   verb->add_option("--hydrate-density", options->density, "density of the hydrate")->capture_default_str();
   verb->add_option("--normal-force", options->normal_force, "normal bond force per metre, compression positive")
       ->capture_default_str();
-  verb->add_option("--reading", options->reading, "reading of what the paper leaves open: the key bond.preset")
+  verb->add_option("--preset", options->preset, "bond.preset: model of what Jiang et al. (2017) leave open")
       ->capture_default_str()
-      ->check(CLI::IsMember(std::vector<std::string>(readings().names.begin(), readings().names.end())));
-  verb->add_option("--coefficients", options->coefficients,
-                   "strengths as printed (Eq. 15) or from the state (Eq. 13) (default: those of the reading)")
-      ->check(CLI::IsMember({"printed", "thm"}));
+      ->check(CLI::IsMember(std::vector<std::string>(bond_presets().names.begin(), bond_presets().names.end())));
+  verb->add_option(
+          "--strength-from", options->strength_from,
+          "bond.strength_from: as printed (Eq. 15), or of temperature, pressure and density (Eq. 13) (default: the preset's)")
+      ->check(CLI::IsMember({"printed", "conditions"}));
   verb->add_flag("--json", options->json, "one JSON object, SI units");
   verb->footer("Example: clathra bond --saturation 0.41 --gap \"2 um\" --normal-force \"200 N/m\"");
   verb->callback([options, &chosen] { chosen = [options] { return bond(*options); }; });

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "domain/measurement/specimen_facts.hpp"
 #include "forecast.hpp"
+#include "json_text.hpp"
 #include "print.hpp"
 #include "rank_checks.hpp"
 #include "scene_options.hpp"
@@ -18,20 +20,62 @@ struct CheckOptions {
   SceneOptions scene;
   double rate = 0;
   int ranks = 1;
+  bool json = false;
 };
 
-ExitCode check(CheckOptions const& options) {
-  LoadedScene input = options.scene.load();
+std::string verdict_of(LoadedScene const& input, Forecast const& result) {
+  if (!result.refusals.empty() && !input.scene.run.ignore_guards) return "refused";
+  std::size_t const warnings = warnings_of(input, result).size();
+  return warnings == 0 ? "valid" : fmt::format("valid, {} warning{}", warnings, warnings == 1 ? "" : "s");
+}
+
+nlohmann::ordered_json problem_json(Problem const& problem) {
+  constexpr char const* severities[] = {"error", "missing file", "refusal"};
+  return {{"file", problem.file},
+          {"line", problem.line},
+          {"column", problem.column},
+          {"severity", severities[static_cast<int>(problem.severity)]},
+          {"text", problem.text}};
+}
+
+/// What is wrong with a scene that cannot be read, as JSON; the messages go to stderr as ever.
+void print_problems(CheckOptions const& options, SceneProblems const& problems) {
+  nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", "invalid"}, {"problems", nlohmann::json::array()}};
+  for (Problem const& problem : problems.problems) json["problems"].push_back(problem_json(problem));
+  print_json(json_text(json));
+}
+
+ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
   Scene const& scene = input.scene;
   bool const reads = scene.specimen.is_read();
   Forecast const result = forecast(scene, reads ? design_of(read_for_test(input)) : design_sample(scene), options.ranks);
   require_enough_discs(options.ranks, static_cast<std::int64_t>(result.numbers.at("particles")));
   MachineSpeed const speed =
       options.rate > 0 ? MachineSpeed{options.rate, "as given"} : machine_speed(scene, options.ranks, true);
-  ExitCode const printed = print_result(fmt::format("{}: the scene is right\n{}{}", options.scene.file,
-                                                    forecast_text(scene, result, speed), warnings_text(input, result)));
+  std::string const verdict = verdict_of(input, result);
+  ExitCode printed = ExitCode::done;
+  if (options.json) {
+    nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", verdict.substr(0, verdict.find(','))}};
+    json.update(forecast_json(scene, result, speed));
+    json["warnings"] = warnings_of(input, result);
+    printed = print_json(json_text(json));
+  } else {
+    printed = print_result(fmt::format("{}: {}\n{}{}", options.scene.file, verdict, forecast_text(scene, result, speed),
+                                       warnings_text(input, result)));
+    if (is_quiet())
+      for (std::string const& warning : warnings_of(input, result)) print_error("warning: " + warning);
+  }
   refuse_if_needed(scene, result);
   return printed;
+}
+
+ExitCode check(CheckOptions const& options) {
+  try {
+    return check_loaded(options, options.scene.load());
+  } catch (SceneProblems const& problems) {
+    if (options.json) print_problems(options, problems);
+    throw;
+  }
 }
 
 }  // namespace
@@ -44,6 +88,7 @@ void add_check(CLI::App& program, Verb& chosen) {
       ->check(CLI::PositiveNumber);
   verb->add_option("--ranks", options->ranks, "ranks that will share the run on this machine (mpirun -n N)")
       ->check(CLI::Range(1, 1000000));
+  verb->add_flag("--json", options->json, "one JSON object, SI units");
   verb->footer("Example: clathra check examples/quick.toml --set test.strain_rate=\"5 %/min\"");
   verb->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
 }

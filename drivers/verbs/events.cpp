@@ -7,9 +7,13 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 
+#include "domain/scene/units.hpp"
 #include "io/results/run_results.hpp"
+#include "json_text.hpp"
 #include "kernels/break_mode.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
@@ -17,12 +21,25 @@
 namespace clathra {
 namespace {
 
+/// @throws SceneProblems, named after the option
+double strain_of(char const* option, std::string const& text) {
+  try {
+    double const strain = parse_quantity(text, Dimension::ratio);
+    if (strain > 1) throw std::invalid_argument(fmt::format("must lie between 0 and 1, got {}; 15 % is \"15 %\" or 0.15", text));
+    return strain;
+  } catch (std::invalid_argument const& problem) {
+    throw SceneProblems({{option, 0, 0, problem.what()}});
+  }
+}
+
 struct EventsOptions {
   std::filesystem::path folder;
-  std::string mode;
-  double from = 0, to = 100;  // axial strain [%]
+  std::string mode, from = "0 %", to = "100 %";  // axial strain
   int parts = 10;
-  bool csv = false;
+  bool csv = false, json = false;
+
+  double first() const { return strain_of("--from", from); }
+  double last() const { return strain_of("--to", to); }
 };
 
 struct BreakRow {
@@ -67,10 +84,11 @@ BreakTable chosen_events(EventsOptions const& options, HistoryTable const& histo
                       "has no events.csv: the sand is clean, or output.events is false in its scene");
   BreakEvents const events = read_events(options.folder / "events.csv");
   BreakTable table{events.detailed, {}};
+  double const first = options.first(), last = options.last();
   for (std::size_t k = 0; k < events.rows.size(); ++k) table.rows.push_back(row_of(events, k, history));
   std::erase_if(table.rows, [&](BreakRow const& row) {
     bool const other_mode = !options.mode.empty() && options.mode != break_mode_name(row.event.mode);
-    return other_mode || row.eps1 * 100 < options.from || row.eps1 * 100 > options.to;
+    return other_mode || row.eps1 < first || row.eps1 > last;
   });
   return table;
 }
@@ -90,33 +108,55 @@ std::string csv_text(BreakTable const& table) {
   return text;
 }
 
-/// How many bonds broke in each of equal parts of a range of axial strain.
-std::string count_text(std::vector<BreakRow> const& rows, double first, double last, int parts) {
-  if (rows.empty()) return "no bond broke there\n";
-  std::string text = fmt::format("{:>16}", "eps1 [%]");
-  for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", m.name);
-  text += fmt::format(" {:>12}\n", "all");
+/// Bonds that broke in a part of a range of axial strain.
+struct BreakPart {
+  double begin, end;
+  BreakCounts counts;
+};
+
+std::vector<BreakPart> parts_of(std::vector<BreakRow> const& rows, double first, double last, int parts) {
+  std::vector<BreakPart> all;
   double const width = std::max(last - first, 1e-12) / parts;
   for (int part = 0; part < parts; ++part) {
     double const begin = first + part * width, end = part == parts - 1 ? HUGE_VAL : begin + width;
-    BreakCounts counts;
-    for (BreakRow const& row : rows) {
-      if (row.eps1 < begin || row.eps1 >= end) continue;
-      ++counts[static_cast<BreakMode>(row.event.mode)];
-    }
-    text += fmt::format("{:>16}", fmt::format("{:.3g} - {:.3g}", begin * 100, (begin + width) * 100));
-    for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", counts[m.mode]);
-    text += fmt::format(" {:>12}\n", counts.total());
+    all.push_back({begin, begin + width, {}});
+    for (BreakRow const& row : rows)
+      if (row.eps1 >= begin && row.eps1 < end) ++all.back().counts[static_cast<BreakMode>(row.event.mode)];
+  }
+  return all;
+}
+
+std::string count_text(std::vector<BreakPart> const& parts) {
+  std::string text = fmt::format("{:>16}", "eps1 [%]");
+  for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", m.name);
+  text += fmt::format(" {:>12}\n", "all");
+  for (BreakPart const& part : parts) {
+    text += fmt::format("{:>16}", fmt::format("{:.3g} - {:.3g}", part.begin * 100, part.end * 100));
+    for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", part.counts[m.mode]);
+    text += fmt::format(" {:>12}\n", part.counts.total());
   }
   return text;
+}
+
+nlohmann::ordered_json count_json(std::vector<BreakPart> const& parts) {
+  nlohmann::ordered_json all = nlohmann::json::array();
+  for (BreakPart const& part : parts) {
+    nlohmann::ordered_json one = {{"eps1_from", part.begin}, {"eps1_to", part.end}};
+    for (BreakModeNames const& m : break_modes) one[m.name] = part.counts[m.mode];
+    one["all"] = part.counts.total();
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
 ExitCode show_events(EventsOptions const& options) {
   HistoryTable const history(options.folder / "history.csv");
   BreakTable const table = chosen_events(options, history);
-  double const last = std::min(options.to / 100, history["eps1"].back());
-  return print_result(options.csv ? csv_text(table)
-                                  : count_text(table.rows, std::max(options.from / 100, 0.0), last, options.parts));
+  if (options.csv) return print_result(csv_text(table));
+  double const last = std::min(options.last(), history["eps1"].back());
+  std::vector<BreakPart> const parts = parts_of(table.rows, std::max(options.first(), 0.0), last, options.parts);
+  if (options.json) return print_json(json_text({{"folder", options.folder.string()}, {"parts", count_json(parts)}}));
+  return print_result(table.rows.empty() ? "no bond broke there\n" : count_text(parts));
 }
 
 }  // namespace
@@ -126,11 +166,13 @@ void add_events(CLI::App& program, Verb& chosen) {
   CLI::App* const verb = program.add_subcommand("events", "Count or list the bonds that broke in a run");
   verb->add_option("folder", options->folder, "folder of a run")->required();
   verb->add_option("--mode", options->mode, "only those broken in this mode")->check(CLI::IsMember(mode_names()));
-  verb->add_option("--from", options->from, "only from this axial strain on [%]")->type_name("PERCENT");
-  verb->add_option("--to", options->to, "only up to this axial strain [%]")->type_name("PERCENT");
+  verb->add_option("--from", options->from, "only from this axial strain on, 0.01 or \"1 %\"")->type_name("STRAIN");
+  verb->add_option("--to", options->to, "only up to this axial strain")->type_name("STRAIN");
   verb->add_option("--parts", options->parts, "rows of the table of counts")->check(CLI::Range(1, 1000))->capture_default_str();
-  verb->add_flag("--csv", options->csv, "list them as CSV, with their axial strain, instead of counting");
-  verb->footer("Example: clathra events out/quick --mode shear --from 1 --to 3");
+  CLI::Option* const csv =
+      verb->add_flag("--csv", options->csv, "list them as CSV, with their axial strain, instead of counting");
+  verb->add_flag("--json", options->json, "counts as one JSON object")->excludes(csv);
+  verb->footer("Example: clathra events out/quick --mode shear --from \"1 %\" --to \"3 %\"");
   verb->callback([options, &chosen] { chosen = [options] { return show_events(*options); }; });
 }
 

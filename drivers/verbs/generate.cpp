@@ -51,7 +51,7 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   std::vector<std::string> refusals;
   if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.ignore_guards) refusals.push_back(refusal);
   share_refusals(ranks, refusals);
-  if (!refusals.empty()) throw Refused(refusals.front());
+  if (!refusals.empty()) throw OutOfMemory(refusals.front() + " (--ignore-guards goes on)");
   require_enough_discs(ranks.count(), static_cast<std::int64_t>(cost.at("particles")));
   watch_for_interrupt();
   ProgressLine line;
@@ -61,7 +61,8 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   Specimen const specimen = generate_recorded(scene, line, record, ranks);
   write_specimen(output, specimen, ranks, options.overwrite ? Existing::replaced : Existing::kept);
   line.repeat_warnings();
-  return print_result(fmt::format("{}: {:.0f} discs\n{}", output, record.stages.at("generate").at("discs"), record_text(record)));
+  return print_result(
+      fmt::format("{}: {:.0f} particles\n{}", output, record.stages.at("generate").at("particles"), record_text(record)));
 }
 
 ExitCode generate(GenerateOptions const& options) {

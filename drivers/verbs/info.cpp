@@ -20,6 +20,7 @@
 #include "io/results/specimen_check.hpp"
 #include "io/results/specimen_file.hpp"
 #include "io/scene/scene_file.hpp"
+#include "json_text.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
@@ -28,7 +29,7 @@ namespace {
 
 struct InfoOptions {
   std::string file;
-  bool state_hash = false, cost = false;
+  bool state_hash = false, cost = false, json = false;
 };
 
 constexpr std::size_t largest_record = std::size_t{64} << 20;
@@ -43,12 +44,31 @@ std::string snapshot_text(Snapshot const& s) {
   text += row("step", fmt::format("{}, {:.6g} s after the shear began", s.step, s.time));
   text += row("strain", fmt::format("eps1 {:.4g} %, eps_v {:.4g} %", s.eps1 * 100, s.eps_v * 100));
   text += row("stress", fmt::format("sigma1 {:.5g} MPa, sigma3 {:.5g} MPa", s.sigma1 * 1e-6, s.sigma3 * 1e-6));
-  text += row("discs", fmt::format("{}", s.id.size()));
+  text += row("particles", fmt::format("{}", s.id.size()));
   text += row("box", fmt::format("{:.6g} mm x {:.6g} mm", (s.right - s.left) * 1e3, (s.top - s.bottom) * 1e3));
   for (std::size_t state = 0; state < pairs.size(); ++state)
     text += row(std::string(contact_state_name(static_cast<std::uint8_t>(state))).c_str(), fmt::format("{} pairs", pairs[state]));
   text += row("events", fmt::format("{} bonds broke since the snapshot before", s.events.rows.size()));
   return text;
+}
+
+nlohmann::ordered_json snapshot_json(Snapshot const& s) {
+  nlohmann::ordered_json pairs;
+  for (std::size_t state = 0; state < contact_state_count; ++state)
+    pairs[std::string(contact_state_name(static_cast<std::uint8_t>(state)))] =
+        std::count(s.state.begin(), s.state.end(), static_cast<std::uint8_t>(state));
+  return {{"kind", "snapshot"},
+          {"step", s.step},
+          {"time_s", s.time},
+          {"eps1", s.eps1},
+          {"eps_v", s.eps_v},
+          {"sigma1_Pa", s.sigma1},
+          {"sigma3_Pa", s.sigma3},
+          {"particles", s.id.size()},
+          {"width_m", s.right - s.left},
+          {"height_m", s.top - s.bottom},
+          {"pairs", pairs},
+          {"breaks", s.events.rows.size()}};
 }
 
 std::string number_text(nlohmann::json const& value) {
@@ -80,7 +100,7 @@ std::string specimen_text(Specimen const& specimen, SpecimenFacts const& facts) 
       std::count_if(specimen.contacts.begin(), specimen.contacts.end(), [](SpecimenContact const& c) { return c.bonded(); });
   auto const diameter = [&](double part) { return diameter_finer(specimen.radius, part) * 1e3; };
   std::string text;
-  text += row("discs", fmt::format("{}", specimen.size()));
+  text += row("particles", fmt::format("{}", specimen.size()));
   text += row("box", fmt::format("{:.6g} mm x {:.6g} mm{}", specimen.width() * 1e3, specimen.height() * 1e3,
                                  specimen.periodic ? ", periodic" : ""));
   text += row("void ratio", fmt::format("{:.5g}", facts.outline.void_ratio));
@@ -95,6 +115,28 @@ std::string specimen_text(Specimen const& specimen, SpecimenFacts const& facts) 
   if (specimen.critical_thickness > 0) text += row("h_max", fmt::format("{:.4g} um", specimen.critical_thickness * 1e6));
   if (!specimen.provenance.empty()) text += provenance_text(specimen.provenance);
   return text;
+}
+
+nlohmann::ordered_json specimen_json(Specimen const& specimen, SpecimenFacts const& facts) {
+  auto const bonds =
+      std::count_if(specimen.contacts.begin(), specimen.contacts.end(), [](SpecimenContact const& c) { return c.bonded(); });
+  nlohmann::ordered_json json = {{"kind", "specimen"},
+                                 {"particles", specimen.size()},
+                                 {"width_m", specimen.width()},
+                                 {"height_m", specimen.height()},
+                                 {"periodic", specimen.periodic},
+                                 {"void_ratio", facts.outline.void_ratio},
+                                 {"density_kg_per_m3", specimen.density},
+                                 {"stress_Pa", specimen.stress},
+                                 {"axial_strain", specimen.axial_strain},
+                                 {"contacts", specimen.contacts.size()},
+                                 {"bonds", bonds},
+                                 {"critical_thickness_m", specimen.critical_thickness}};
+  for (auto const& [name, part] : {std::pair{"d10_m", 0.1}, {"d50_m", 0.5}, {"d60_m", 0.6}})
+    json[name] = diameter_finer(specimen.radius, part);
+  json["provenance"] = nlohmann::json::parse(specimen.provenance, nullptr, false);
+  if (json["provenance"].is_discarded()) json["provenance"] = specimen.provenance;
+  return json;
 }
 
 std::string run_text(nlohmann::json const& record) {
@@ -115,11 +157,12 @@ std::string run_text(nlohmann::json const& record) {
   return text;
 }
 
-ExitCode info_of_run(std::filesystem::path const& file, bool only_hash) {
+ExitCode info_of_run(std::filesystem::path const& file, InfoOptions const& options) {
   std::string const text = read_text_file(file, largest_record);
   try {
+    if (options.json) return print_json(json_text(nlohmann::ordered_json::parse(text)));
     nlohmann::json const record = nlohmann::json::parse(text);
-    if (!only_hash) return print_result(run_text(record));
+    if (!options.state_hash) return print_result(run_text(record));
     if (!record.contains("state_hash"))
       throw FileProblem(ExitCode::bad_input, file, "the run has not finished, there is no state hash");
     return print_result(record.at("state_hash").get<std::string>() + "\n");
@@ -132,9 +175,9 @@ ExitCode info_of_run(std::filesystem::path const& file, bool only_hash) {
 std::string needs_text(Scene const& scene) {
   SceneNeeds const needs = needs_of(scene);
   std::string text;
-  for (auto const& [of, name] : {std::pair{FieldOf::disc, "a disc"},
-                                 {FieldOf::entry, "an entry of the neighbour rows (about 5 a disc)"},
-                                 {FieldOf::bond, "a bond (about 2 a disc)"}}) {
+  for (auto const& [of, name] : {std::pair{FieldOf::disc, "a particle"},
+                                 {FieldOf::entry, "an entry of the neighbour rows (about 5 a particle)"},
+                                 {FieldOf::bond, "a bond (about 2 a particle)"}}) {
     if (needs.bytes(of) == 0) continue;
     text += fmt::format("{} bytes {}\n", needs.bytes(of), name);
     for (NeededField const& field : needs.fields)
@@ -150,24 +193,32 @@ ExitCode info(InfoOptions const& options) {
   std::filesystem::path const file = options.file;
   if (options.cost) return print_result(needs_text(load_scene(file).scene));
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) return info_of_run(file / "run.json", options.state_hash);
-  if (file.extension() == ".json") return info_of_run(file, options.state_hash);
+  if (std::filesystem::is_directory(file, ignored)) return info_of_run(file / "run.json", options);
+  if (file.extension() == ".json") return info_of_run(file, options);
   if (is_snapshot(file)) {
     if (options.state_hash)
       throw FileProblem(ExitCode::bad_input, file, "is a snapshot, whose numbers are rounded: it has no state hash");
-    return print_result(snapshot_text(read_snapshot(file)));
+    Snapshot const snapshot = read_snapshot(file);
+    return options.json ? print_json(json_text(snapshot_json(snapshot))) : print_result(snapshot_text(snapshot));
   }
   if (is_checkpoint(file)) {
     std::string const hash = checkpoint_state_hash(file);
+    std::string const run = file.parent_path().parent_path().string();
+    if (options.json) return print_json(json_text({{"kind", "checkpoint"}, {"run", run}, {"state_hash", hash}}));
     return print_result(options.state_hash ? hash + "\n"
-                                           : fmt::format("{:<18} {}\n{:<18} {}\n", "checkpoint of",
-                                                         file.parent_path().parent_path().string(), "state hash", hash));
+                                           : fmt::format("{:<18} {}\n{:<18} {}\n", "checkpoint of", run, "state hash", hash));
   }
   auto const [specimen, facts] = read_checked_specimen(file);
   if (options.state_hash) return print_result(hash_text(specimen_hash(specimen)) + "\n");
+  std::vector<std::string> warnings = oddities(file, specimen, facts);
+  for (std::string& warning : stress_oddities(file, specimen, facts, {})) warnings.push_back(std::move(warning));
+  if (options.json) {
+    nlohmann::ordered_json json = specimen_json(specimen, facts);
+    json["warnings"] = warnings;
+    return print_json(json_text(json));
+  }
   std::string text = specimen_text(specimen, facts);
-  for (auto const& warnings : {oddities(file, specimen, facts), stress_oddities(file, specimen, facts, {})})
-    for (std::string const& warning : warnings) text += "warning: " + warning + "\n";
+  for (std::string const& warning : warnings) text += "warning: " + warning + "\n";
   return print_result(text);
 }
 
@@ -175,15 +226,13 @@ ExitCode info(InfoOptions const& options) {
 
 void add_info(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<InfoOptions>();
-  CLI::App* const verb =
-      program.add_subcommand("info", "Say what a specimen file, a snapshot or the folder of a run holds, or what a scene costs");
-  verb->add_option("file", options->file, "specimen file, snapshot, run.json, or folder of a run; with --cost a scene")
-      ->required();
-  verb->add_flag("--state-hash", options->state_hash, "print only the hash of the state");
-  verb->add_flag("--cost", options->cost,
-                 "what a scene keeps in memory, a disc and an entry, and computes in each step, and which key asks for it")
-      ->excludes("--state-hash");
-  verb->footer("Example: clathra info out/quick/specimen.h5\n         clathra info --cost examples/quick.toml");
+  CLI::App* const verb = program.add_subcommand("info", "Say what a specimen file, a snapshot or the folder of a run holds");
+  verb->add_option("file", options->file, "specimen file, snapshot, checkpoint, run.json, or folder of a run")->required();
+  CLI::Option* const hash = verb->add_flag("--state-hash", options->state_hash, "print only the hash of the state");
+  verb->add_flag("--json", options->json, "one JSON object, SI units; of a run its run.json")->excludes(hash);
+  // For developers: what a scene keeps in memory and computes, field by field.
+  verb->add_flag("--cost", options->cost)->excludes(hash)->group("");
+  verb->footer("Example: clathra info out/quick/specimen.h5");
   verb->callback([options, &chosen] { chosen = [options] { return info(*options); }; });
 }
 

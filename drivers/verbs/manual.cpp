@@ -22,17 +22,20 @@ constexpr std::array exits = {
     ExitEntry{ExitCode::bad_input, "A scene or a file with wrong content; every fault is printed with its place."},
     ExitEntry{ExitCode::file_missing, "An input file is not there or cannot be read."},
     ExitEntry{ExitCode::internal, "A fault of Clathra, or a failed check of selftest."},
+    ExitEntry{ExitCode::out_of_memory, "More memory is needed than there is."},
     ExitEntry{ExitCode::cannot_create, "A file or folder of results cannot be made, or another run is writing there."},
     ExitEntry{ExitCode::io_error, "A read or write failed half way, as on a full disk."},
     ExitEntry{ExitCode::to_be_resumed, "Stopped early, by a signal or the wall time, with a checkpoint: --resume goes on."},
     ExitEntry{ExitCode::diverged, "The run became unstable."},
-    ExitEntry{ExitCode::refused, "Refused by a guard that --force overrides, or for want of memory."},
+    ExitEntry{ExitCode::refused, "Refused by a guard that --ignore-guards overrides."},
+    ExitEntry{ExitCode::member_failed, "Members of a study failed; the others have results."},
+    ExitEntry{ExitCode::undetermined, "What was asked for cannot be told from the runs that there are."},
     ExitEntry{ExitCode::interrupted, "Stopped by Ctrl-C or a signal before there was a checkpoint."},
 };
 
 constexpr char const* description = R"(.SH DESCRIPTION
 Clathra is a two-dimensional discrete element solver for sand that is cemented by methane hydrate.
-From a scene file (TOML) it makes a specimen of discs, bonds the grains for a hydrate saturation, consolidates the specimen, shears
+From a scene file (TOML) it makes a specimen, bonds the grains for a hydrate saturation, consolidates the specimen, shears
 it between servo walls and writes the stress-strain curve and the state of every bond.
 Results are equal to the bit for every number of threads and ranks, and after every restart.
 )";
@@ -96,6 +99,7 @@ std::string key_text(Key const& key) {
   if (!key.choices.empty()) values = fmt::format("one of {}", fmt::join(key.choices, ", "));
   if (key.kind == Kind::boolean) values = "true or false";
   if (key.kind == Kind::integer) values = "a whole number";
+  if (key.kind == Kind::lever) values = "like \"1 mm\" or \"0.25 B\"";
   if (key.kind == Kind::quantity)
     values = fmt::format("{}, like {}", dimension_name(key.dimension), quantity_example(key.dimension));
   return fmt::format(".TP\n.B {}\n{}{}\n", troff(key.name), troff(key.help), values.empty() ? "" : troff("; " + values));

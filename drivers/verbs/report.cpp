@@ -36,7 +36,7 @@ void add_report(CLI::App& program, Verb& chosen) {
                    "page to write (default: report.html in the folder of the run; for several runs in the current folder)")
       ->type_name("FILE")
       ->check(CLI::Validator(name_problem, ""));
-  verb->add_option("--json", options->json,
+  verb->add_option("--numbers", options->json,
                    "write the numbers of the runs and of their envelopes to this file; the page only with -o")
       ->type_name("FILE")
       ->check(CLI::Validator(name_problem, ""));

@@ -1,4 +1,4 @@
-/// `clathra reproduce`: every figure and claim of the seed paper, from scratch.
+/// `clathra reproduce`: every figure and claim of Jiang et al. (2017), from scratch.
 #include <fmt/format.h>
 #include <stdlib.h>
 
@@ -14,6 +14,7 @@
 #include "io/results/output_folder.hpp"
 #include "io/results/paper_numbers.hpp"
 #include "io/results/scorecard.hpp"
+#include "json_text.hpp"
 #include "own_program.hpp"
 #include "print.hpp"
 #include "reproduction.hpp"
@@ -33,7 +34,7 @@ struct ReproduceOptions {
   std::int64_t discs = 0;
   std::uint64_t first_seed = 1;
   int seeds = 0, parallel = 0, threads = 0;
-  bool quick = false, dry_run = false, collect = false, screening = false, allow_mixed = false;
+  bool quick = false, dry_run = false, collect = false, json = false, screening = false, allow_mixed = false;
 };
 
 ReproductionSize size_of(ReproduceOptions const& options) {
@@ -44,7 +45,7 @@ ReproductionSize size_of(ReproduceOptions const& options) {
   return size;
 }
 
-/// Four tests of bonded sand with their sands: enough to compare readings by.
+/// Four tests of bonded sand with their sands: enough to compare presets by.
 PaperDesign design_of(ReproduceOptions const& options) {
   return options.screening ? PaperDesign{{26, 55}, {1, 3}, {}} : PaperDesign{};
 }
@@ -56,7 +57,7 @@ std::map<std::string, std::string> facts_of(ReproduceOptions const& options, Stu
   for (std::uint64_t const seed : plan.study.seeds) seeds += fmt::format("{}{}", seeds.empty() ? "" : ", ", seed);
   double cost = 0;
   for (MemberResult const& member : plan.members) cost += member.wall_seconds;
-  return {{"discs", fmt::format("{}", size.discs)},
+  return {{"particles", fmt::format("{}", size.discs)},
           {"seeds", seeds},
           {"settings", settings.empty() ? "the defaults" : settings},
           {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
@@ -77,7 +78,7 @@ ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::o
   std::size_t const last = plan.study.groups.size() - 1;
   Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front()).scene;
   double const d50 = design_sample(scene).grading.d50();
-  Scorecard const card{"The seed paper, claim by claim", facts_of(options, plan),
+  Scorecard const card{"Jiang et al. (2017), claim by claim", facts_of(options, plan),
                        paper_claims(design, numbers_of_members(plan.study, plan.members, folders), d50)};
   fs::path const& out = plan.study.folder;
   replace_text_file(out / "study.csv", study_csv(plan.study, plan.members));
@@ -99,7 +100,7 @@ ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::o
   print_result(text);
   bool const failed =
       std::any_of(plan.members.begin(), plan.members.end(), [](MemberResult const& m) { return m.state == MemberState::failed; });
-  return failed ? ExitCode::refused : finished == std::ssize(plan.members) ? ExitCode::done : ExitCode::to_be_resumed;
+  return failed ? ExitCode::member_failed : finished == std::ssize(plan.members) ? ExitCode::done : ExitCode::to_be_resumed;
 }
 
 StudyPlan plan_of(ReproduceOptions const& options, fs::path const& scene) {
@@ -129,7 +130,9 @@ ExitCode forecast_only(ReproduceOptions const& options) {
   });
   StudyPlan const plan = plan_of(options, fs::path(name) / "scene.toml");
   StudyLimits const limits = limits_of(options, plan);
-  return print_result(study_forecast(plan, limits.parallel, limits.threads));
+  StudyForecast const forecast = study_forecast(plan, limits.parallel, limits.threads);
+  return options.json ? print_json(json_text(study_forecast_json(plan, forecast)))
+                      : print_result(study_forecast_text(plan, forecast));
 }
 
 ExitCode reproduce(ReproduceOptions const& options) {
@@ -144,7 +147,7 @@ ExitCode reproduce(ReproduceOptions const& options) {
     find_all_finished(plan);
     return conclude(plan, options, data, line);
   }
-  print_result(study_forecast(plan, limits.parallel, limits.threads));
+  print_result(study_forecast_text(plan, study_forecast(plan, limits.parallel, limits.threads)));
   watch_for_interrupt();
   StudyRun run(plan, limits, folder);
   ExitCode const code = run.run();
@@ -153,12 +156,12 @@ ExitCode reproduce(ReproduceOptions const& options) {
 }
 
 void add_options(CLI::App& verb, ReproduceOptions& options) {
-  verb.add_flag("--quick", options.quick, "2,000 discs and two seeds: a few minutes");
+  verb.add_flag("--quick", options.quick, "2,000 particles and two seeds: a few minutes");
   verb.add_option("-o,--output", options.output, "folder of the results; called again, it goes on where it was stopped")
       ->capture_default_str()
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
-  verb.add_option("--particles", options.discs, "discs of each specimen (default: 20000)")
+  verb.add_option("--particles", options.discs, "particles of each specimen (default: 20000)")
       ->check(CLI::Range(100, 100000000))
       ->type_name("N");
   verb.add_option("--seeds", options.seeds, "seeds of each test (default: 5)")->check(CLI::Range(1, 10000))->type_name("N");
@@ -166,14 +169,13 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
-  verb.add_option("--set", options.overrides,
-                  "override a key of the scene in all tests: another reading of the paper; may be repeated")
+  verb.add_option("--set", options.overrides, "override a key of the scene in all tests: may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   verb.add_option("--data", options.data, "points of your own laboratory to be drawn into the figures (CSV; docs/reproduce.md)")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
-  verb.add_flag("--screening", options.screening, "only 26 and 55 % at 1 and 3 MPa with their sands, to compare readings");
+  verb.add_flag("--screening", options.screening, "only 26 and 55 % at 1 and 3 MPa with their sands, to compare presets");
   verb.add_option("--jobs", options.parallel, "tests at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
@@ -183,6 +185,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
       ->check(CLI::Validator(time_limit_problem, ""));
   verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and tests that another program made");
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what it will cost");
+  verb.add_flag("--json", options.json, "with --dry-run: one JSON object, SI units")->needs(dry);
   verb.add_flag("--collect", options.collect, "only scorecard and report of what there is")->excludes(dry);
 }
 
@@ -191,7 +194,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
 void add_reproduce(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<ReproduceOptions>();
   CLI::App* const verb =
-      program.add_subcommand("reproduce", "Every figure and claim of the seed paper, with intervals and a scorecard");
+      program.add_subcommand("reproduce", "Every figure and claim of Jiang et al. (2017), with intervals and a scorecard");
   add_options(*verb, *options);
   verb->footer("Example: clathra reproduce --quick");
   verb->callback([options, &chosen] { chosen = [options] { return reproduce(*options); }; });

@@ -8,7 +8,6 @@
 #include "duration.hpp"
 #include "forecast.hpp"
 #include "interrupt.hpp"
-#include "machine_speed.hpp"
 #include "print.hpp"
 #include "rank_checks.hpp"
 #include "scene_options.hpp"
@@ -23,7 +22,7 @@ namespace {
 struct RunOptions {
   SceneOptions scene;
   std::string output;
-  bool dry_run = false, resume = false, overwrite = false;
+  bool resume = false, overwrite = false;
   std::string most_time, checkpoint_every = "10m";
 };
 
@@ -36,12 +35,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, RunLimits const& 
   if (scene.specimen.is_read()) specimen = read_for_test(input, ranks);
   Forecast cost = forecast(scene, specimen ? design_of(*specimen, ranks) : design_sample(scene), launched_ranks());
   share_refusals(ranks, cost.refusals);
-  if (options.dry_run) {
-    MachineSpeed const speed = machine_speed(scene, ranks.count(), ranks.alone());
-    ExitCode const printed = print_result(forecast_text(scene, cost, speed) + warnings_text(input, cost));
-    refuse_if_needed(scene, cost);
-    return printed;
-  }
+  cost.out_of_memory = ranks.any(cost.out_of_memory);
   refuse_if_needed(scene, cost);
   require_enough_discs(ranks.count(), static_cast<std::int64_t>(cost.numbers.at("particles")));
   watch_for_interrupt();
@@ -58,7 +52,7 @@ ExitCode run(RunOptions const& options) {
   std::vector<std::string> more;
   if (!options.output.empty()) more.push_back("output.folder=" + options.output);
   LoadedScene input = options.scene.load(more);
-  if (!options.dry_run) set_up_threads(input.scene.run.threads);
+  set_up_threads(input.scene.run.threads);
   RankSession const session;
   Ranks const& ranks = session.ranks();
   return guarded_on_all_ranks(ranks, [&] { return run_on(ranks, options, limits, std::move(input)); });
@@ -73,7 +67,6 @@ void add_run(CLI::App& program, Verb& chosen) {
   verb->add_option("-o,--output", options->output, "folder of the results (output.folder)")
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
-  verb->add_flag("--dry-run", options->dry_run, "only say what the run will cost");
   CLI::Option* const resume = verb->add_flag("--resume", options->resume,
                                              "go on from the newest checkpoint in the folder of the results, if there is one");
   verb->add_flag("--overwrite", options->overwrite,

@@ -33,7 +33,7 @@ std::string check_threads(int many) {
   std::string const one_thread = printed_by("threads", 1), many_threads = printed_by("threads", many);
   if (one_thread != many_threads)
     throw CheckFailed(fmt::format("1 thread gives {}, {} threads give {}", one_thread, many, many_threads));
-  return fmt::format("400 bonded discs, 1 and {} threads: the same bits, {}", many, one_thread);
+  return fmt::format("400 bonded particles, 1 and {} threads: the same bits, {}", many, one_thread);
 }
 
 /// Runs a check and prints its line. @return whether it held

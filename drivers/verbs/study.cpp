@@ -11,6 +11,7 @@
 #include "io/formats/text_file.hpp"
 #include "io/report/study_report.hpp"
 #include "io/results/output_folder.hpp"
+#include "json_text.hpp"
 #include "print.hpp"
 #include "scene_options.hpp"
 #include "slurm_script.hpp"
@@ -27,7 +28,7 @@ struct StudyOptions {
   std::string file, output, precision_target, launcher, slurm;
   std::vector<std::string> overrides;
   int seeds = 0, max_seeds = 0, parallel = 0, threads = 0, member = 0, specimen = 0;
-  bool dry_run = false, collect = false, force = false, skip_refused = false, allow_mixed = false;
+  bool dry_run = false, collect = false, ignore_guards = false, json = false, skip_refused = false, allow_mixed = false;
   std::string most_time, checkpoint_every = "10m";
 };
 
@@ -51,7 +52,7 @@ Study study_of(StudyOptions const& options) {
   if (!options.precision_target.empty()) study.precision_target = goal_of(options.precision_target);
   if (options.max_seeds > 0) study.max_seeds = options.max_seeds;
   override_study(study, options.overrides);
-  if (options.force) force_study(study);
+  if (options.ignore_guards) ignore_guards(study);
   return study;
 }
 
@@ -86,7 +87,7 @@ ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   text += "\nspecimens " + sharing_text(plan) + "\n" + statistics_text(plan);
   for (std::string const& member : failed) text += "failed    " + member + "\n";
   print_result(text + fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
-  return !failed.empty() ? ExitCode::refused : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;
+  return !failed.empty() ? ExitCode::member_failed : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;
 }
 
 /// One program in place of this one: what a job of an array does.
@@ -164,6 +165,11 @@ ExitCode run_all(StudyPlan& plan, StudyLimits const& limits) {
   return code == ExitCode::done ? concluded : code;
 }
 
+ExitCode print_forecast(StudyPlan const& plan, StudyLimits const& limits, bool json) {
+  StudyForecast const forecast = study_forecast(plan, limits.parallel, limits.threads);
+  return json ? print_json(json_text(study_forecast_json(plan, forecast))) : print_result(study_forecast_text(plan, forecast));
+}
+
 ExitCode study(StudyOptions const& options) {
   StudyPlan plan = plan_study(study_of(options));
   if (plan.study.precision_target) require_known_number(*plan.study.precision_target);
@@ -175,8 +181,7 @@ ExitCode study(StudyOptions const& options) {
   if (options.collect) return collect(plan, options);
   StudyLimits const limits = limits_of(options, plan);
   if (options.dry_run)
-    if (ExitCode const printed = print_result(study_forecast(plan, limits.parallel, limits.threads)); printed != ExitCode::done)
-      return printed;
+    if (ExitCode const printed = print_forecast(plan, limits, options.json); printed != ExitCode::done) return printed;
   heed_guards(plan, options.skip_refused);
   if (options.dry_run) return ExitCode::done;
   if (!options.slurm.empty()) return write_script(plan, options);
@@ -188,7 +193,7 @@ void add_members_options(CLI::App& verb, StudyOptions& options) {
   verb.add_option("--launcher", options.launcher, "starts each member: \"mpirun -n 2\", \"srun -n 4\"")
       ->type_name("COMMAND")
       ->check(CLI::Validator(words_problem, ""));
-  verb.add_flag("--force", options.force, "members go on where a guard refuses");
+  verb.add_flag("--ignore-guards", options.ignore_guards, "members go on where a guard refuses");
   verb.add_flag("--skip-refused", options.skip_refused, "leave out the groups that a guard refuses");
   verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and members that another program made");
 }
@@ -196,6 +201,7 @@ void add_members_options(CLI::App& verb, StudyOptions& options) {
 /// Options that do only a part of the work, one of them at a time.
 void add_parts(CLI::App& verb, StudyOptions& options) {
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what the study will cost");
+  verb.add_flag("--json", options.json, "with --dry-run: one JSON object, SI units")->needs(dry);
   auto* const slurm = verb.add_option("--slurm", options.slurm, "only write a script that runs the study as arrays of Slurm")
                           ->type_name("FILE")
                           ->check(CLI::Validator(name_problem, ""));

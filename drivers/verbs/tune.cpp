@@ -101,7 +101,7 @@ class Tuning {
     SettingError const slowest = *search_.error(search_.slow());
     return fmt::format("undetermined: at I = {:g}, the slowest rate that was run, {}; {}",
                        plan_.settings[search_.slow()].inertial_number, measured_text(plan_, slowest),
-                       "a slower one needs a larger --budget or a larger --tolerance");
+                       "a slower one needs a larger --max-walltime or a larger --tolerance");
   }
 
  private:
@@ -209,7 +209,7 @@ ExitCode conclude(Tuning const& tuning, fs::path const& output) {
   std::optional<std::size_t> const choice = tuning.search().choice();
   if (!choice) {
     ExitCode const printed = print_result(text + tuning.undetermined() + "\n");
-    return printed == ExitCode::done ? ExitCode::refused : printed;
+    return printed == ExitCode::done ? ExitCode::undetermined : printed;
   }
   TunePlan const& plan = tuning.plan();
   replace_text_file(output, tuned_scene(plan, tuning.search(), *choice, output.parent_path()));
@@ -252,7 +252,7 @@ void add_tune(CLI::App& program, Verb& chosen) {
   verb->add_option("--quantity", options->quantity, "the number that is looked at: peak_q, residual_q, secant_modulus, ...")
       ->capture_default_str()
       ->type_name("NUMBER");
-  verb->add_option("--budget", options->budget, "time that its runs may take (10m, 2h)")
+  verb->add_option("--max-walltime", options->budget, "time that its runs may take (10m, 2h)")
       ->capture_default_str()
       ->type_name("TIME")
       ->check(CLI::Validator(duration_problem, ""));
@@ -263,7 +263,7 @@ void add_tune(CLI::App& program, Verb& chosen) {
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
   verb->add_option("--particles", options->discs,
-                   "discs of a test; the scene's own number where that is smaller, more where they would be too few across")
+                   "particles of a test; the scene's own number where that is smaller, more where they would be too few across")
       ->capture_default_str()
       ->check(CLI::Range(16, 1000000000))
       ->type_name("N");
@@ -271,7 +271,7 @@ void add_tune(CLI::App& program, Verb& chosen) {
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and tests that another program made");
-  verb->footer("Example: clathra tune examples/quick.toml --tolerance \"5%\" --budget \"10 min\" -o tuned.toml");
+  verb->footer("Example: clathra tune examples/quick.toml --tolerance \"5%\" --max-walltime \"10 min\" -o tuned.toml");
   verb->callback([options, &chosen] { chosen = [options] { return tune(*options); }; });
 }
 

@@ -4,34 +4,44 @@
 #include <memory>
 
 #include "io/results/run_check.hpp"
+#include "json_text.hpp"
 #include "print.hpp"
 #include "verbs.hpp"
 
 namespace clathra {
 namespace {
 
-ExitCode verify(std::string const& folder) {
+struct VerifyOptions {
+  std::string folder;
+  bool json = false;
+};
+
+ExitCode verify(VerifyOptions const& options) {
   std::string text;
   int wrong = 0;
-  std::vector<FileCheck> const checks = check_run(folder);
+  std::vector<FileCheck> const checks = check_run(options.folder);
+  nlohmann::ordered_json json = {{"folder", options.folder}, {"files", nlohmann::json::array()}};
   for (FileCheck const& check : checks) {
     text += fmt::format("{:<28} {}\n", check.file, check.problem.empty() ? "ok" : check.problem);
+    json["files"].push_back({{"file", check.file}, {"problem", check.problem}});
     wrong += check.problem.empty() ? 0 : 1;
   }
   text += wrong == 0 ? fmt::format("all {} files are as the run wrote them\n", checks.size())
                      : fmt::format("{} of {} files are not as the run wrote them\n", wrong, checks.size());
-  ExitCode const printed = print_result(text);
+  json["wrong"] = wrong;
+  ExitCode const printed = options.json ? print_json(json_text(json)) : print_result(text);
   return wrong > 0 ? ExitCode::bad_input : printed;
 }
 
 }  // namespace
 
 void add_verify(CLI::App& program, Verb& chosen) {
-  auto const folder = std::make_shared<std::string>();
+  auto const options = std::make_shared<VerifyOptions>();
   CLI::App* const verb = program.add_subcommand("verify", "Compare the files of a finished run with the digests in its run.json");
-  verb->add_option("folder", *folder, "folder of a run")->required();
+  verb->add_option("folder", options->folder, "folder of a run")->required();
+  verb->add_flag("--json", options->json, "one JSON object");
   verb->footer("Example: clathra verify out/quick");
-  verb->callback([folder, &chosen] { chosen = [folder] { return verify(*folder); }; });
+  verb->callback([options, &chosen] { chosen = [options] { return verify(*options); }; });
 }
 
 }  // namespace clathra

@@ -13,8 +13,8 @@ QUANTITIES = [
     ("residual_q_Pa", "residual q", 1e-6, "MPa"),
     ("largest_eps_v", "largest contraction", 100, "%"),
     ("end_eps_v", "volumetric strain at the end", 100, "%"),
-    ("peak_intact_initial_pct", "bonds intact at the peak", 1, "%"),
-    ("end_intact_initial_pct", "bonds intact at the end", 1, "%"),
+    ("peak_bonds_intact_pct", "bonds intact at the peak", 1, "%"),
+    ("end_bonds_intact_pct", "bonds intact at the end", 1, "%"),
 ]
 
 

@@ -12,17 +12,17 @@ import pathlib
 import sys
 
 LENGTHS = {
-    "14th": {"bond.moment_ratio": 1 / 14},
-    "10th": {"bond.moment_ratio": 1 / 10},
-    "8th": {"bond.moment_ratio": 1 / 8},
-    "6th": {"bond.moment_ratio": 1 / 6},
-    "5th": {"bond.moment_ratio": 1 / 5},
-    "3rd": {"bond.moment_ratio": 1 / 3},
-    "mm": {"bond.moment_scale": "rod_mm"},
-    "m": {"bond.moment_scale": "paper_si"},
+    "14th": {"bond.rolling_lever": "B/14"},
+    "10th": {"bond.rolling_lever": "B/10"},
+    "8th": {"bond.rolling_lever": "B/8"},
+    "6th": {"bond.rolling_lever": "B/6"},
+    "5th": {"bond.rolling_lever": "B/5"},
+    "3rd": {"bond.rolling_lever": "B/3"},
+    "mm": {"bond.rolling_lever": "1 mm"},
+    "m": {"bond.rolling_lever": "1 m"},
 }
-RODS = ["printed", "clamped", "scaled"]
-COMPOSITES = ["parallel", "memory", "replace"]
+RODS = ["identity", "clamped", "scaled"]
+COUPLINGS = ["parallel", "replaces_keeping_force", "replaces"]
 SHAPES = [1, 2]
 STRESSES = ["1 MPa", "3 MPa"]
 SHARED = {"bond.grain_stiffness_factor": 1, "specimen.particles": 2000, "test.inertial_number": 2e-4, "run.rotational_inertia_factor": 1, "output.snapshots": 0, "output.keep_checkpoint": False}
@@ -30,26 +30,26 @@ SHARED = {"bond.grain_stiffness_factor": 1, "specimen.particles": 2000, "test.in
 
 def readings():
     """(name, keys); hydrate forms under the confining stress, except where a bond that replaces the contact would drop its force."""
-    for (length, keys), rod, composite, shape in itertools.product(LENGTHS.items(), RODS, COMPOSITES, SHAPES):
+    for (length, keys), rod, coupling, shape in itertools.product(LENGTHS.items(), RODS, COUPLINGS, SHAPES):
         settings = dict(keys)
-        settings |= {"bond.thickness_mapping": rod, "bond.contact_coupling": composite, "grains.rolling_width_factor": shape}
-        settings["bond.after_consolidation"] = composite != "replace"
-        yield f"{composite}-{length}-{rod}-beta{shape}", settings
+        settings |= {"bond.thickness_mapping": rod, "bond.contact_coupling": coupling, "grains.rolling_width_factor": shape}
+        settings["bond.after_consolidation"] = coupling != "replaces"
+        yield f"{coupling}-{length}-{rod}-beta{shape}", settings
 
 
-BEST = {"bond.moment_ratio": 1 / 8, "bond.contact_coupling": "parallel", "grains.rolling_width_factor": 1, "bond.after_consolidation": True}
+BEST = {"bond.rolling_lever": "B/8", "bond.contact_coupling": "parallel", "grains.rolling_width_factor": 1, "bond.after_consolidation": True}
 
 
 def others():
     """(name, keys, whether its sand is another): one change at a time on the best of the 144, and floors where bonds replace contacts."""
-    best = "parallel-8th-printed-beta1"
+    best = "parallel-8th-identity-beta1"
     for name, keys in {
-        "8th-printed-low": {"bond.after_consolidation": False},
-        "7th-printed": {"bond.moment_ratio": 1 / 7},
-        "8th-printed-kn2": {"bond.grain_stiffness_factor": 2},  # a grain is twice as stiff as a contact of two in series
-        "6th-printed-kn2": {"bond.moment_ratio": 1 / 6, "bond.grain_stiffness_factor": 2},
-        "5th-printed-kn2": {"bond.moment_ratio": 1 / 5, "bond.grain_stiffness_factor": 2},
-        "4th-printed-kn2": {"bond.moment_ratio": 1 / 4, "bond.grain_stiffness_factor": 2},
+        "8th-identity-low": {"bond.after_consolidation": False},
+        "7th-identity": {"bond.rolling_lever": "B/7"},
+        "8th-identity-kn2": {"bond.grain_stiffness_factor": 2},  # a grain is twice as stiff as a contact of two in series
+        "6th-identity-kn2": {"bond.rolling_lever": "B/6", "bond.grain_stiffness_factor": 2},
+        "5th-identity-kn2": {"bond.rolling_lever": "B/5", "bond.grain_stiffness_factor": 2},
+        "4th-identity-kn2": {"bond.rolling_lever": "B/4", "bond.grain_stiffness_factor": 2},
     }.items():
         yield f"parallel-{name}-beta1", BEST | keys, None
     for name, keys in {
@@ -60,11 +60,11 @@ def others():
         "wider": {"grains.rolling_width_factor": 1.5},
     }.items():
         yield f"{best}-{name}", BEST | keys, {"grains.rolling_width_factor": 1} | keys
-    for composite, ratio, rod in [("replace", 1 / 8, "printed"), ("replace", 1 / 5, "printed"), ("replace", 1 / 10, "clamped"),
-                                  ("replace", 1 / 14, "scaled"), ("replace", 1 / 8, "scaled")]:
-        keys = {"bond.moment_ratio": ratio, "bond.contact_coupling": composite, "bond.thickness_mapping": rod, "bond.friction_floor": True,
-                "grains.rolling_width_factor": 1, "bond.after_consolidation": composite != "replace"}
-        yield f"{composite}-{round(1 / ratio)}th-{rod}-floor-beta1", keys, None
+    for coupling, ratio, rod in [("replaces", 1 / 8, "identity"), ("replaces", 1 / 5, "identity"), ("replaces", 1 / 10, "clamped"),
+                                  ("replaces", 1 / 14, "scaled"), ("replaces", 1 / 8, "scaled")]:
+        keys = {"bond.rolling_lever": f"{ratio} B", "bond.contact_coupling": coupling, "bond.thickness_mapping": rod, "bond.friction_floor": True,
+                "grains.rolling_width_factor": 1, "bond.after_consolidation": coupling != "replaces"}
+        yield f"{coupling}-{round(1 / ratio)}th-{rod}-floor-beta1", keys, None
 
 
 def value(v):

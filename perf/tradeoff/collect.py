@@ -10,7 +10,7 @@ from pathlib import Path
 
 # Column, section and key of the scene, value in base.toml. Inertial number, saturation, stress and seed stand beside factor and level.
 SETTINGS = [
-    ("discs", "plan", "discs", 2000),
+    ("discs", "plan", "particles", 2000),
     ("aspect_ratio", "specimen", "aspect_ratio", 2),
     ("kn_Pa", "grains", "normal_stiffness", 3e8),
     ("precision", "run", "precision", "double"),
@@ -22,11 +22,11 @@ SETTINGS = [
     ("skin_m", "run", "verlet_skin", 0),
 ]
 # Numbers of the stage `shear` of run.json.
-NUMBERS = ["peak_q_Pa", "peak_eps1", "secant_modulus_Pa", "residual_q_Pa", "largest_eps_v", "end_eps_v", "peak_intact_initial_pct",
-           "end_intact_initial_pct", "end_eps1", "largest_kinetic_share"]
+NUMBERS = ["peak_q_Pa", "peak_eps1", "secant_modulus_Pa", "residual_q_Pa", "largest_eps_v", "end_eps_v", "peak_bonds_intact_pct",
+           "end_bonds_intact_pct", "end_eps1", "largest_kinetic_share"]
 EARLY = 0.0348  # axial strain that every test reaches: steps until there compare the cost of tests of different length
 LEDGER = ["damping", "dashpot", "breakage", "sliding", "rolling", "kinetic"]
-COLUMNS = (["part", "factor", "level", "saturation", "stress_Pa", "inertial_number", "wave_number", "seed", "specimen"] + [s[0] for s in SETTINGS] + NUMBERS +
+COLUMNS = (["part", "factor", "level", "saturation", "stress_Pa", "inertial_number", "platen_wave_stress", "seed", "specimen"] + [s[0] for s in SETTINGS] + NUMBERS +
            ["contact_peak_q_Pa", "contact_peak_eps1", "contact_q_at_peak_Pa"] + [f"{name}_share" for name in LEDGER] + ["disc_steps", "early_disc_steps"])
 
 
@@ -51,11 +51,11 @@ def of_history(path):
     inner = [r["contact_sigma1_Pa"] - r["contact_sigma3_Pa"] for r in rows]
     peak, inner_peak = (max(range(len(rows)), key=q.__getitem__) for q in ([r["q_Pa"] for r in rows], inner))
     found = {"contact_peak_q_Pa": inner[inner_peak], "contact_peak_eps1": rows[inner_peak]["eps1"], "contact_q_at_peak_Pa": inner[peak],
-             "wave_number": rows[0]["wave_number"]}
+             "platen_wave_stress": rows[0]["platen_wave_stress"]}
     early = next((r for r in rows if r["eps1"] >= EARLY), None)
     if early:
         found["early_steps"] = int(early["step"])
-    work = rows[peak].get("boundary_work_J")
+    work = rows[peak].get("boundary_work_J_per_m")
     if work:
         found.update({f"{name}_share": rows[peak][f"{name}_J"] / work for name in LEDGER})
     return found

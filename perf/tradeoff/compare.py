@@ -13,10 +13,10 @@ QUANTITIES = {
     "peak_eps1": ("strain at peak", 100, "%", "share", "peak"),
     "secant_modulus_Pa": ("E50", 1e-6, "MPa", "share", "peak"),
     "largest_eps_v": ("largest contraction", 100, "%", "share", "peak"),
-    "peak_intact_initial_pct": ("intact at peak", 1, "%", "points", "peak"),
+    "peak_bonds_intact_pct": ("intact at peak", 1, "%", "points", "peak"),
     "residual_q_Pa": ("residual q", 1e-6, "MPa", "share", "end"),
     "end_eps_v": ("volumetric strain at the end", 100, "%", "points", "end"),
-    "end_intact_initial_pct": ("intact at the end", 1, "%", "points", "end"),
+    "end_bonds_intact_pct": ("intact at the end", 1, "%", "points", "end"),
 }
 BASE, REFERENCE, SLOWEST = ("base", "", 1e-4), ("dt_safety", "0.475", 1e-5), ("base", "", 2e-5)
 TEXT = ("part", "factor", "level", "specimen", "precision")

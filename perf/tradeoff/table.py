@@ -147,7 +147,7 @@ def waves(tests, _):
         slow = (*kind, 1e-4)
         for setting in [s for s in tests.settings(BONDED) if s[:2] == kind and s[2] >= 1e-4]:
             picked = tests.pick(BONDED, setting)
-            wave = sum(r["wave_number"] for r in picked.values()) / len(picked)
+            wave = sum(r["platen_wave_stress"] for r in picked.values()) / len(picked)
             inner = [{k: r[c] for k, r in picked.items()} for c in ("contact_peak_q_Pa", "contact_q_at_peak_Pa", "peak_q_Pa")]
             slow_inner = {k: r["contact_peak_q_Pa"] for k, r in tests.pick(BONDED, slow).items()}
             found = paired_difference(slow_inner, inner[0])
@@ -156,7 +156,7 @@ def waves(tests, _):
             rows.append([name_of(setting[:2] + (0,)).replace("base", "2,000 discs, 2"), f"{setting[2]:g}", f"{wave:.2g}",
                          mean_cell(tests.values(BONDED, setting, "peak_q_Pa").values()), with_interval(tests.change(BONDED, setting, "peak_q_Pa", slow)),
                          with_interval(contact), f"{sum(lead) / len(lead):+.2f}", with_interval(tests.change(BONDED, setting, "peak_eps1", slow)),
-                         with_interval(tests.change(BONDED, setting, "peak_intact_initial_pct", slow)), str(len(picked)), tests.part(BONDED, setting)])
+                         with_interval(tests.change(BONDED, setting, "peak_bonds_intact_pct", slow)), str(len(picked)), tests.part(BONDED, setting)])
     return markdown(["specimen", "I", "W", "peak q [MPa]", "its change [%]", "that by the contacts [%]", "walls over contacts at the peak [%]",
                      "strain at peak [%]", "intact at peak [points]", "seeds", "part"], rows)
 
@@ -215,7 +215,7 @@ def large(tests, _):
         if found is None:
             continue
         cells = [with_interval(tests.change(BONDED, setting, q, LARGE_REFERENCE)) for q in BEFORE]
-        waves = [float(row["wave_number"]) for row in tests.pick(BONDED, setting).values()]
+        waves = [float(row["platen_wave_stress"]) for row in tests.pick(BONDED, setting).values()]
         name = ("mixed, " if "mixed" in setting[1] else "") + ("inertia x 3" if "inertia" in setting[0] else "true masses")
         rows.append([name, f"{setting[2]:g}", f"{sum(waves) / len(waves):.2g}"] + cells +
                     [verdict(found, 2), str(found[2])])

@@ -49,7 +49,7 @@ def table(tests):
     for saturation in (SAND, BONDED):
         half, rise = half_peak_strain(tests, saturation, plain(FIXED)), fastest_rise(tests, saturation)
         peak = mean_over(tests, saturation, plain(FIXED), "peak_eps1") / 100
-        behind = [tests.change(saturation, plain(1e-3), q, plain(FIXED)) for q in ("peak_q_Pa", "largest_eps_v", "residual_q_Pa", "end_intact_initial_pct")]
+        behind = [tests.change(saturation, plain(1e-3), q, plain(FIXED)) for q in ("peak_q_Pa", "largest_eps_v", "residual_q_Pa", "end_bonds_intact_pct")]
         words = [f"{of[0]:+.1f} ± {of[1]:.1f}" if of and any(of[:2]) else "-" for of in behind]
         gains = [f"{largest_gain(half, rise, strain):.2f}" for strain in (peak, 0.1, 0.15)]
         rows.append([NAMES[saturation], *words, f"{100 * half:.2f}", f"{100 * peak:.2f}", f"{rise:g}", *gains])

@@ -28,7 +28,7 @@ def main():
         axes[0].plot(strain, history["q_Pa"] / 1e6, label=run.label, **style)
         axes[1].plot(strain, 100 * history["eps_v"], **style)
         if history["bonds_intact"][0] > 0:
-            axes[2].plot(strain, history["intact_initial_pct"], **style)
+            axes[2].plot(strain, history["bonds_intact_pct"], **style)
     axes[0].set_ylabel(r"$q$ [MPa]")
     axes[1].set_ylabel(r"$\varepsilon_v$ [%], compression > 0")
     axes[2].set_ylabel("intact bonds [%]")

@@ -1,5 +1,5 @@
 #pragma once
-/// Shape of the hydrate between two discs (seed paper, section 2, Eqs. 2, 5 and 17), and which way it lies.
+/// Shape of the hydrate between two discs (Jiang et al. 2017, section 2, Eqs. 2, 5 and 17), and which way it lies.
 #include <cmath>
 
 #include "kernels/lane.hpp"

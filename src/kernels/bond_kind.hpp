@@ -4,9 +4,9 @@
 
 namespace clathra {
 
-/// What becomes of a bonded contact's grains (docs/theory.md). `replace`: the bond carries all. `parallel`: bond and grain
-/// contact carry beside each other. `memory`: as replace, and the bond goes on from the grain contact's shear force and moment.
-enum class Composite : std::int8_t { replace, parallel, memory };
+/// What becomes of a bonded contact's grains (docs/theory.md). `replaces`: the bond carries all. `parallel`: bond and grain
+/// contact carry beside each other. `replaces_keeping_force`: the bond carries all and goes on from the grain contact's force.
+enum class ContactCoupling : std::int8_t { replaces, parallel, replaces_keeping_force };
 
 /// Stands for the overlap at bond formation u_0 [m] where there is no bond; overlaps above half of it mean none.
 inline constexpr double no_bond = 1e300;

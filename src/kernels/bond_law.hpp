@@ -1,5 +1,5 @@
 #pragma once
-/// The law of an intact bond: forces (seed paper, Eq. 7) and the variants that a scene can choose.
+/// The law of an intact bond: forces (Jiang et al. 2017, Eq. 7) and the variants that a scene can choose.
 #include "kernels/bond_geometry.hpp"
 #include "kernels/bond_kind.hpp"
 #include "kernels/bond_stiffness.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Stiffness of a hydrate bond between two grains (seed paper, Eqs. 16 to 21).
+/// Stiffness of a hydrate bond between two grains (Jiang et al. 2017, Eqs. 16 to 21).
 #include "kernels/contact_law.hpp"
 
 namespace clathra {

@@ -1,5 +1,5 @@
 #pragma once
-/// Strength of a hydrate bond: tension, compression and the F_n - F_s - M envelope (seed paper, Eqs. 9 to 15).
+/// Strength of a hydrate bond: tension, compression and the F_n - F_s - M envelope (Jiang et al. 2017, Eqs. 9 to 15).
 #include <Kokkos_Core.hpp>
 #include <cmath>
 

@@ -65,7 +65,7 @@ void require_countable(std::int64_t entries, std::int64_t discs) {
     throw TooManyToNumber(std::to_string(number) + of_what + " on one rank, at most " + std::to_string(most) +
                           " can be numbered: share the specimen among more ranks");
   };
-  if (discs > most_discs) refuse(discs, " discs with those of the neighbours' ranks", most_discs);
+  if (discs > most_discs) refuse(discs, " particles with those of the neighbours' ranks", most_discs);
   if (entries > most_entries) refuse(entries, " places in the rows of neighbours", most_entries);
 }
 
@@ -82,7 +82,7 @@ CellGrid bin_particles(ParticleSoA const& particles, int discs, Real cell_size, 
   grid.rows = static_cast<int>(std::min(1e6, height / grid.cell_size)) + 1;
   int const cells = grid.columns * grid.rows;
   grid.start = scratch.take<int>("grid.start", static_cast<std::size_t>(cells) + 1);
-  grid.disc = scratch.take<int>("grid.disc", static_cast<std::size_t>(discs));
+  grid.disc = scratch.take<int>("grid.particle", static_cast<std::size_t>(discs));
   Field<int> const count = scratch.take<int>("grid.count", static_cast<std::size_t>(cells));
   auto const each = light_launch(discs), each_cell = light_launch(cells);
   Kokkos::parallel_for("clear_cells", each_cell, ClearCells{count});  // deep_copy() would have the host wait

@@ -1,5 +1,5 @@
 #pragma once
-/// The contact law of unbonded grains: normal, shear and rolling (seed paper, Eq. 8).
+/// The contact law of unbonded grains: normal, shear and rolling (Jiang et al. 2017, Eq. 8).
 #include "kernels/contact_law.hpp"
 
 namespace clathra {

@@ -128,7 +128,7 @@ RebuildInputs rebuild_inputs_in(std::int64_t const* values) {
 }  // namespace
 
 Real RebuildInputs::mean_of_speeds(SumUnits const& unit) const {
-  require_in_range("speeds of discs", sums[speeds_out_of_range]);
+  require_in_range("speeds of particles", sums[speeds_out_of_range]);
   Real const speeds = FixedPoint::of(sums + speed_digits).value() * unit.speed();
   return lane_max(speeds / lane_max(static_cast<Real>(sums[discs]), Real(1)), Real(1e-300));
 }

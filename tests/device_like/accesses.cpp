@@ -48,8 +48,8 @@ INSTANTIATE_TEST_SUITE_P(, HostAccess, testing::Values(Precision::full, Precisio
 
 TEST_P(HostAccess, IsNotWhatABondedSpecimenThatBreaksNeeds) {
   HostAccessWatch const watch;
-  Specimen const s = bonded_patch(Composite::parallel);
-  Simulation sim = ready(s, Composite::parallel, {}, nullptr, GetParam());
+  Specimen const s = bonded_patch(ContactCoupling::parallel);
+  Simulation sim = ready(s, ContactCoupling::parallel, {}, nullptr, GetParam());
   sim.set_ledger(true);
   sim.keep_breaks(BreakRecord::details);
   sim.mark_start();

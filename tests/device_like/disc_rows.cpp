@@ -14,13 +14,13 @@ void expect_rows_as_fields(ParticleSoA const& p, char const* after) {
     DiscRow const& row = rows[i];
     bool const same =
         row.x == x[i] && row.y == y[i] && row.radius == radius[i] && row.vx == vx[i] && row.vy == vy[i] && row.omega == omega[i];
-    ASSERT_TRUE(same) << "disc " << i << " of " << p.all() << " after " << after;
+    ASSERT_TRUE(same) << "particle " << i << " of " << p.all() << " after " << after;
   }
 }
 
 TEST(DiscRows, AreWhatTheFieldsHoldAfterWhateverChangesThem) {
-  Specimen const s = bonded_patch(Composite::parallel);
-  Simulation sim = ready(s, Composite::parallel);
+  Specimen const s = bonded_patch(ContactCoupling::parallel);
+  Simulation sim = ready(s, ContactCoupling::parallel);
   sim.step(1);
   expect_rows_as_fields(sim.assembly().particles, "a step");
   std::int64_t const searches = sim.assembly().upkeep.searches();

@@ -11,7 +11,7 @@ INSTANTIATE_TEST_SUITE_P(, Graphs, testing::Values(Precision::full, Precision::m
 /// A bonded specimen that is sheared while its time step, its laws, its ledger and its log of breaks change.
 /// @param at_once  steps that are asked for at once
 Simulation sheared(Precision precision, int at_once) {
-  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
+  Simulation sim = ready(bonded_patch(ContactCoupling::parallel), ContactCoupling::parallel, {}, nullptr, precision);
   auto const go_on = [&] {
     for (int n = 0; n < 640; n += at_once) sim.step(at_once);
   };

@@ -14,7 +14,7 @@ struct Asked {
 
 /// For steps at once without a search and without a look for faults.
 Asked for_steps(Precision precision, int steps) {
-  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, precision);
+  Simulation sim = ready(bonded_patch(ContactCoupling::parallel), ContactCoupling::parallel, {}, nullptr, precision);
   sim.loading().x = sim.loading().y = AxisDrive::held();
   sim.set_skin(0.3 * grain_d50);
   sim.step();
@@ -60,7 +60,7 @@ Asked for_a_search(Simulation& sim) {
 
 // Every sixteenth one sorts in space as well.
 TEST_P(Launches, OfASearchAreBoundedOneMakesTheHostWaitAndNothingIsAllocated) {
-  Simulation sim = ready(bonded_patch(Composite::parallel), Composite::parallel, {}, nullptr, GetParam());
+  Simulation sim = ready(bonded_patch(ContactCoupling::parallel), ContactCoupling::parallel, {}, nullptr, GetParam());
   for (int n = 0; n < 34; ++n) (void)for_a_search(sim);
   Asked step;
   {

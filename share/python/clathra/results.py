@@ -8,11 +8,11 @@ import pandas
 
 from .states import Snapshot, Specimen
 
-_ENDINGS = {"Pa": "Pa", "s": "s", "J": "J/m", "m": "m", "m2": "m^2", "pct": "%", "deg": "deg", "rad": "rad"}
+_ENDINGS = {"Pa": "Pa", "s": "s", "m": "m", "m2": "m^2", "pct": "%", "deg": "deg", "rad": "rad"}
 
 
 def units_of(column):
-    """The unit of a column by its name: "q_Pa" is in Pa, "time_s" in s, energies "..._J" in J per metre of thickness, shares
+    """The unit of a column by its name: "q_Pa" is in Pa, "time_s" in s, energies "..._J_per_m" in J per metre of thickness, shares
     "..._pct" in %. What has no such ending, strains (natural ones) among it, is a plain number: ""."""
     if column.endswith("_per_s"):
         return "1/s"

@@ -39,15 +39,15 @@ HistoryRow BiaxialTest::record() {
   row.contact_sigma3_Pa = m.stress_area_xx / s.assembly().area();
   row.void_ratio = s.assembly().void_ratio();
   row.bonds_intact = std::llround(m.bonded);
-  row.intact_initial_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
-  row.intact_interacting_pct = m.interacting > 0 ? 100.0 * m.bonded / m.interacting : 0;
+  row.bonds_intact_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
+  row.bonded_contacts_pct = m.interacting > 0 ? 100.0 * m.bonded / m.interacting : 0;
   row.broken = s.assembly().break_counts();
   row.coordination = 2 * m.interacting / s.assembly().discs();
   row.mechanical_coordination = m.mechanical_coordination();
   row.inertial_number =
       state_->rate.strain_rate * state_->d50 * std::sqrt(s.assembly().facts.moving_density() / std::max(row.sigma3_Pa, 1.0));
-  row.wave_number = wave_number(state_->scene, state_->rate.strain_rate, s.assembly().walls().height(), row.void_ratio,
-                                state_->scene.grains.density * (1 + s.assembly().facts.added_mass));
+  row.platen_wave_stress = platen_wave_stress(state_->scene, state_->rate.strain_rate, s.assembly().walls().height(),
+                                              row.void_ratio, state_->scene.grains.density * (1 + s.assembly().facts.added_mass));
   row.unbalanced = m.unbalanced_ratio(s.assembly().discs());
   LargestDeviator const& largest = s.assembly().now.walls.largest;
   bool const between = largest.q > row.q_Pa;
@@ -116,7 +116,7 @@ void BiaxialTest::State::for_each_number(Visit&& visit) {
   visit("disc_steps", disc_steps);
   visit("strain_rate", rate.strain_rate);
   visit("inertial_number", rate.inertial_number);
-  visit("wave_number", rate.wave_number);
+  visit("platen_wave_stress", rate.platen_wave_stress);
   for_each_energy_column(start, [&](std::string const& name, double& value) { visit("start_" + name, value); });
   watch.for_each_number(visit);
   dilation.for_each_number(visit);
@@ -151,11 +151,11 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
 StageRecord BiaxialTest::plan() const {
   Simulation const& s = *state_->simulation;
   StageRecord plan;
-  plan["discs"] = s.assembly().discs();
+  plan["particles"] = s.assembly().discs();
   plan["time_step_s"] = s.time_step;
   plan["strain_rate_per_s"] = state_->rate.strain_rate;
   plan["inertial_number"] = state_->rate.inertial_number;
-  plan["wave_number"] = state_->rate.wave_number;
+  plan["platen_wave_stress"] = state_->rate.platen_wave_stress;
   plan["steps"] = std::ceil(state_->scene.test.axial_strain / (state_->rate.strain_rate * s.time_step));
   plan["width_m"] = s.assembly().walls().width();
   plan["height_m"] = s.assembly().walls().height();

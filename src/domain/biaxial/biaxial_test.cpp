@@ -52,7 +52,7 @@ std::string overshoot_text(double reached, double wanted) {
 constexpr double elastic_lateral_ratio = 0.25;  // lateral expansion per axial compression at the start: the servo's first guess
 
 BondKind bond_kind(Scene const& scene) {
-  return scene.bond.contact_coupling == Composite::parallel ? BondKind::parallel : BondKind::replace;
+  return scene.bond.contact_coupling == ContactCoupling::parallel ? BondKind::parallel : BondKind::replace;
 }
 
 }  // namespace
@@ -105,9 +105,9 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     double const before = simulation->assembly().void_ratio();
     consolidate(scene.test.confining_stress, progress);
     if (before - simulation->assembly().void_ratio() > 0.003 && !scene.run.ignore_guards) {
-      throw Refused("bonding after consolidation with this composite lets the void ratio drop from " + std::to_string(before) +
-                    " to " + std::to_string(simulation->assembly().void_ratio()) +
-                    ": bond at low stress, or use composite 'parallel' or 'memory'");
+      throw Refused("bonding after consolidation with this bond.contact_coupling lets the void ratio drop from " +
+                    std::to_string(before) + " to " + std::to_string(simulation->assembly().void_ratio()) +
+                    ": bond at low stress, or use \"parallel\" or \"replaces_keeping_force\"");
     }
   }
   preparation["void_ratio_after_consolidation"] = simulation->assembly().void_ratio();
@@ -163,16 +163,20 @@ void BiaxialTest::State::consolidate(double stress, ProgressCallback const& prog
   at_rest = hold_stress(s, stress, rest_before_shear, budget - s.assembly().steps(), progress, "consolidate");
   preparation["consolidation_steps"] = static_cast<double>(s.assembly().steps());
   preparation["consolidated_unbalanced"] = s.assembly().measures().unbalanced_ratio(s.assembly().discs());
+  preparation["at_rest"] = at_rest ? 1 : 0;
   if (!at_rest) require_rest(budget);
 }
 
-/// The specimen did not come to rest: refused, unless the scene has asked for so many steps or forces it.
+/// The specimen did not come to rest: refused, unless guards are ignored.
 void BiaxialTest::State::require_rest(std::int64_t steps) {
   std::string const why = unrest(*simulation, simulation->assembly().measures(), scene.test.confining_stress, rest_before_shear);
-  std::string const text = "consolidation did not come to rest within " + std::to_string(steps) +
-                           " steps: " + (why.empty() ? "it rested for fewer than three checks on end" : why);
-  if (scene.test.consolidation_steps == TestScene::usual_consolidation_steps && !scene.run.ignore_guards)
-    throw Refused(text + "; test.consolidation_steps = N shears it all the same after N steps");
+  std::string const when = preparation.contains("bonds") ? "after" : "before";
+  std::string const text = (has_bonds(scene) ? when + " hydrate formed, " : std::string()) +
+                           "consolidation did not come to rest within " + std::to_string(steps) +
+                           (steps == 1 ? " step: " : " steps: ") +
+                           (why.empty() ? "it rested for fewer than three checks on end" : why);
+  if (!scene.run.ignore_guards)
+    throw Refused(text + " (test.consolidation_steps gives it more; --ignore-guards shears it as it is)");
   warnings.push_back(text + ": the test is not quasi-static from its beginning");
 }
 
@@ -287,7 +291,7 @@ Measures const& BiaxialTest::State::measures() {
 void BiaxialTest::State::require_grains(double deep_share) const {
   if (scene.run.ignore_guards) return;
   if (std::string const problem = collapse(simulation->assembly().void_ratio(), deep_share); !problem.empty())
-    throw Refused(problem + ": the grains are too soft for this stress, raise grains.normal_stiffness (--force goes on)");
+    throw Refused(problem + ": the grains are too soft for this stress, raise grains.normal_stiffness (--ignore-guards goes on)");
 }
 
 /// Masses scaled further than usual must not carry the loads that contacts should: such a test ends.
@@ -305,11 +309,11 @@ void BiaxialTest::State::check() {
 
 std::vector<std::string> BiaxialTest::shear_warnings() const {
   State const& t = *state_;
-  std::vector<std::string> warnings = t.watch.warnings(t.bonds0 > 0);
+  std::vector<std::string> warnings = t.watch.warnings(t.bonds0 > 0, t.preparation.at("at_rest") == 1);
   if (std::string const soft = stiffness_warning_at(t.scene, t.watch.largest_sigma1()); !soft.empty()) warnings.push_back(soft);
   if (std::string const problem = collapse(t.simulation->assembly().void_ratio(), 0);
       t.scene.run.ignore_guards && !problem.empty())
-    warnings.push_back("forced: " + problem);
+    warnings.push_back("guard ignored: " + problem);
   constexpr double said = 1.01;  // of the strain that was asked for
   if (finished() && strain_fraction() > said) warnings.push_back(overshoot_text(t.eps1(), t.scene.test.axial_strain));
   return warnings;

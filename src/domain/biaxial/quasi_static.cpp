@@ -36,7 +36,7 @@ std::string stiffness_text(Scene const& scene, double sigma1) {
 double inertial_warning(Scene const& scene) { return has_bonds(scene) ? inertial_warning_of_bonds : inertial_warning_of_sand; }
 
 bool is_quasi_static(Scene const& scene, RateNumbers const& n) {
-  return !has_rate_effects(scene, n) && n.wave_number < wave_limit;
+  return !has_rate_effects(scene, n) && n.platen_wave_stress < wave_limit;
 }
 
 double expected_sigma1(Scene const& scene) {
@@ -66,7 +66,7 @@ std::string stiffness_warning_at(Scene const& scene, double sigma1) {
   return stiffness_text(scene, sigma1) + " was below " + short_number(stiffness_warning) + ": grains overlapped noticeably";
 }
 
-double wave_number(Scene const& scene, double strain_rate, double height, double void_ratio, double density) {
+double platen_wave_stress(Scene const& scene, double strain_rate, double height, double void_ratio, double density) {
   double const bulk_density = density / (1 + void_ratio), speed = std::sqrt(packing_modulus(grain_law(scene)) / bulk_density);
   return bulk_density * speed * (0.5 * strain_rate * height) / scene.test.confining_stress;
 }
@@ -76,11 +76,12 @@ RateNumbers rate_numbers(Scene const& scene, double d50, double height, double v
   double const stress = scene.test.confining_stress, density = scene.grains.density * (1 + added_mass);
   n.strain_rate =
       scene.test.strain_rate > 0 ? scene.test.strain_rate : strain_rate_of(scene.test.inertial_number, stress, density, d50);
-  n.wave_number = wave_number(scene, n.strain_rate, height, void_ratio, density);
-  if (scene.test.strain_rate == 0 && scene.test.max_platen_wave_stress > 0 && n.wave_number > scene.test.max_platen_wave_stress) {
-    n.share = scene.test.max_platen_wave_stress / n.wave_number;
+  n.platen_wave_stress = platen_wave_stress(scene, n.strain_rate, height, void_ratio, density);
+  if (scene.test.strain_rate == 0 && scene.test.max_platen_wave_stress > 0 &&
+      n.platen_wave_stress > scene.test.max_platen_wave_stress) {
+    n.share = scene.test.max_platen_wave_stress / n.platen_wave_stress;
     n.strain_rate *= n.share;
-    n.wave_number = scene.test.max_platen_wave_stress;
+    n.platen_wave_stress = scene.test.max_platen_wave_stress;
   }
   n.inertial_number = n.strain_rate * d50 * std::sqrt(density / stress);
   return n;
@@ -107,11 +108,11 @@ std::vector<std::string> rate_warnings(Scene const& scene, RateNumbers const& n)
   if (has_rate_effects(scene, n) && !is_too_fast(n))
     warnings.push_back("inertial number I = " + short_number(n.inertial_number, digits_of_rate(n)) + " is above " +
                        short_number(inertial_warning(scene)) + ": the peak of q is likely to be more than 2 % too high");
-  if (n.wave_number > wave_limit) {
-    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) +
+  if (n.platen_wave_stress > wave_limit) {
+    warnings.push_back("platen wave stress W = " + short_number(n.platen_wave_stress, digits_of_wave) +
                        " is above 0.5: this run is not quasi-static, lower the inertial number");
-  } else if (n.wave_number > wave_warning) {
-    warnings.push_back("wave number W = " + short_number(n.wave_number, digits_of_wave) + " is above " +
+  } else if (n.platen_wave_stress > wave_warning) {
+    warnings.push_back("platen wave stress W = " + short_number(n.platen_wave_stress, digits_of_wave) + " is above " +
                        short_number(wave_warning) + ": stress varies along the specimen");
   }
   double const sigma1 = expected_sigma1(scene);
@@ -126,7 +127,7 @@ std::vector<std::string> check_rate(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> warnings = rate_warnings(scene, n);
   std::string all;
   for (std::string const& refusal : rate_refusals(scene, n)) {
-    warnings.push_back("forced: " + refusal);
+    warnings.push_back("guard ignored: " + refusal);
     all += (all.empty() ? "" : "; ") + refusal;
   }
   if (!all.empty() && !scene.run.ignore_guards) throw Refused(all + " (use run.ignore_guards = true to run it all the same)");

@@ -19,7 +19,7 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
   double const r = 0.5 * grading.smallest(), mass = pi * r * r * scene.grains.density;
   RunScene const& run = scene.run;
   // A bond beside its contact adds to the stiffness: of two grains in series (Eq. 16), nearly.
-  bool const beside = bonded && scene.bond.contact_coupling == Composite::parallel;
+  bool const beside = bonded && scene.bond.contact_coupling == ContactCoupling::parallel;
   double const stiffer = beside ? 1 + 0.46 * scene.bond.grain_stiffness_factor : 1;
   double const shaking = 6.2 * scene.grains.normal_stiffness,
                turning = 14.07 * (scene.grains.shear_stiffness + 1.5 * grain_law(scene).rolling_factor()) /
@@ -27,7 +27,7 @@ double estimated_time_step(Scene const& scene, Grading const& grading, bool bond
   double const frequency = std::sqrt(std::sqrt(std::hypot(shaking * shaking, turning * turning)) * stiffer / mass);
   double const damped = std::sqrt(1 + scene.damping.local),
                dashpots = 1.3 / std::sqrt(stiffer) * scene.damping.viscous_ratio * damped,  // of the limit with dashpots
-      limit = run.time_step_rule == TimeStepRule::spectrum ? 2 / damped * (std::sqrt(1 + dashpots * dashpots) - dashpots) : 1.53;
+      limit = run.time_step_rule == TimeStepRule::adaptive ? 2 / damped * (std::sqrt(1 + dashpots * dashpots) - dashpots) : 1.53;
   return run.step_choice().safety * limit * (1 + 0.3 * run.mass_scaled_fraction) / frequency;
 }
 
@@ -54,7 +54,7 @@ double memory_of_run(Scene const& scene, bool bonded, double discs, int ranks) {
   // Numbers of an entry: shear, moment, u_0, width and the two of a separate bond; with the index, and one number and two indices
   // more while neighbours are searched.
   int const numbers = 1 + (scene.grains.rolling_width_factor > 0 || bonded ? 1 : 0) + (bonded ? 2 : 0) +
-                      (bonded && scene.bond.contact_coupling == Composite::parallel ? 2 : 0);
+                      (bonded && scene.bond.contact_coupling == ContactCoupling::parallel ? 2 : 0);
   constexpr double entries = 5.2;                                               // a disc, empty places of slices included
   int const of_a_break = bonded && scene.output.takes_event_details() ? 7 : 0;  // a disc may break one bond or so
   int const extras = (scene.output.energy ? 5 : 0) + (scene.output.takes_snapshots() ? 2 : 0) +
@@ -82,7 +82,7 @@ double breaks_of_run(Scene const& scene) {
 
 /// Snapshots, the one at the start of the shear among them.
 double snapshots_of(OutputScene const& output) {
-  int const regular = std::min(output.snapshots, output.records);  // they are taken at rows of the history
+  int const regular = output.snapshots;
   return (regular > 0 ? regular + 1 : 0) + static_cast<double>(output.snapshots_at.size());
 }
 
@@ -129,7 +129,7 @@ StageRecord predict(Scene const& scene, SpecimenDesign const& design, int ranks)
   p["time_step_s"] = estimated_time_step(scene, design.grading, bonded);
   p["strain_rate_per_s"] = rate.strain_rate;
   p["inertial_number"] = rate.inertial_number;
-  p["wave_number"] = rate.wave_number;
+  p["platen_wave_stress"] = rate.platen_wave_stress;
   p["rate_share"] = rate.share;
   p["steps"] = std::ceil(scene.test.axial_strain / (rate.strain_rate * p["time_step_s"]));
   p["disc_steps"] = p["steps"] * discs;

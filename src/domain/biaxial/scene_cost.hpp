@@ -7,7 +7,7 @@
 namespace clathra {
 
 /// What a scene will cost, without running it: particles, width, height, time step estimate, strain rate, steps, inertial_number,
-/// wave_number, rate_share (RateNumbers::share), memory_bytes (of all ranks at their peak), disk_bytes, disc_steps.
+/// platen_wave_stress, rate_share (RateNumbers::share), memory_bytes (of all ranks at their peak), disk_bytes, disc_steps.
 /// @param design  of its specimen, where that is not the one that the scene asks for;  @param ranks  that will share it
 StageRecord predict(Scene const& scene, SpecimenDesign const& design, int ranks = 1);
 StageRecord predict(Scene const& scene, int ranks = 1);

@@ -99,7 +99,7 @@ SceneNeeds needs_of(Scene const& scene) {
   if (scene.output.energy) add_accounts(laws, needs.fields);
   if (laws.wall.friction > 0)
     for (char const* const wall : {"shear_left", "shear_right", "shear_bottom", "shear_top"})
-      needs.fields.push_back({wall, sizeof(Real), FieldOf::disc, "test.wall_friction, of discs at the walls"});
+      needs.fields.push_back({wall, sizeof(Real), FieldOf::disc, "test.wall_friction, of particles at the walls"});
   add_entries(laws, needs.fields);
   if (scene.output.takes_event_details() && has_bonds(scene))
     needs.fields.push_back({"break_details", sizeof(BreakDetails) + sizeof(Coord), FieldOf::bond,

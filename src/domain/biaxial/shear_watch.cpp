@@ -86,28 +86,28 @@ std::string ShearWatch::of_kinetic_energy() const {
       kinetic_limit, static_cast<long long>(all_.fast), static_cast<long long>(all_.checks), all_.largest_kinetic);
 }
 
-std::vector<std::string> ShearWatch::warnings(bool bonded) const {
+std::vector<std::string> ShearWatch::warnings(bool bonded, bool began_at_rest) const {
+  char const* const advice = began_at_rest ? "lower test.inertial_number" : "the test did not begin at rest";
   std::vector<std::string> texts;
   if (!balanced(bonded))
     texts.push_back(
         text_of("forces were out of balance on the way to the peak of q, by %.2g of the mean contact force (%g is quasi-static): "
-                "the peak is likely to be more than 2 %% off, lower test.inertial_number",
-                to_peak_.mean_unbalanced, unbalanced_to_peak_limit));
+                "the peak is likely to be more than 2 %% off, %s",
+                to_peak_.mean_unbalanced, unbalanced_to_peak_limit, advice));
   if (to_peak_.largest_mismatch > mismatch_limit)
     texts.push_back(
         text_of("q on the walls and q of the contacts were up to %.2g of p apart on the way to the peak (%g is usual): stress "
-                "varies along the specimen, lower test.inertial_number",
-                to_peak_.largest_mismatch, mismatch_limit));
+                "varies along the specimen, %s",
+                to_peak_.largest_mismatch, mismatch_limit, advice));
   if (share(to_peak_.held, to_peak_.checks) < least_held)
     texts.push_back(
         text_of("sigma_3 was within %g %% in only %.1f %% of the checks up to the peak of q (fewer than %g %%): the servo walls "
-                "did not hold it, lower test.inertial_number",
-                100 * stress_held, 100 * share(to_peak_.held, to_peak_.checks), 100 * least_held));
+                "did not hold it, %s",
+                100 * stress_held, 100 * share(to_peak_.held, to_peak_.checks), 100 * least_held, advice));
   if (all_.largest_stress_error > stress_error_limit)
-    texts.push_back(
-        text_of("sigma_3 was off by up to %.3g %% (%g %% are allowed): the servo walls did not hold it, lower "
-                "test.inertial_number or take more discs",
-                100 * all_.largest_stress_error, 100 * stress_error_limit));
+    texts.push_back(text_of("sigma_3 was off by up to %.3g %% (%g %% are allowed): the servo walls did not hold it, %s%s",
+                            100 * all_.largest_stress_error, 100 * stress_error_limit, advice,
+                            began_at_rest ? " or take more particles" : ""));
   if (deep_share_ > deep_overlap_share)
     texts.push_back(
         text_of("%.3g %% of the contacts overlapped by more than 10 %% of the smaller radius at %.3g %% strain, the "

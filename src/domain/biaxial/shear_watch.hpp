@@ -60,7 +60,7 @@ class ShearWatch {
   std::string of_kinetic_energy() const;
   double largest_sigma1() const { return largest_sigma1_; }  ///< [Pa]
   /// In words: what was not as it should be.
-  std::vector<std::string> warnings(bool bonded) const;
+  std::vector<std::string> warnings(bool bonded, bool began_at_rest = true) const;
 
   /// Visits (name, number), for checkpoints.
   template <class Visit>

@@ -48,11 +48,11 @@ double area_of_equation_4(Scene const& scene, Specimen const& s) {
 
 double critical_thickness(Scene const& scene, Specimen const& share, Ranks const& ranks) {
   switch (scene.bond.critical_thickness_from) {
-    case BondingMode::eq3:
+    case CriticalThicknessFrom::saturation:
       return critical_thickness_ratio(scene.hydrate.saturation) * share.d50;
-    case BondingMode::given_thickness:
+    case CriticalThicknessFrom::given:
       return scene.bond.critical_thickness;
-    case BondingMode::areal_target:
+    case CriticalThicknessFrom::bond_area:
       break;
   }
   double const target = area_of_equation_4(scene, share);
@@ -62,7 +62,7 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
   auto const pairs = near_pairs(s, share.size(), high);
   if (area_at(scene, s, pairs, high, ranks) < target) {
     throw Refused(
-        "bond.critical_thickness_from = 'areal_target': even bonds of thickness d50 hold less hydrate than the saturation " +
+        "bond.critical_thickness_from = \"bond_area\": even bonds of thickness d50 hold less hydrate than the saturation " +
         std::to_string(scene.hydrate.saturation) + " demands");
   }
   for (int n = 0; n < 60; ++n) {
@@ -88,7 +88,7 @@ void decide(Scene const& scene, BondLaw const& law, double radius, double distan
     case Bondability::bondable:
       ++outcome.bonds;
       contact.formation_overlap = -distance;
-      if (scene.bond.contact_coupling == Composite::replace)
+      if (scene.bond.contact_coupling == ContactCoupling::replaces)
         contact.shear = contact.moment = 0;  // Eq. 7 starts from F_n = F_s = M = 0
       area.add(bond_area(radius, law.width(radius, thickness), thickness, outcome.critical_thickness));
   }
@@ -122,7 +122,7 @@ BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& r
   contacts.insert(contacts.end(), old, share.contacts.end());
   share.contacts = std::move(contacts);
   share.critical_thickness = outcome.critical_thickness;
-  share.separate_bonds = scene.bond.contact_coupling == Composite::parallel;
+  share.separate_bonds = scene.bond.contact_coupling == ContactCoupling::parallel;
   for (std::int64_t* const count : {&outcome.bonds, &outcome.rejected_no_tension, &outcome.rejected_out_of_fit})
     *count = ranks.sum(*count);
   outcome.bond_area = area.over(ranks.summation());

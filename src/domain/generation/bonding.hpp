@@ -1,5 +1,5 @@
 #pragma once
-/// Where hydrate bonds form in a resting specimen (seed paper, section 4), and how much hydrate they are.
+/// Where hydrate bonds form in a resting specimen (Jiang et al. 2017, section 4), and how much hydrate they are.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,7 +22,7 @@ struct BondingOutcome {
   double target_area = 0;                ///< (S - 20 %) e/(1+e) A of Eq. 4 [m^2]
 };
 
-/// h_max [m] of a scene: Eq. 3 (`eq3`), the given one, or by bisection the one whose bond area meets Eq. 4 (`areal_target`).
+/// h_max [m] of a scene: Eq. 3 (`saturation`), the given one, or by bisection the one whose bond area meets Eq. 4 (`bond_area`).
 double critical_thickness(Scene const& scene, Specimen const& share, Ranks const& ranks);
 
 /// Adds a bond to every pair of `specimen` with gap < h_max (strictly), R_t > 0 and a positive envelope. The bond is stress-free

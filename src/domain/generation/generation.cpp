@@ -75,7 +75,7 @@ std::vector<std::string> warnings_of(StageRecord const& made) {
                        "specimen.preparation_stress)");
   if (double const distance = made.at("grading_distance"); distance > farthest)
     warnings.push_back(
-        "the discs miss the grading curve by " + short_number(100 * distance) +
+        "the particles miss the grading curve by " + short_number(100 * distance) +
         " % at most: they are too few for it (specimen.particles), or for so many layers (specimen.compaction_layers)");
   return warnings;
 }
@@ -90,7 +90,7 @@ GeneratedSpecimen make_specimen(Scene const& scene, ProgressCallback const& prog
                                                                              : scene.specimen.compaction_layers;
   generated.layer_void_ratios = layer_void_ratios(packed.specimen, layers, ranks);
   StageRecord& r = generated.record;
-  r["discs"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(packed.specimen.size())));
+  r["particles"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(packed.specimen.size())));
   r["void_ratio"] = packed.specimen.void_ratio;
   r["void_ratio_wanted"] = design.void_ratio;
   r["layer_void_ratio_sd"] = standard_deviation(generated.layer_void_ratios);

@@ -16,14 +16,14 @@ struct HistoryRow {
   double contact_sigma1_Pa = 0, contact_sigma3_Pa = 0;      ///< the same stresses from the contacts (Love-Weber)
   double void_ratio = 0;                                    ///< nominal
   std::int64_t bonds_intact = 0;
-  double intact_initial_pct = 0;                ///< of the bonds at installation
-  double intact_interacting_pct = 0;            ///< bonded / (touching or bonded), the paper's measure
-  BreakCounts broken;                           ///< bonds since they formed, by mode: those of consolidation are among them
-  double coordination = 0;                      ///< 2 * interacting pairs / discs
-  double mechanical_coordination = 0;           ///< the same without rattlers (Thornton 2000)
-  double inertial_number = 0, wave_number = 0;  ///< I and W
-  double unbalanced = 0;                        ///< mean unbalanced force / mean contact force
-  double largest_q_Pa = 0, largest_q_eps1 = 0;  ///< of all steps since the record before, and the axial strain there
+  double bonds_intact_pct = 0;         ///< of the bonds at installation
+  double bonded_contacts_pct = 0;      ///< bonded / (touching or bonded), the paper's measure
+  BreakCounts broken;                  ///< bonds since they formed, by mode: those of consolidation are among them
+  double coordination = 0;             ///< 2 * interacting pairs / discs
+  double mechanical_coordination = 0;  ///< the same without rattlers (Thornton 2000)
+  double inertial_number = 0, platen_wave_stress = 0;  ///< I and W
+  double unbalanced = 0;                               ///< mean unbalanced force / mean contact force
+  double largest_q_Pa = 0, largest_q_eps1 = 0;         ///< of all steps since the record before, and the axial strain there
   /// Largest angle of dilation over a stretch of 1 % strain that ended since the record before; nan before the first one.
   double dilation_deg = std::numeric_limits<double>::quiet_NaN();
 };
@@ -43,13 +43,13 @@ void for_each_column(Row& row, Visit&& visit) {
   visit("contact_sigma3_Pa", row.contact_sigma3_Pa);
   visit("void_ratio", row.void_ratio);
   visit("bonds_intact", row.bonds_intact);
-  visit("intact_initial_pct", row.intact_initial_pct);
-  visit("intact_interacting_pct", row.intact_interacting_pct);
+  visit("bonds_intact_pct", row.bonds_intact_pct);
+  visit("bonded_contacts_pct", row.bonded_contacts_pct);
   for (BreakModeNames const& m : break_modes) visit(m.broken, row.broken[m.mode]);
   visit("coordination", row.coordination);
   visit("mechanical_coordination", row.mechanical_coordination);
   visit("inertial_number", row.inertial_number);
-  visit("wave_number", row.wave_number);
+  visit("platen_wave_stress", row.platen_wave_stress);
   visit("unbalanced", row.unbalanced);
   visit("largest_q_Pa", row.largest_q_Pa);
   visit("largest_q_eps1", row.largest_q_eps1);
@@ -67,17 +67,17 @@ struct EnergyRow {
 
 template <class Row, class Visit>
 void for_each_energy_column(Row& row, Visit&& visit) {
-  visit("boundary_work_J", row.boundary_work);
-  visit("kinetic_J", row.kinetic);
-  visit("grain_elastic_J", row.grain_elastic);
-  visit("bond_elastic_J", row.bond_elastic);
-  visit("wall_elastic_J", row.wall_elastic);
-  visit("sliding_J", row.sliding);
-  visit("rolling_J", row.rolling);
-  visit("dashpot_J", row.dashpot);
-  visit("damping_J", row.damping);
-  visit("breakage_J", row.breakage);
-  visit("residual_J", row.residual);
+  visit("boundary_work_J_per_m", row.boundary_work);
+  visit("kinetic_J_per_m", row.kinetic);
+  visit("grain_elastic_J_per_m", row.grain_elastic);
+  visit("bond_elastic_J_per_m", row.bond_elastic);
+  visit("wall_elastic_J_per_m", row.wall_elastic);
+  visit("sliding_J_per_m", row.sliding);
+  visit("rolling_J_per_m", row.rolling);
+  visit("dashpot_J_per_m", row.dashpot);
+  visit("damping_J_per_m", row.damping);
+  visit("breakage_J_per_m", row.breakage);
+  visit("residual_J_per_m", row.residual);
 }
 
 }  // namespace clathra

@@ -92,14 +92,14 @@ StageRecord record_of(TestNumbers const& n) {
   StageRecord record{{"peak_q_Pa", n.peak_q},
                      {"peak_eps1", n.peak_eps1},
                      {"peak_eps_v", n.eps_v_peak},
-                     {"peak_intact_initial_pct", n.intact_peak},
+                     {"peak_bonds_intact_pct", n.intact_peak},
                      {"residual_q_Pa", n.residual_q},
                      {"residual_from_eps1", n.residual_from},
                      {"largest_eps_v", n.largest_eps_v},
                      {"largest_eps_v_eps1", n.largest_eps_v_eps1},
                      {"end_eps1", n.end_eps1},
                      {"end_eps_v", n.eps_v_end},
-                     {"end_intact_initial_pct", n.intact_end}};
+                     {"end_bonds_intact_pct", n.intact_end}};
   if (n.secant_modulus) record["secant_modulus_Pa"] = *n.secant_modulus;
   if (n.dilation_angle) record["dilation_angle_deg"] = *n.dilation_angle * 180 / std::numbers::pi;
   std::erase_if(record, [](auto const& entry) { return !std::isfinite(entry.second); });

@@ -35,7 +35,7 @@ Directory::Directory(Ranks const& ranks, std::int64_t total, std::vector<int> co
     }
   }
   wrong = wrong || std::find(seen.begin(), seen.end(), false) != seen.end();
-  if (ranks.any(wrong)) throw std::invalid_argument("the ids of a specimen's discs must be 0 .. N-1, each once");
+  if (ranks.any(wrong)) throw std::invalid_argument("the ids of a specimen's particles must be 0 .. N-1, each once");
 }
 
 std::vector<double> Directory::find(std::vector<int> const& ids) const {

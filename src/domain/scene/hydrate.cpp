@@ -19,28 +19,11 @@ std::string state_text(HydrateScene const& hydrate) {
          format_quantity(hydrate.density, Dimension::density);
 }
 
-/// L_r of Eq. 9b, which the paper leaves open (physics page, section 1.4).
-void set_moment_length(BondStrengthLaw& strength, BondScene const& bond) {
-  strength.moment_length = 0;
-  strength.moment_width_ratio = 0;
-  switch (bond.moment_scale) {
-    case MomentScale::paper_si:
-      strength.moment_length = 1;
-      break;
-    case MomentScale::rod_mm:
-      strength.moment_length = 1e-3;
-      break;
-    case MomentScale::similitude:
-      strength.moment_width_ratio = bond.moment_ratio;
-      break;
-  }
-}
-
 /// How a bond is read off those between rods that were tested, and whether it may be weaker than a grain contact.
 void set_rod(BondStrengthLaw& strength, Scene const& scene, double d50) {
   constexpr double rod_diameter = 12e-3, thinnest = 0.6e-3, area = 3e-3 * 50e-3;  // [m, m, m^2] of the bonds between rods
-  if (scene.bond.thickness_mapping == RodThickness::clamped) strength.least_rod_thickness = thinnest;
-  if (scene.bond.thickness_mapping == RodThickness::scaled) {
+  if (scene.bond.thickness_mapping == ThicknessMapping::clamped) strength.least_rod_thickness = thinnest;
+  if (scene.bond.thickness_mapping == ThicknessMapping::scaled) {
     strength.rod_scale = rod_diameter / d50;
     strength.rod_share = 0;
     strength.rod_share_per_width = 1 / area;  // of a bond 1 m long
@@ -126,11 +109,12 @@ bool has_bonds(Scene const& scene) { return scene.hydrate.saturation > 0 && scen
 BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness) {
   HydrateScene const& hydrate = scene.hydrate;
   HydrateStrength const solid = hydrate_strength(hydrate.temperature, hydrate.pore_pressure, hydrate.density);
-  bool const printed = scene.bond.strength_from == CoefficientSource::printed;
+  bool const printed = scene.bond.strength_from == StrengthFrom::printed;
   BondLaw law;
   law.strength.tensile_stress = printed ? printed_tensile_stress : 3 * solid.tension;
   law.strength.compressive_stress = printed ? printed_compressive_stress : 3 * solid.compression;
-  set_moment_length(law.strength, scene.bond);
+  law.strength.moment_length = scene.bond.rolling_lever.length;
+  law.strength.moment_width_ratio = scene.bond.rolling_lever.width_fraction;
   set_rod(law.strength, scene, d50);
   law.modulus = solid.modulus;
   law.particle_stiffness = scene.bond.grain_stiffness_factor * scene.grains.normal_stiffness;
@@ -142,7 +126,8 @@ BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness)
     law.plate_thickness = plate;
     law.thickness_partner = plate;
   }
-  if (scene.bond.contact_coupling == Composite::memory) law.preload_stiffness = scene.grains.normal_stiffness;
+  if (scene.bond.contact_coupling == ContactCoupling::replaces_keeping_force)
+    law.preload_stiffness = scene.grains.normal_stiffness;
   // f_s and f_r fall from gap 0 to 1.15 mm and rise from there; the last digits are left to the rounding of exponential().
   double const thickest = law.thickness_weight * critical_thickness + law.plate_thickness;
   double const flattest = std::min(rod_thickness(law.strength, thickest), 1.15e-3);
@@ -152,7 +137,7 @@ BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness)
 }
 
 BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, double gap, double normal_force) {
-  bool const given = scene.bond.critical_thickness_from == BondingMode::given_thickness;
+  bool const given = scene.bond.critical_thickness_from == CriticalThicknessFrom::given;
   double const h_max = given ? scene.bond.critical_thickness : critical_thickness_ratio(scene.hydrate.saturation) * d50;
   BondLaw const law = make_bond_law(scene, d50, h_max);
   HydrateStrength const solid = hydrate_strength(scene.hydrate.temperature, scene.hydrate.pore_pressure, scene.hydrate.density);

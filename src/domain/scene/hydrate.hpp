@@ -1,5 +1,5 @@
 #pragma once
-/// What saturation, temperature, pore pressure and density of hydrate mean for a bond (seed paper, Eqs. 3, 13, 14, 18).
+/// What saturation, temperature, pore pressure and density of hydrate mean for a bond (Jiang et al. 2017, Eqs. 3, 13, 14, 18).
 #include <string>
 
 #include "domain/scene/scene.hpp"
@@ -40,7 +40,7 @@ double stability_temperature(double pore_pressure);
 std::string hydrate_problem(HydrateScene const& hydrate);
 
 /// What of this state Eqs. 13 and 18 were not fitted to, in words; empty where nothing is. The data that are known to us begin at
-/// -30 degC and have 1.5 to 8 MPa and 720 to 840 kg/m^3; the seed paper itself takes 900 kg/m^3, which counts as inside. Where
+/// -30 degC and have 1.5 to 8 MPa and 720 to 840 kg/m^3; Jiang et al. (2017) take 900 kg/m^3, which counts as inside. Where
 /// they end on the warm side is not known; there hydrate_problem() sees to it that hydrate is stable.
 std::string fit_warning(HydrateScene const& hydrate);
 
@@ -49,7 +49,7 @@ std::string fit_warning(HydrateScene const& hydrate);
 bool has_bonds(Scene const& scene);
 
 /// The bond law of a scene whose hydrate has the critical thickness h_max [m] between grains of the median diameter d50 [m]. 3
-/// q_t and 3 q_c come from Eq. 13 (`thm`) or are 1.421e7 and 2.571e7 Pa (`printed`); E_m is that of Eq. 18 with both.
+/// q_t and 3 q_c come from Eq. 13 (`conditions`) or are 1.421e7 and 2.571e7 Pa (`printed`); E_m is that of Eq. 18 with both.
 BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness);
 
 /// Every number of one bond, for `clathra bond` and for checks by hand. SI.
@@ -65,7 +65,7 @@ struct BondCard {
   double moment_length;   ///< L_r [m]
 };
 
-/// h_max is Eq. 3 times d50, or bond.critical_thickness with mode given_thickness.
+/// h_max is Eq. 3 times d50, or bond.critical_thickness where that is given.
 /// @param gap  distance of the surfaces [m]; an overlap (negative) counts as 0;  @param normal_force  bond F_n [N/m]
 BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, double gap, double normal_force);
 

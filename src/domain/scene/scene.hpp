@@ -13,10 +13,16 @@ namespace clathra {
 enum class Generator { under_compaction, compression };
 enum class VoidRatioAt { preparation, test };
 enum class BondLawKind { none, thickness_dependent, constant_thickness };
-enum class MomentScale { paper_si, rod_mm, similitude };
-enum class RodThickness { printed, clamped, scaled };
-enum class CoefficientSource { printed, thm };
-enum class BondingMode { eq3, given_thickness, areal_target };
+enum class ThicknessMapping { identity, clamped, scaled };
+enum class StrengthFrom { printed, conditions };
+enum class CriticalThicknessFrom { saturation, given, bond_area };
+
+/// L_r, the length that Eq. 9b lacks: a length of its own or a part of the width B of the bond, L_r = length + width_fraction B.
+struct RollingLever {
+  double length = 0;  ///< [m]
+  double width_fraction = 0;
+  bool operator==(RollingLever const&) const = default;
+};
 
 /// `[specimen]`: any three of particles, box (width and height), void ratio and grading fix the fourth; 0 or empty = not given.
 struct SpecimenScene {
@@ -62,15 +68,14 @@ struct HydrateScene {
 struct BondScene {
   std::string preset = "calibrated";  ///< of what the paper leaves open: io/scene/presets.hpp
   BondLawKind law = BondLawKind::thickness_dependent;
-  Composite contact_coupling = Composite::parallel;
+  ContactCoupling contact_coupling = ContactCoupling::parallel;
   double grain_stiffness_factor = 2;  ///< k_n of one grain (Eq. 16) over that of a contact: two grains in series make a contact
-  MomentScale moment_scale = MomentScale::similitude;
-  double moment_ratio = 1.0 / 4;  ///< c_r of similitude, L_r = c_r B
-  RodThickness thickness_mapping = RodThickness::printed;
+  RollingLever rolling_lever = {0, 1.0 / 4};
+  ThicknessMapping thickness_mapping = ThicknessMapping::identity;
   bool friction_floor = false;  ///< R_s >= mu F_n, R_r >= F_n B_c / 6
-  CoefficientSource strength_from = CoefficientSource::thm;
-  BondingMode critical_thickness_from = BondingMode::eq3;
-  double critical_thickness = 0;    ///< h_max for given_thickness [m]
+  StrengthFrom strength_from = StrengthFrom::conditions;
+  CriticalThicknessFrom critical_thickness_from = CriticalThicknessFrom::saturation;
+  double critical_thickness = 0;    ///< h_max for CriticalThicknessFrom::given [m]
   double constant_thickness = 0;    ///< t_0 of constant_thickness [m]; 0 = h_max / 2
   bool after_consolidation = true;  ///< bond at the confining stress instead
 };
@@ -86,8 +91,7 @@ struct TestScene {
   /// +1.4 +- 0.5 %, 0.2: +1.0 +- 0.5 %, 0.13: +0.3 +- 0.5 %.
   double max_platen_wave_stress = 0.13;
   double wall_friction = 0;
-  static constexpr int usual_consolidation_steps = 200000;
-  int consolidation_steps = usual_consolidation_steps;  ///< at most; another number than the usual one is sheared at rest or not
+  int consolidation_steps = 200000;  ///< at most
 };
 
 /// `[damping]`: parts of the model. What the numbers after a semicolon say was measured (docs/accuracy.md).
@@ -102,7 +106,7 @@ struct RunScene {
   std::uint64_t seed = 1;
   int threads = 0;                         ///< 0 = OMP_NUM_THREADS or all cores
   Precision precision = Precision::mixed;  ///< of consolidation and shear, not of generation; mixed: peak of q -0.2 +- 0.4 %
-  TimeStepRule time_step_rule = TimeStepRule::spectrum;
+  TimeStepRule time_step_rule = TimeStepRule::adaptive;
   double time_step_safety = 0;  ///< 0 = the usual one of the rule; half of it: peak of q -0.3 +- 1.6 %
   static constexpr double usual_inertia_factor = 3;
   /// Moments of inertia over their own, in consolidation and shear; 3: peak of q 0.0 +- 0.6 % at I = 2e-4.
@@ -115,7 +119,7 @@ struct RunScene {
   /// Beyond the usual moments of inertia, which move no number of a test that is as slow as usual (docs/accuracy.md).
   bool scales_masses_further() const { return rotational_inertia_factor > usual_inertia_factor || mass_scaled_fraction > 0; }
   StepChoice step_choice() const {
-    double const usual = time_step_rule == TimeStepRule::spectrum ? usual_share_of_limit : usual_share_of_estimate;
+    double const usual = time_step_rule == TimeStepRule::adaptive ? usual_share_of_limit : usual_share_of_estimate;
     return {time_step_rule, time_step_safety > 0 ? time_step_safety : usual};
   }
 };

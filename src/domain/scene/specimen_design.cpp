@@ -42,7 +42,8 @@ SpecimenDesign design_sample(Scene const& scene) {
     design.void_ratio = s.width * s.height / (static_cast<double>(s.particles) * disc) - 1;
     if (design.void_ratio <= 0.15)
       throw std::invalid_argument("[specimen] " + std::to_string(s.particles) +
-                                  " discs of this grading do not fit the box: void ratio " + std::to_string(design.void_ratio));
+                                  " particles of this grading do not fit the box: void ratio " +
+                                  std::to_string(design.void_ratio));
   } else {
     design.grading =
         design.grading.scaled(std::sqrt(s.width * s.height / ((1 + s.void_ratio) * static_cast<double>(s.particles) * disc)));
@@ -59,7 +60,7 @@ int compaction_layers(Scene const& scene, SpecimenDesign const& design) {
 
 double reach_of_bonds(Scene const& scene, double d50) {
   if (!has_bonds(scene)) return 0;
-  return scene.bond.critical_thickness_from == BondingMode::given_thickness
+  return scene.bond.critical_thickness_from == CriticalThicknessFrom::given
              ? scene.bond.critical_thickness
              : critical_thickness_ratio(scene.hydrate.saturation) * d50;
 }
@@ -99,7 +100,7 @@ std::string crowding(double smallest, double largest, double reach) {
   char text[240];
   std::snprintf(text, sizeof text,
                 "the largest grain is %.3g times the smallest (%.4g mm), around it may lie more neighbours than the %d that a "
-                "disc can have: of this curve the ratio may be %.3g at most",
+                "particle can have: of this curve the ratio may be %.3g at most",
                 given, smallest * 1e3, longest_row, std::floor(10 * fits) / 10);
   return text;
 }
@@ -111,7 +112,7 @@ std::string wide_skin(Grading const& grading, double skin) {
   char text[240];
   std::snprintf(
       text, sizeof text,
-      "within %.4g mm of a grain there may be more neighbours than the %d that a disc can have; of this grading the skin "
+      "within %.4g mm of a grain there may be more neighbours than the %d that a particle can have; of this grading the skin "
       "may be %.3g mm at most, and is best left out",
       skin * 1e3, longest_row, most * 1e3);
   return text;

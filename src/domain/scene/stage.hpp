@@ -22,6 +22,10 @@ using ProgressCallback = std::function<bool(Progress const&)>;
 struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// Thrown where a forecast asks for more memory than there is.
+struct OutOfMemory : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 struct Snapshot;
 
 /// The state diverged or left the range of the model; the text names disc, step and cause.

@@ -21,12 +21,12 @@ struct AssemblyFacts {
   Real added_mass = 0;                                    ///< by MassScaling, over the mass of all discs
   Real critical_thickness = 0;                            ///< h_max of the bonds [m], 0 = none
 
-  Real moving_density() const { return density * (1 + added_mass); }  ///< what inertia and wave number go by [kg/m^3]
+  Real moving_density() const { return density * (1 + added_mass); }  ///< what inertia and the platen wave stress go by [kg/m^3]
 
   /// Visits the numbers: (name, number).
   template <class Visit>
   void for_each_number(Visit&& visit) {
-    visit("discs", discs);
+    visit("particles", discs);
     visit("d50", d50);
     visit("smallest_radius", smallest_radius);
     visit("largest_radius", largest_radius);

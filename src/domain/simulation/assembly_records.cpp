@@ -97,7 +97,7 @@ void unpack_assembly(Assembly& a, AuxiliaryFields const& beside, SimulationState
   std::vector<BoundaryHistory> histories = boundary_histories(a);
   AuxiliaryFields const with_discs = with(with(auxiliary_fields(a, histories), beside), derived_fields(a));
   if (record_columns(with_discs, a.rows.features) != state.discs.names())
-    throw std::runtime_error("a checkpoint's discs have other numbers than its laws ask for");
+    throw std::runtime_error("a checkpoint's particles have other numbers than its laws ask for");
   a.rows = unpack_discs(records_of_own_discs(a, records_of(std::move(state.discs))), a.rows.features, a.particles, with_discs);
   // Discs have moved since the rows were listed: neighbours may be farther than the search reached, by both their skins.
   Real const reach = a.upkeep.reach();

@@ -79,7 +79,7 @@ std::string advice_on_rows(double skin, double d50) {
   if (d50 > 0 && skin > wide * d50)
     return text_of("give a smaller run.verlet_skin, or none: %.3g mm are %.3g of d50, where %g are usual", skin * 1e3, skin / d50,
                    chosen_skin);
-  return text_of("a disc can have %d: make the grading's largest disc smaller, or its smallest larger", longest_row);
+  return text_of("a particle can have %d: make the grading's largest particle smaller, or its smallest larger", longest_row);
 }
 
 std::string advice(Fault what, double share) {
@@ -115,13 +115,13 @@ std::string fault_text(Assembly const& assembly, ReportedFault const& fault, dou
   place[0] = found[0];
   place[1] = found[1];
   double const share = assembly.now.orders.dt / assembly.stable_limit();
-  std::string text = text_of("step %lld, time %g s: disc %d %s", static_cast<long long>(assembly.steps()), assembly.time(),
+  std::string text = text_of("step %lld, time %g s: particle %d %s", static_cast<long long>(assembly.steps()), assembly.time(),
                              fault.id, cause[static_cast<int>(fault.what)]);
   if (fault.last_good < assembly.steps()) text += text_of(", since a step after %lld", static_cast<long long>(fault.last_good));
   text += text_of("; it is at (%.6g, %.6g) mm", place[0] * 1e3, place[1] * 1e3);
-  if (lost > 1) text += text_of(", %lld discs are like it", static_cast<long long>(lost));
+  if (lost > 1) text += text_of(", %lld particles are like it", static_cast<long long>(lost));
   if (found[3] >= 0)
-    text += text_of("; its deepest contact, with disc %d, overlaps by %.3g of the smaller radius", static_cast<int>(found[3]),
+    text += text_of("; its deepest contact, with particle %d, overlaps by %.3g of the smaller radius", static_cast<int>(found[3]),
                     found[2]);
   if (found[3] == -1) text += text_of("; it is %.3g of its radius deep in a wall", found[2]);
   if (std::isfinite(share) && share > 1e-6)

@@ -75,7 +75,7 @@ struct CopyValues {
 }  // namespace
 
 void PeriodicImages::rebuild(ParticleSoA& particles, Box const& cell, Real reach) {
-  if (2 * reach > cell.narrowest()) throw std::invalid_argument("the periodic cell is smaller than four disc diameters");
+  if (2 * reach > cell.narrowest()) throw std::invalid_argument("the periodic cell is smaller than four particle diameters");
   Real const sideways = reach * std::hypot(1, cell.edges.xy / cell.edges.yy);
   Kokkos::RangePolicy<ExecutionSpace> const each(0, particles.owned);
   particles.ghosts = 0;

@@ -130,7 +130,7 @@ void require_finite(Ranks const& ranks, Specimen const& s) {
   }
   worst = ranks.max(worst);
   if (worst < 0) return;
-  throw Diverged("step 0: disc " + std::to_string(static_cast<int>(worst)) +
+  throw Diverged("step 0: particle " + std::to_string(static_cast<int>(worst)) +
                  " has a position, velocity or radius that is not finite");
 }
 
@@ -243,7 +243,7 @@ std::vector<SpecimenContact> contacts_by_id(Assembly const& a) {
 void take_over(Assembly& a, Specimen const& s) {
   Ranks const& ranks = a.ranks();
   std::int64_t const total = ranks.sum(static_cast<std::int64_t>(s.size()));
-  if (total == 0) throw std::invalid_argument("a specimen needs at least one disc");
+  if (total == 0) throw std::invalid_argument("a specimen needs at least one particle");
   if (s.periodic && !ranks.alone()) throw std::invalid_argument("a periodic cell is too small to be cut among ranks");
   require_finite(ranks, s);
   a.facts.discs = static_cast<int>(total);

@@ -15,7 +15,7 @@ constexpr Real most_stiffening = 1.05;  // that a share of 0.95 of the limit bea
 
 void TimeStepControl::follow(StepChoice const& choice, Real estimate) {
   constexpr Real most = 1.35;  // times the estimate, which counts contacts to come: no bound knows those of flying discs
-  bool const by_limit = choice.rule == TimeStepRule::spectrum;
+  bool const by_limit = choice.rule == TimeStepRule::adaptive;
   follows_ = true;
   share_ = by_limit ? choice.safety : usual_share_of_limit;
   ceiling_ = (by_limit ? most : choice.safety) * estimate;

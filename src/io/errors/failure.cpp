@@ -20,10 +20,12 @@ Failure failure_in_flight() {
     return {ExitCode::refused, std::string("refused: ") + problem.what(), true};
   } catch (Stopped const& problem) {
     return {ExitCode::interrupted, problem.what(), true};
+  } catch (OutOfMemory const& problem) {
+    return {ExitCode::out_of_memory, std::string("not enough memory: ") + problem.what(), true};
   } catch (TooManyToNumber const& problem) {
-    return {ExitCode::refused, std::string("refused: ") + problem.what(), false};
+    return {ExitCode::out_of_memory, std::string("too large: ") + problem.what(), false};
   } catch (std::bad_alloc const&) {
-    return {ExitCode::refused, "refused: not enough memory", false};
+    return {ExitCode::out_of_memory, "not enough memory", false};
   } catch (std::exception const& problem) {
     return {ExitCode::internal, std::string("internal fault, please report it: ") + problem.what(), false};
   }

@@ -15,11 +15,14 @@ enum class ExitCode {
   bad_input = 65,      ///< a scene or file with wrong content
   file_missing = 66,   ///< an input file that is not there or cannot be read
   internal = 70,       ///< a fault of Clathra
+  out_of_memory = 71,  ///< more memory than there is
   cannot_create = 73,  ///< an output file or folder that cannot be made
   io_error = 74,       ///< a read or write that failed half way (full disk)
   to_be_resumed = 75,  ///< stopped early with a checkpoint: --resume goes on
   diverged = 76,       ///< the run became unstable
-  refused = 77,        ///< a guard that --force overrides, or more memory than there is
+  refused = 77,        ///< a guard that --ignore-guards overrides
+  member_failed = 78,  ///< members of a study failed; the others have results
+  undetermined = 79,   ///< what was asked for cannot be told from the runs that there are
   interrupted = 130,   ///< stopped by Ctrl-C, without a checkpoint
 };
 
@@ -33,7 +36,7 @@ struct FileProblem : std::runtime_error {
 
 enum class Severity { error, missing_file, refusal };
 /// Ends the text of a refusal that a scene can overrule.
-inline constexpr std::string_view force_hint = " (run.ignore_guards = true or --force goes on)";
+inline constexpr std::string_view ignore_hint = " (run.ignore_guards = true or --ignore-guards goes on)";
 
 /// One thing wrong in a scene. `line` and `column` count from 1; 0 where the problem has no place in the file.
 struct Problem {

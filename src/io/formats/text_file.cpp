@@ -20,7 +20,7 @@ std::string reason(char const* what) { return fmt::format("{}: {}", what, std::g
 /// @param known  what the user knows the file as
 int create(std::filesystem::path const& path, std::filesystem::path const& known) {
   ::unlink(path.c_str());
-  int const descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  int const descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) throw FileProblem(ExitCode::cannot_create, known, reason("cannot be created"));
   return descriptor;
 }
@@ -126,7 +126,7 @@ void require_creatable(std::filesystem::path const& path) {
     throw FileProblem(ExitCode::cannot_create, path, "is a folder; name a file");
   std::filesystem::path const temporary = path.string() + fmt::format(".tmp-{}", ::getpid());
   ::unlink(temporary.c_str());
-  int const descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  int const descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) throw FileProblem(ExitCode::cannot_create, path, reason("cannot be created"));
   ::close(descriptor);
   ::unlink(temporary.c_str());

@@ -61,7 +61,7 @@ std::string volume_figure(std::vector<RunResults> const& runs) {
 std::string intact_figure(std::vector<RunResults> const& runs) {
   if (std::none_of(runs.begin(), runs.end(), [](RunResults const& run) { return run.has_bonds(); }))
     return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
-  Plot plot = plot_of(runs, "intact_initial_pct", 1, "intact bonds [% of those installed]");
+  Plot plot = plot_of(runs, "bonds_intact_pct", 1, "intact bonds [% of those installed]");
   std::erase_if(plot.curves, [&](Curve const& curve) {
     return std::none_of(runs.begin(), runs.end(),
                         [&](RunResults const& run) { return run.has_bonds() && run_label(run) == curve.name; });
@@ -130,13 +130,14 @@ struct Account {
 
 /// The accounts of the ledger from bottom to top. What is stored counts as its change since the shear began.
 std::vector<Account> const& accounts() {
-  static std::vector<Account> const all{{"stored in grains, bonds, walls and motion",
-                                         {"grain_elastic_J", "bond_elastic_J", "wall_elastic_J", "kinetic_J"},
-                                         colours::sky},
-                                        {"lost by sliding", {"sliding_J"}, colours::orange},
-                                        {"lost by rolling", {"rolling_J"}, colours::vermilion},
-                                        {"lost by breaking bonds", {"breakage_J"}, colours::purple},
-                                        {"lost by damping", {"dashpot_J", "damping_J"}, colours::grey}};
+  static std::vector<Account> const all{
+      {"stored in grains, bonds, walls and motion",
+       {"grain_elastic_J_per_m", "bond_elastic_J_per_m", "wall_elastic_J_per_m", "kinetic_J_per_m"},
+       colours::sky},
+      {"lost by sliding", {"sliding_J_per_m"}, colours::orange},
+      {"lost by rolling", {"rolling_J_per_m"}, colours::vermilion},
+      {"lost by breaking bonds", {"breakage_J_per_m"}, colours::purple},
+      {"lost by damping", {"dashpot_J_per_m", "damping_J_per_m"}, colours::grey}};
   return all;
 }
 
@@ -157,14 +158,14 @@ std::string energy_figure(RunResults const& run) {
     entries = patch_entry(account.colour, account.name) + entries;
     plot.areas.push_back(std::move(area));
   }
-  plot.curves.push_back({"work of the walls", strain, history["boundary_work_J"], {colours::black, "6 4", 1.6}});
+  plot.curves.push_back({"work of the walls", strain, history["boundary_work_J_per_m"], {colours::black, "6 4", 1.6}});
   values.include(plot.curves[0].y);
   Range strains;
   strains.include(strain);
   plot.x = strains.exact_axis(strain_axis);
   plot.y = values.axis("energy [J per metre]");
-  plot.title = "Energy ledger, " + run_label(run);
-  double const work = history["boundary_work_J"].back(), residual = history["residual_J"].back();
+  plot.title = "Energy balance, " + run_label(run);
+  double const work = history["boundary_work_J_per_m"].back(), residual = history["residual_J_per_m"].back();
   return figure(
       "Where the work went: " + run_label(run),
       svg(plot) + legend(line_entry(plot.curves[0].stroke, plot.curves[0].name) + entries),
@@ -175,7 +176,7 @@ std::string energy_figure(RunResults const& run) {
 }
 
 bool has_ledger(RunResults const& run) {
-  if (!run.history.has("boundary_work_J") || !run.history.has("residual_J")) return false;
+  if (!run.history.has("boundary_work_J_per_m") || !run.history.has("residual_J_per_m")) return false;
   for (Account const& account : accounts())
     for (char const* const column : account.columns)
       if (!run.history.has(column)) return false;

@@ -65,8 +65,8 @@ std::string grading_figure(std::string const& title, std::vector<Curve> const& c
   plot.curves = curves;
   return figure(
       plot.title, svg(plot) + legend(curves),
-      "The share of the mass that is in discs finer than a diameter, as a sieve analysis would give it. In two dimensions "
-      "mass goes with the area of a disc.");
+      "The share of the mass that is in particles finer than a diameter, as a sieve analysis would give it. In two dimensions "
+      "mass goes with the area of a particle.");
 }
 
 }  // namespace clathra

@@ -59,9 +59,9 @@ std::string specimen_figure(Shown const& shown) {
       titled(drawn(grains, shown.bytes), fmt::format("{:.3g} mm wide, {:.3g} mm high, at {}", (s.right - s.left) * milli,
                                                      (s.top - s.bottom) * milli, strain_text(s)));
   std::string entries = patch_entry(map_colours::grain, "grain");
-  std::string caption =
-      fmt::format("The {} discs at the start of the shear, coloured by their size, and the grains in the middle of the specimen",
-                  grouped(static_cast<double>(s.x.size())));
+  std::string caption = fmt::format(
+      "The {} particles at the start of the shear, coloured by their size, and the grains in the middle of the specimen",
+      grouped(static_cast<double>(s.x.size())));
   if (shown.run.has_bonds()) {
     entries += patch_entry(map_colours::hydrate, "hydrate") + patch_entry(colours::dark, "bond that holds") + mode_entries();
     caption +=

@@ -1,4 +1,4 @@
-/// Figures of curves on the page on the seed paper.
+/// Figures of curves on the page on Jiang et al. (2017).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -93,7 +93,7 @@ std::string strength_curves(Reproduction const& r, std::string const& title, std
   for (int const saturation : r.design.saturations) {
     Scene scene = r.scene;
     scene.hydrate.saturation = saturation / percent;
-    scene.bond.critical_thickness_from = BondingMode::eq3;
+    scene.bond.critical_thickness_from = CriticalThicknessFrom::saturation;
     Curve curve{fmt::format("{} %", saturation), {}, {}, run_stroke(plot.curves.size())};
     BondCard const card = evaluate_bond(scene, r.d50, r.d50 / 2, r.d50 / 2, 0, 0);
     for (int i = 0; i <= points; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The figures of the page on the seed paper. HTML; empty where there are no tests for one.
+/// The figures of the page on Jiang et al. (2017). HTML; empty where there are no tests for one.
 #include <string>
 
 #include "io/report/group_curves.hpp"

@@ -1,4 +1,4 @@
-/// Pictures on the page on the seed paper: one test, 55 % at 3 MPa, of the first seed that has it.
+/// Pictures on the page on Jiang et al. (2017): one test, 55 % at 3 MPa, of the first seed that has it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::optional<Looked> looked_at(Reproduction const& r) {
 }
 
 std::string grading_of(Looked const& looked) {
-  return grading_figure("Figure 9: Grading", {grading_curve(looked.start.radius, "our discs", run_stroke(0))});
+  return grading_figure("Figure 9: Grading", {grading_curve(looked.start.radius, "our particles", run_stroke(0))});
 }
 
 std::string specimen_of(Looked const& looked) {
@@ -54,10 +54,11 @@ std::string specimen_of(Looked const& looked) {
   std::string const image = drawn({view_of({&s}), mean_diameter(s), "Grains of the specimen by size",
                                    [&](MapView const& view) { return grain_map(s, view); }},
                                   picture_bytes);
-  return figure("Figure 10: Specimen", strip(image),
-                beside_words("20,000 discs, 26.5 mm by 53 mm.", fmt::format("{} discs, {:.3g} mm by {:.3g} mm under 3 MPa.",
-                                                                            grouped(static_cast<double>(s.x.size())),
-                                                                            1e3 * (s.right - s.left), 1e3 * (s.top - s.bottom))));
+  return figure(
+      "Figure 10: Specimen", strip(image),
+      beside_words("20,000 particles, 26.5 mm by 53 mm.",
+                   fmt::format("{} particles, {:.3g} mm by {:.3g} mm under 3 MPa.", grouped(static_cast<double>(s.x.size())),
+                               1e3 * (s.right - s.left), 1e3 * (s.top - s.bottom))));
 }
 
 std::string bonds_of(Looked const& looked) {

@@ -50,7 +50,7 @@ std::string parameter_table(Reproduction const& r) {
   Scene const& s = r.scene;
   return "<h3>Table 3: Parameters</h3>\n" +
          table({"parameter", "paper", "here"},
-               {{"discs", "20,000", r.card.facts.at("discs")},
+               {{"particles", "20,000", r.card.facts.at("particles")},
                 {"void ratio", "0.24", fmt::format("{:g}", s.specimen.void_ratio > 0 ? s.specimen.void_ratio : 0.24)},
                 {"density", "2.6 g/cm3", fmt::format("{:g} g/cm3", s.grains.density / 1000)},
                 {"k_n, k_s", "0.3, 0.2 GPa",

@@ -1,5 +1,5 @@
 #pragma once
-/// The page on a reproduction of the seed paper: each of its figures from our tests beside its words, and the scorecard.
+/// The page on a reproduction of Jiang et al. (2017): each of its figures from our tests beside its words, and the scorecard.
 #include <filesystem>
 #include <optional>
 #include <vector>

@@ -15,8 +15,8 @@ struct SeedBand {
 
 /// Columns that a study's page shows.
 inline constexpr char const* band_columns[] = {
-    "q_Pa",         "eps_v",          "intact_initial_pct",    "mechanical_coordination", "broken_tension", "broken_compression",
-    "broken_shear", "broken_rolling", "intact_interacting_pct"};
+    "q_Pa",         "eps_v",          "bonds_intact_pct",   "mechanical_coordination", "broken_tension", "broken_compression",
+    "broken_shear", "broken_rolling", "bonded_contacts_pct"};
 
 /// One band for each of band_columns; empty where a run has no such column. Between records curves are straight.
 /// @throws FileProblem

@@ -159,7 +159,7 @@ std::vector<Column> result_columns() {
           {"residual_q_Pa", "residual q", "MPa", mega},
           {"largest_eps_v", "contraction", "%", percent},
           {"dilation_angle_deg", "ψ", "°", 1},
-          {"end_intact_initial_pct", "intact at the end", "%", 1}};
+          {"end_bonds_intact_pct", "intact at the end", "%", 1}};
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::vector<Quantity> specimen_quantities() {
   using Run = RunResults const&;
   using Numbers = TestNumbers const&;
   return {
-      {"discs", "", [](Run r, Numbers) { return count(r.number("/stages/plan/discs")); }},
+      {"particles", "", [](Run r, Numbers) { return count(r.number("/stages/plan/particles")); }},
       {"hydrate saturation", "%", [](Run r, Numbers) { return shown(r.number("/scene/hydrate/saturation"), "{:.3g}", percent); }},
       {"temperature", "°C", [](Run r, Numbers) { return bonded(r, shown(r.number("/scene/hydrate/temperature"), "{:.3g}")); }},
       {"pore pressure", "MPa",
@@ -73,7 +73,7 @@ std::vector<Quantity> cost_quantities() {
   using Numbers = TestNumbers const&;
   return {
       {"inertial number I", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/inertial_number"), "{:.2g}"); }},
-      {"wave number W", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/wave_number"), "{:.2g}"); }},
+      {"platen wave stress W", "", [](Run r, Numbers) { return shown(r.number("/stages/plan/platen_wave_stress"), "{:.2g}"); }},
       {"moments of inertia", "× true",
        [](Run r, Numbers) { return shown(r.number("/scene/run/rotational_inertia_factor"), "{:.3g}"); }},
       {"steps", "", [](Run r, Numbers) { return count(r.history["step"].back()); }},
@@ -101,7 +101,7 @@ std::string range_text(std::vector<double> const& values, char const* unit, int 
 std::string sentence_on_one(RunResults const& run) {
   TestNumbers const n = test_numbers(run.history.curves());
   double const saturation = run.number("/scene/hydrate/saturation").value_or(0) * percent;
-  std::string text = count(run.number("/stages/plan/discs")) + " discs of ";
+  std::string text = count(run.number("/stages/plan/particles")) + " particles of ";
   text += run.has_bonds() ? fmt::format("sand with {:.3g} % hydrate", saturation) : "clean sand";
   text += fmt::format(" were compressed to an axial strain of {:.3g} %", n.end_eps1 * percent);
   text += " under a lateral stress of " + shown(run.number("/scene/test/confining_stress"), "{:.3g}", mega) + " MPa: ";

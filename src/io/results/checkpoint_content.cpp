@@ -100,13 +100,13 @@ std::function<std::vector<T>()> held(std::vector<T> column) {
 DiscColumns read_discs(Hdf5File const& file, RecordColumns const& names, Ranks const& ranks) {
   std::int64_t const discs = file.integer_attribute("particles"), entries = file.integer_attribute("entries");
   if (discs < 1 || discs > 1'000'000'000 || entries < 0 || entries > discs * longest_row)
-    file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} neighbours", discs, entries));
+    file.fail(ExitCode::bad_input, fmt::format("claims {} particles and {} neighbours", discs, entries));
   RowRange const rows = rows_of_rank(discs, ranks);
   std::vector<std::int32_t> lengths;
   RowRange const row_entries = read_lengths(file, rows, entries, lengths);
   auto ids = file.read<std::int32_t>("particles/id", rows);
   for (int const id : ids)
-    if (id < 0 || id >= discs) file.fail(ExitCode::bad_input, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
+    if (id < 0 || id >= discs) file.fail(ExitCode::bad_input, fmt::format("particle id {} is outside 0..{}", id, discs - 1));
   DiscColumns columns;
   columns.id = held(std::move(ids));
   columns.row_length = held(std::move(lengths));

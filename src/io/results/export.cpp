@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <map>
 #include <type_traits>
 
 #include "io/errors/problems.hpp"
 #include "io/formats/text_file.hpp"
+#include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 namespace {
@@ -112,7 +114,7 @@ void add_column(VtuFile& file, Snapshot const& s, SnapshotColumn<Value, Parts> c
 
 }  // namespace
 
-std::string discs_vtu(Snapshot const& s) {
+std::string particles_vtu(Snapshot const& s) {
   VtuFile file;
   file.xml("<PointData>\n");
   file.add("id", "Int32", s.id);
@@ -127,7 +129,7 @@ std::string discs_vtu(Snapshot const& s) {
   return file.text(s.id.size(), s.id.size());
 }
 
-std::string pairs_vtu(Snapshot const& s) {
+std::string contacts_vtu(Snapshot const& s) {
   VtuFile file;
   file.xml("<CellData>\n");
   file.add("state", "UInt8", s.state);
@@ -155,7 +157,7 @@ void append_cells(std::string& text, Snapshot const& s, Column const& column, st
 
 }  // namespace
 
-std::string discs_csv(Snapshot const& s) {
+std::string particles_csv(Snapshot const& s) {
   std::string text = "id";
   for_each_disc_column([&](auto const& column) { append_header(text, column); });
   text += "\n";
@@ -168,7 +170,7 @@ std::string discs_csv(Snapshot const& s) {
   return text;
 }
 
-std::string pairs_csv(Snapshot const& s) {
+std::string contacts_csv(Snapshot const& s) {
   std::string text = "id_a,id_b,state";
   for_each_pair_column([&](auto const& column) { append_header(text, column); });
   text += "\n";
@@ -193,16 +195,40 @@ std::vector<std::filesystem::path> export_snapshot(Snapshot const& snapshot, Exp
   };
   switch (format) {
     case ExportFormat::lammpsdump:
-      write("discs", "lammpstrj", lammps_dump(snapshot));
+      write("particles", "lammpstrj", lammps_dump(snapshot));
       break;
     case ExportFormat::vtu:
-      write("discs", "vtu", discs_vtu(snapshot));
-      write("contacts", "vtu", pairs_vtu(snapshot));
+      write("particles", "vtu", particles_vtu(snapshot));
+      write("contacts", "vtu", contacts_vtu(snapshot));
       break;
     case ExportFormat::csv:
-      write("discs", "csv", discs_csv(snapshot));
-      write("contacts", "csv", pairs_csv(snapshot));
+      write("particles", "csv", particles_csv(snapshot));
+      write("contacts", "csv", contacts_csv(snapshot));
       break;
+  }
+  return written;
+}
+
+std::vector<std::filesystem::path> export_series(std::vector<std::filesystem::path> const& snapshots, ExportFormat format,
+                                                 std::filesystem::path const& folder) {
+  std::vector<std::filesystem::path> written;
+  std::map<std::string, std::string> entries;  // of an index, by what it lists: "particles"
+  for (std::filesystem::path const& file : snapshots) {
+    Snapshot const snapshot = read_snapshot(file);
+    for (std::filesystem::path const& one : export_snapshot(snapshot, format, folder)) {
+      std::string const name = one.filename().string();
+      entries[name.substr(0, name.find('_'))] += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", snapshot.eps1, name);
+      written.push_back(one);
+    }
+  }
+  if (format != ExportFormat::vtu) return written;
+  for (auto const& [what, list] : entries) {
+    written.push_back(folder / (what + ".pvd"));
+    replace_text_file(written.back(),
+                      fmt::format("<?xml version=\"1.0\"?>\n<!-- The time of a step is its axial strain. -->\n<VTKFile "
+                                  "type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n{}"
+                                  "</Collection>\n</VTKFile>\n",
+                                  list));
   }
   return written;
 }

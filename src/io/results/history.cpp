@@ -69,7 +69,7 @@ std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::u
     if (rows.line() == 1) {
       columns.assign(rows.cells().begin(), rows.cells().end());
       require_columns(columns, path);
-      ledger = std::count(columns.begin(), columns.end(), "boundary_work_J") > 0;
+      ledger = std::count(columns.begin(), columns.end(), "boundary_work_J_per_m") > 0;
       continue;
     }
     if (rows.cells().size() != columns.size())

@@ -1,5 +1,5 @@
 #pragma once
-/// What the seed paper says of its tests, as claims that tests of ours can meet or miss.
+/// What Jiang et al. (2017) say of their tests, as claims that tests of ours can meet or miss.
 #include <map>
 #include <string>
 #include <vector>

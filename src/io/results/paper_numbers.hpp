@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers behind the claims on the seed paper, from the members of a study of its tests.
+/// The numbers behind the claims on Jiang et al. (2017), from the members of a study of its tests.
 #include <filesystem>
 #include <vector>
 

@@ -11,6 +11,7 @@
 #include "domain/parallel/ranks.hpp"
 #include "io/formats/digest.hpp"
 #include "io/formats/text_file.hpp"
+#include "io/scene/rolling_lever_text.hpp"
 #include "io/scene/schema.hpp"
 #include "kernels/real.hpp"
 
@@ -26,6 +27,7 @@ struct JsonValue {
   nlohmann::json operator()(T& (*at)(Scene&)) const {
     return at(scene);
   }
+  nlohmann::json operator()(RollingLever& (*at)(Scene&)) const { return format_rolling_lever(at(scene)); }
   nlohmann::json operator()(ChoiceField const& field) const {
     return std::string(key.choices[static_cast<std::size_t>(field.get(scene))]);
   }
@@ -51,6 +53,7 @@ struct SetFromJson {
     if (!fits) throw std::invalid_argument(fmt::format("{} is {}", key.name, value.dump().substr(0, 40)));
     value.get_to(at(scene));
   }
+  void operator()(RollingLever& (*at)(Scene&)) const { at(scene) = parse_rolling_lever(value.get<std::string>()); }
   void operator()(ChoiceField const& field) const {
     auto const text = value.get<std::string>();
     auto const name = std::find(key.choices.begin(), key.choices.end(), text);
@@ -78,7 +81,7 @@ Json meaning_json() {
           {"stages.prepare.rate_share",
            "part of the rate of test.inertial_number to which test.max_platen_wave_stress has lowered it"},
           {"wall_seconds.generate", "making the specimen"},
-          {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; reading checkpoints where it was resumed"},
+          {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; checkpoints read where it was resumed"},
           {"wall_seconds.shear", "steps, records and snapshots; neighbour_searches and checkpoints are parts of it"},
           {"wall_seconds", "of all sessions of a run that was resumed; one that was killed had not said how long it took"},
           {"disc_steps_per_second", "of the last session"}};

@@ -133,7 +133,7 @@ bool HistoryTable::has_all(std::vector<std::string> const& columns) const {
 }
 
 std::vector<std::string> HistoryTable::missing() const {
-  std::vector<std::string> names{"eps_v", "sigma3_Pa", "void_ratio", "bonds_intact", "intact_initial_pct"};
+  std::vector<std::string> names{"eps_v", "sigma3_Pa", "void_ratio", "bonds_intact", "bonds_intact_pct"};
   for (BreakModeNames const& m : break_modes) names.emplace_back(m.broken);
   std::vector<std::string> const ledger = columns_of_the_ledger();
   if (std::any_of(ledger.begin(), ledger.end(), [this](std::string const& name) { return has(name); }))
@@ -153,14 +153,14 @@ std::optional<std::string> RunResults::text(std::string const& at) const {
 }
 
 bool RunResults::has_bonds() const {
-  for (char const* const column : {"bonds_intact", "intact_initial_pct"})
+  for (char const* const column : {"bonds_intact", "bonds_intact_pct"})
     if (history.has(column)) return history[column].front() > 0;
   return number("/stages/prepare/bonds").value_or(number("/scene/hydrate/saturation").value_or(0)) > 0;
 }
 
 std::string RunResults::bond_variant() const {
   std::string variant;
-  for (char const* const key : {"law", "contact_coupling", "moment_scale", "thickness_mapping", "strength_from"})
+  for (char const* const key : {"law", "contact_coupling", "rolling_lever", "thickness_mapping", "strength_from"})
     variant += (variant.empty() ? "" : ", ") + text(std::string("/scene/bond/") + key).value_or("?");
   return variant;
 }

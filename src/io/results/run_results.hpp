@@ -30,7 +30,7 @@ class HistoryTable {
             (*this)["eps_v"],
             (*this)["q_Pa"],
             (*this)["sigma3_Pa"],
-            (*this)["intact_initial_pct"],
+            (*this)["bonds_intact_pct"],
             (*this)["largest_q_Pa"],
             (*this)["largest_q_eps1"],
             (*this)["dilation_deg"]};
@@ -56,7 +56,7 @@ struct RunResults {
   std::optional<double> number(std::string const& at) const;
   std::optional<std::string> text(std::string const& at) const;
   bool has_bonds() const;            ///< were any intact at the start?
-  std::string bond_variant() const;  ///< law, composite, moment scale and coefficients as the scene names them
+  std::string bond_variant() const;  ///< law, coupling, rolling lever and origin of the strength as the scene names them
 };
 
 /// @throws FileProblem file_missing without the folder, its run.json or history.csv; bad_input where one of these is damaged or

@@ -10,7 +10,7 @@ namespace clathra {
 
 struct Scorecard {
   std::string title;
-  std::map<std::string, std::string> facts;  ///< "discs": "20000", ...: what was run
+  std::map<std::string, std::string> facts;  ///< "particles": "20000", ...: what was run
   std::vector<Claim> claims;
 };
 

@@ -156,7 +156,7 @@ void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     for (std::uint32_t const disc : {pairs[2 * k], pairs[2 * k + 1]})
       if (disc >= s.id.size())
-        file.fail(ExitCode::bad_input, fmt::format("contact {} names disc {}, there are {}", k, disc, s.id.size()));
+        file.fail(ExitCode::bad_input, fmt::format("contact {} names particle {}, there are {}", k, disc, s.id.size()));
     s.a[k] = static_cast<std::int32_t>(pairs[2 * k]);
     s.b[k] = static_cast<std::int32_t>(pairs[2 * k + 1]);
   }
@@ -205,7 +205,7 @@ Snapshot read_snapshot(std::filesystem::path const& path) {
     file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
   std::int64_t const discs = file.integer_attribute("particles"), pairs = file.integer_attribute("contacts");
   if (discs < 1 || discs > 1'000'000'000 || pairs < 0 || pairs > 10'000'000'000)
-    file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", discs, pairs));
+    file.fail(ExitCode::bad_input, fmt::format("claims {} particles and {} contacts", discs, pairs));
   Snapshot s;
   s.step = file.integer_attribute("step");
   for_each_scalar(s, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });

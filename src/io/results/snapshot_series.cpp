@@ -98,9 +98,9 @@ std::string SnapshotSeries::particles_index() const {
     std::string const topology =
         fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>", e.discs,
                     data_item(e.file, "particles/index", e.discs, 1, int4));
-    grids += grid("discs", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8), disc_attributes(e));
+    grids += grid("particles", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8), disc_attributes(e));
   }
-  return collection("discs", grids);
+  return collection("particles", grids);
 }
 
 std::string SnapshotSeries::contacts_index() const {

@@ -46,13 +46,13 @@ std::string mm(double length) { return fmt::format("{:.6g} mm", length * 1e3); }
 
 void require_metres(fs::path const& path, SpecimenOutline const& outline) {
   if (outline.sizes.d50 > largest_d50)
-    refuse(path, fmt::format("half of its sand is of discs larger than {:.4g} m: these look like mm, lengths must be in m",
+    refuse(path, fmt::format("half of its sand is of particles larger than {:.4g} m: these look like mm, lengths must be in m",
                              outline.sizes.d50));
   if (outline.sizes.d50 < smallest_d50)
-    refuse(path, fmt::format("half of its sand is of discs smaller than {:.4g} m: lengths must be in m", outline.sizes.d50));
+    refuse(path, fmt::format("half of its sand is of particles smaller than {:.4g} m: lengths must be in m", outline.sizes.d50));
   if (outline.farthest > farthest_place * outline.sizes.d50)
     refuse(path,
-           fmt::format("it reaches to {:.4g} m from the origin, {:.3g} times the d50 of its discs; numbers there are {:.2g} "
+           fmt::format("it reaches to {:.4g} m from the origin, {:.3g} times the d50 of its particles; numbers there are {:.2g} "
                        "d50 apart, too coarse for overlaps of grains (at most {:g} times): make it anew nearer to the origin",
                        outline.farthest, outline.farthest / outline.sizes.d50,
                        outline.farthest * std::numeric_limits<double>::epsilon() / outline.sizes.d50, farthest_place));
@@ -70,16 +70,16 @@ void require_discs_inside(fs::path const& path, SpecimenOutline const& outline) 
     if (outline.at_wall[wall].depth < outline.at_wall[worst].depth) worst = wall;
   DiscAtWall const& at = outline.at_wall[worst];
   if (!(at.depth < 0)) return;
-  std::string const others = outline.outside > 1 ? fmt::format(", {} discs are outside", outline.outside) : "";
+  std::string const others = outline.outside > 1 ? fmt::format(", {} particles are outside", outline.outside) : "";
   refuse(path,
-         fmt::format("disc {} has its centre {} outside of the {} wall{}", at.id, mm(-at.depth), wall_names[worst], others));
+         fmt::format("particle {} has its centre {} outside of the {} wall{}", at.id, mm(-at.depth), wall_names[worst], others));
 }
 
 void require_discs_apart(fs::path const& path, SpecimenOverlaps const& overlaps) {
   if (overlaps.through == 0) return;
   OverlappingPair const& pair = overlaps.deepest;
   std::string const others = overlaps.through > 1 ? fmt::format(", and {} more pairs", overlaps.through - 1) : "";
-  refuse(path, fmt::format("disc {} at ({}, {}) and disc {} overlap by {:.3g} times the smaller radius{}: at most once",
+  refuse(path, fmt::format("particle {} at ({}, {}) and particle {} overlap by {:.3g} times the smaller radius{}: at most once",
                            pair.id_a, mm(pair.x), mm(pair.y), pair.id_b, pair.share, others));
 }
 
@@ -88,17 +88,18 @@ std::string spaces(SpecimenOutline const& outline) {
   std::string text;
   for (std::size_t wall = 0; wall < outline.at_wall.size(); ++wall)
     if (double const space = outline.at_wall[wall].space; space > widest_space * outline.sizes.d50)
-      text += fmt::format("{}the {} wall is {} ({:.3g} d50) from the nearest disc", text.empty() ? "" : "; ", wall_names[wall],
-                          mm(space), space / outline.sizes.d50);
+      text += fmt::format("{}the {} wall is {} ({:.3g} d50) from the nearest particle", text.empty() ? "" : "; ",
+                          wall_names[wall], mm(space), space / outline.sizes.d50);
   return text;
 }
 
 void require_motion_that_can_be(fs::path const& path, SpecimenOutline const& outline) {
   FastestDisc const& fastest = outline.fastest;
   if (!(fastest.speed <= fastest_sound))
-    refuse(path, fmt::format("disc {} moves or spins at {:.3g} m/s, faster than sound in any grain: vx, vy are in m/s, omega in "
-                             "rad/s, and 0 where they are left out",
-                             fastest.id, fastest.speed));
+    refuse(path,
+           fmt::format("particle {} moves or spins at {:.3g} m/s, faster than sound in any grain: vx, vy are in m/s, omega in "
+                       "rad/s, and 0 where they are left out",
+                       fastest.id, fastest.speed));
 }
 
 /// Forces no contact can bear, bonds no hydrate can span.
@@ -124,20 +125,21 @@ void require_d50(fs::path const& path, Specimen& part, double found, Ranks const
   double const low = diameter_finer(part.radius, 0.5 - d50_share, ranks),
                high = diameter_finer(part.radius, 0.5 + d50_share, ranks);
   if (part.d50 >= low && part.d50 <= high) return;
-  refuse(path,
-         fmt::format("its attribute d50 is {}, that of its discs is {}: correct it, or leave it out", mm(part.d50), mm(found)));
+  refuse(path, fmt::format("its attribute d50 is {}, that of its particles is {}: correct it, or leave it out", mm(part.d50),
+                           mm(found)));
 }
 
 void require_void_ratio(fs::path const& path, Specimen& part, SpecimenOutline const& outline) {
   if (!(outline.void_ratio <= no_sand))
-    refuse(path, fmt::format("its discs (d50 {}) fill 1/{:.3g} of the box between its walls ({} x {}): places, walls and radii "
-                             "must all be in m",
-                             mm(outline.sizes.d50), 1 + outline.void_ratio, mm(part.width()), mm(part.height())));
+    refuse(path,
+           fmt::format("its particles (d50 {}) fill 1/{:.3g} of the box between its walls ({} x {}): places, walls and radii "
+                       "must all be in m",
+                       mm(outline.sizes.d50), 1 + outline.void_ratio, mm(part.width()), mm(part.height())));
   if (std::isnan(part.void_ratio)) part.void_ratio = outline.void_ratio;
   if (std::abs(part.void_ratio - outline.void_ratio) <= void_ratio_tolerance) return;
   std::string const why = spaces(outline);
   refuse(path,
-         fmt::format("its attribute void_ratio is {:.5g}, that of its discs between its walls is {:.5g}{}{}: correct what is "
+         fmt::format("its attribute void_ratio is {:.5g}, that of its particles between its walls is {:.5g}{}{}: correct what is "
                      "wrong, or leave it out",
                      part.void_ratio, outline.void_ratio, why.empty() ? "" : "; ", why));
 }
@@ -188,10 +190,11 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
   for (std::size_t wall = 0; wall < facts.outline.at_wall.size(); ++wall)
     if (double const into = -facts.outline.at_wall[wall].space / facts.outline.sizes.d50;
         !part.periodic && part.axial_strain == 0 && into > deepest_at_wall)
-      warn(fmt::format("a disc reaches {:.3g} d50 into the {} wall: the box is smaller than its sand", into, wall_names[wall]));
+      warn(fmt::format("a particle reaches {:.3g} d50 into the {} wall: the box is smaller than its sand", into,
+                       wall_names[wall]));
   FastestDisc const& fastest = facts.outline.fastest;
   if (double const stress = part.density * fastest.speed * fastest.speed; stress > std::max(part.stress, least_stress))
-    warn(fmt::format("disc {} moves or spins at {:.3g} m/s, worth {:.4g} kPa: it is not at rest", fastest.id, fastest.speed,
+    warn(fmt::format("particle {} moves or spins at {:.3g} m/s, worth {:.4g} kPa: it is not at rest", fastest.id, fastest.speed,
                      stress * 1e-3));
   Key const& asked = *find_key("specimen.void_ratio");
   if (double const e = facts.outline.void_ratio; e < asked.least || e > asked.most)
@@ -200,8 +203,8 @@ std::vector<std::string> oddities(fs::path const& path, Specimen const& part, Sp
   double const share = static_cast<double>(overlaps.deep) / static_cast<double>(std::max<std::int64_t>(1, overlaps.touching));
   if (share > most_deep_pairs)
     warn(fmt::format(
-        "{:.3g} % of the pairs that touch overlap by more than a tenth of the smaller radius, the deepest, discs {} and "
-        "{}, by {:.3g} %: the discs are too large for their places, or too soft for the stress",
+        "{:.3g} % of the pairs that touch overlap by more than a tenth of the smaller radius, the deepest, particles {} and "
+        "{}, by {:.3g} %: the particles are too large for their places, or too soft for the stress",
         100 * share, overlaps.deepest.id_a, overlaps.deepest.id_b, 100 * overlaps.deepest.share));
   for (std::string const& text : size_warnings(facts.outline.sizes)) warn(text);
   return warnings;
@@ -215,14 +218,15 @@ std::vector<std::string> stress_oddities(fs::path const& path, Specimen const& p
   double const kn = known ? *known : *kn_of_scene, found = kn * facts.overlaps.stress;
   if (found <= stress_factor * part.stress && found >= part.stress / stress_factor) return {};
   return {fmt::format(
-      "{}: says that it rests under {:.4g} kPa; by the overlaps of its discs and a kn of {:.4g} MPa it carries {:.3g} "
+      "{}: says that it rests under {:.4g} kPa; by the overlaps of its particles and a kn of {:.4g} MPa it carries {:.3g} "
       "kPa",
       path.string(), part.stress * 1e-3, kn * 1e-6, found * 1e-3)};
 }
 
 void require_walls(fs::path const& path, Specimen const& part) {
   if (part.periodic)
-    refuse(path, "is a periodic cell: a test loads a specimen by its walls (attribute periodic = 0, discs between the walls)");
+    refuse(path,
+           "is a periodic cell: a test loads a specimen by its walls (attribute periodic = 0, particles between the walls)");
 }
 
 }  // namespace clathra

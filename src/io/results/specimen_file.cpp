@@ -88,20 +88,20 @@ void check_box(std::filesystem::path const& path, Specimen const& specimen) {
 /// @param discs  of the whole specimen, of which this is a part
 void check_particles(std::filesystem::path const& path, Specimen const& part, std::int64_t discs) {
   for (int const id : part.id) {
-    if (id < 0 || id >= discs) damaged(path, fmt::format("disc id {} is outside 0..{}", id, discs - 1));
+    if (id < 0 || id >= discs) damaged(path, fmt::format("particle id {} is outside 0..{}", id, discs - 1));
   }
   for (ParticleColumn const& column : particle_columns)
     for (std::size_t i = 0; i < part.size(); ++i)
       if (!std::isfinite((part.*column.of)[i]))
-        damaged(path, fmt::format("{} of disc {} is not a finite number", column.name, part.id[i]));
+        damaged(path, fmt::format("{} of particle {} is not a finite number", column.name, part.id[i]));
   for (std::size_t i = 0; i < part.size(); ++i)
-    if (!(part.radius[i] > 0)) damaged(path, fmt::format("the radius of disc {} is not above 0", part.id[i]));
+    if (!(part.radius[i] > 0)) damaged(path, fmt::format("the radius of particle {} is not above 0", part.id[i]));
 }
 
 void check_ids_once(std::filesystem::path const& path, std::vector<int> ids) {
   std::sort(ids.begin(), ids.end());
   if (auto const twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
-    damaged(path, fmt::format("disc id {} comes twice", *twice));
+    damaged(path, fmt::format("particle id {} comes twice", *twice));
 }
 
 void check_pairs_once(std::filesystem::path const& path, Specimen const& specimen) {
@@ -125,10 +125,11 @@ void check_bond(std::filesystem::path const& path, SpecimenContact const& contac
 void check_contacts(std::filesystem::path const& path, Specimen const& specimen, std::int64_t count) {
   for (SpecimenContact const& contact : specimen.contacts) {
     if (contact.id_a >= count || contact.id_b >= count)
-      damaged(path,
-              fmt::format("contact {} - {} names a disc that is not there: ids go to {}", contact.id_a, contact.id_b, count - 1));
+      damaged(path, fmt::format("contact {} - {} names a particle that is not there: ids go to {}", contact.id_a, contact.id_b,
+                                count - 1));
     if (contact.id_a < 0 || contact.id_a >= contact.id_b)
-      damaged(path, fmt::format("contact {} - {} is not between two discs in order of their ids", contact.id_a, contact.id_b));
+      damaged(path,
+              fmt::format("contact {} - {} is not between two particles in order of their ids", contact.id_a, contact.id_b));
     for (ContactNumber const& number : contact_numbers)
       if (!std::isfinite(contact.*number.of))
         damaged(path, fmt::format("{} of contact {} - {} is not a finite number", number.name, contact.id_a, contact.id_b));
@@ -258,8 +259,8 @@ Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std
   discs = read_count(file, "particles", path_of(particle_columns[0]));
   std::int64_t const contacts = read_count(file, "contacts", "contacts/id_a");
   if (discs < 0 || discs > 1'000'000'000 || contacts < 0 || contacts > 10'000'000'000)
-    file.fail(ExitCode::bad_input, fmt::format("claims {} discs and {} contacts", discs, contacts));
-  if (discs == 0) damaged(path, "there are no discs");
+    file.fail(ExitCode::bad_input, fmt::format("claims {} particles and {} contacts", discs, contacts));
+  if (discs == 0) damaged(path, "there are no particles");
   read_discs(file, part, rows_of_rank(discs, ranks));
   read_contacts(file, part, rows_of_rank(contacts, ranks));
   check_box(path, part);

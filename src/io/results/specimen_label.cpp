@@ -44,8 +44,7 @@ constexpr Item items[] = {{"specimen.preparation_stress", Part::making},
                           {"bond.critical_thickness", Part::bonds},
                           {"bond.constant_thickness", Part::bonds},
                           {"bond.strength_from", Part::bonds},
-                          {"bond.moment_scale", Part::bonds},
-                          {"bond.moment_ratio", Part::bonds},
+                          {"bond.rolling_lever", Part::bonds},
                           {"bond.thickness_mapping", Part::bonds},
                           {"bond.friction_floor", Part::bonds},
                           {"hydrate.temperature", Part::climate},
@@ -56,9 +55,8 @@ bool is_of_bonds(Part part) { return part == Part::bonds || part == Part::climat
 
 /// Whether a key has a meaning in a scene.
 bool has_effect(std::string_view key, Scene const& scene) {
-  if (key == "bond.critical_thickness") return scene.bond.critical_thickness_from == BondingMode::given_thickness;
+  if (key == "bond.critical_thickness") return scene.bond.critical_thickness_from == CriticalThicknessFrom::given;
   if (key == "bond.constant_thickness") return scene.bond.law == BondLawKind::constant_thickness;
-  if (key == "bond.moment_ratio") return scene.bond.moment_scale == MomentScale::similitude;
   return true;
 }
 
@@ -108,14 +106,14 @@ std::string contradiction(Specimen const& specimen, Scene const& scene) {
   if (!has_bonds(scene))
     return fmt::format("they have h_max = {}, the scene makes none (hydrate.saturation is {}, bond.law is {})",
                        micrometres(h_max), shown(saturation, scene), shown(*find_key("bond.law"), scene));
-  if (specimen.separate_bonds != (scene.bond.contact_coupling == Composite::parallel))
+  if (specimen.separate_bonds != (scene.bond.contact_coupling == ContactCoupling::parallel))
     return fmt::format("they {}act in parallel to the grain contacts, bond.contact_coupling is {}",
                        specimen.separate_bonds ? "" : "do not ", shown(*find_key("bond.contact_coupling"), scene));
-  if (scene.bond.critical_thickness_from == BondingMode::given_thickness && !nearly_equal(h_max, scene.bond.critical_thickness))
+  if (scene.bond.critical_thickness_from == CriticalThicknessFrom::given && !nearly_equal(h_max, scene.bond.critical_thickness))
     return fmt::format("they have h_max = {}, bond.critical_thickness is {}", micrometres(h_max),
                        micrometres(scene.bond.critical_thickness));
   double const wanted = critical_thickness_ratio(scene.hydrate.saturation) * specimen.d50;
-  if (scene.bond.critical_thickness_from == BondingMode::eq3 && !nearly_equal(h_max, wanted))
+  if (scene.bond.critical_thickness_from == CriticalThicknessFrom::saturation && !nearly_equal(h_max, wanted))
     return fmt::format("they have h_max = {}, which Eq. 3 gives at a saturation of {}; hydrate.saturation is {}, which gives {}",
                        micrometres(h_max), saturation_of(h_max / specimen.d50), shown(saturation, scene), micrometres(wanted));
   return {};
@@ -131,10 +129,11 @@ void require_agreement(std::filesystem::path const& file, Specimen const& specim
   std::string different = differences(label, scene, Part::bonds);
   if (different.empty()) different = contradiction(specimen, scene);
   if (different.empty()) return;
-  throw FileProblem(ExitCode::refused, file,
-                    fmt::format("holds bonds of another scene: {}. Read it with the keys that made its bonds, or take a "
-                                "specimen without bonds (specimen.h5 of a run, or `clathra generate`); --force does not help",
-                                different));
+  throw FileProblem(
+      ExitCode::refused, file,
+      fmt::format("holds bonds of another scene: {}. Read it with the keys that made its bonds, or take a "
+                  "specimen without bonds (specimen.h5 of a run, or `clathra generate`); --ignore-guards does not help",
+                  different));
 }
 
 }  // namespace
@@ -201,7 +200,7 @@ std::vector<std::string> compare_with_scene(std::filesystem::path const& file, S
   if (bonded && !label.contains("hydrate.saturation"))
     warnings.push_back(
         fmt::format("{}: says nothing of what its bonds are made of but h_max = {}; bond.law, bond.strength_from, "
-                    "bond.moment_scale and hydrate are those of the scene",
+                    "bond.rolling_lever and hydrate are those of the scene",
                     file.string(), micrometres(specimen.critical_thickness)));
   if (specimen.axial_strain != 0)
     warnings.push_back(

@@ -65,7 +65,7 @@ SceneValues material_of(RunResults const& run) {
   else
     values["scene"] = "of " + run.name;  // unknown, so like no other
   if (run.text("/scene/specimen/file").value_or("") != "") {
-    if (auto const discs = run.number("/stages/plan/discs")) values["specimen.particles"] = fmt::format("{:.0f}", *discs);
+    if (auto const discs = run.number("/stages/plan/particles")) values["specimen.particles"] = fmt::format("{:.0f}", *discs);
     if (auto const ratio = run.number("/stages/prepare/void_ratio_before_consolidation"))
       values["specimen.void_ratio"] = fmt::format("{:.3f}", *ratio);
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// Named sets of scene keys: readings of what the seed paper leaves open, and points of the trade of speed for accuracy. A preset
-/// stands in for the defaults of those of its keys that a scene does not state itself.
+/// Named sets of scene keys: answers to what Jiang et al. (2017) leave open, and points of the trade of speed for accuracy. A
+/// preset stands in for the defaults of those of its keys that a scene does not state itself.
 #include <functional>
 #include <span>
 #include <string>
@@ -32,8 +32,8 @@ struct PresetGroup {
   Preset const& of(std::string_view name) const;
 };
 
-PresetGroup const& readings();    ///< of bond.preset
-PresetGroup const& accuracies();  ///< of run.preset
+PresetGroup const& bond_presets();  ///< of bond.preset
+PresetGroup const& run_presets();   ///< of run.preset
 
 /// Sets the keys of a preset but for those that are `stated` otherwise.
 void apply_preset(Preset const& preset, Scene& scene, std::function<bool(std::string_view)> const& stated);

@@ -30,9 +30,9 @@ struct Check {
   }
   void refusal(std::vector<std::string_view> keys, std::string text) {
     if (scene.run.ignore_guards)
-      found.warnings.push_back("forced: " + text);
+      found.warnings.push_back("guard ignored: " + text);
     else
-      found.problems.push_back({std::move(keys), text + std::string(force_hint), Severity::refusal});
+      found.problems.push_back({std::move(keys), text + std::string(ignore_hint), Severity::refusal});
   }
   /// Whether a key is stated, and not as it is by default: what a run writes down as resolved states all keys.
   bool changed(std::string_view name) const {
@@ -115,7 +115,7 @@ std::optional<SpecimenDesign> check_design(Check& check) {
                              layers, scene.specimen.compaction_layers));
     if (design.particles < 16 || design.particles > 1'000'000'000)
       check.error({"specimen.width", "specimen.height", "grading.d50"},
-                  fmt::format("the box of {} x {} holds {} discs of this grading; between 16 and 1e9 are possible",
+                  fmt::format("the box of {} x {} holds {} particles of this grading; between 16 and 1e9 are possible",
                               length_text(design.width), length_text(design.height), design.particles));
     for (std::string& text : size_warnings(design.grading.sizes())) check.warn(std::move(text));
     return design;
@@ -147,7 +147,7 @@ void check_loading(Check& check) {
 
 /// A d50 so small that no gap between the two largest discs gives a bond with tensile strength (trap 5 of the physics page).
 void check_strength(Check& check, SpecimenDesign const& design) {
-  if (check.scene.bond.critical_thickness_from == BondingMode::areal_target) return;
+  if (check.scene.bond.critical_thickness_from == CriticalThicknessFrom::bond_area) return;
   double const d50 = design.grading.d50(), radius = design.grading.largest() / 2;
   double const h_max = evaluate_bond(check.scene, d50, radius, radius, 0, 0).h_max;
   constexpr int steps = 64;
@@ -157,7 +157,7 @@ void check_strength(Check& check, SpecimenDesign const& design) {
   if (best > 0) return;
   check.error(
       {"grading.d50", "hydrate.saturation", "bond.critical_thickness"},
-      fmt::format("with d50 = {} no bond has tensile strength: between the largest discs R_t is {:.4g} N/m at best (Eq. 15a)",
+      fmt::format("with d50 = {} no bond has tensile strength: between the largest particles R_t is {:.4g} N/m at best (Eq. 15a)",
                   length_text(d50), best));
 }
 
@@ -171,11 +171,12 @@ void check_hydrate(Check& check, std::optional<SpecimenDesign> const& design) {
   gated.allow_unstable = false;
   if (std::string const problem = hydrate_problem(gated); !problem.empty()) check.warn(problem);
   if (std::string const warning = fit_warning(scene.hydrate); !warning.empty()) check.warn(warning);
-  if (scene.bond.critical_thickness_from == BondingMode::given_thickness && scene.bond.critical_thickness == 0)
-    return check.error({"bond.critical_thickness_from"}, "mode 'given_thickness' needs 'bond.critical_thickness'");
-  if (scene.bond.critical_thickness_from != BondingMode::given_thickness && scene.bond.critical_thickness > 0)
-    check.warn("bond.critical_thickness has no effect: bond.critical_thickness_from is not \"given_thickness\"");
-  if (scene.bond.critical_thickness_from == BondingMode::eq3) {
+  if (scene.bond.critical_thickness_from == CriticalThicknessFrom::given && scene.bond.critical_thickness == 0)
+    return check.error({"bond.critical_thickness_from"},
+                       "'bond.critical_thickness_from' = \"given\" needs 'bond.critical_thickness'");
+  if (scene.bond.critical_thickness_from != CriticalThicknessFrom::given && scene.bond.critical_thickness > 0)
+    check.warn("bond.critical_thickness has no effect: bond.critical_thickness_from is not \"given\"");
+  if (scene.bond.critical_thickness_from == CriticalThicknessFrom::saturation) {
     if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) check.warn(warning);
     if (critical_thickness_ratio(scene.hydrate.saturation) == 0) return;
   }
@@ -185,22 +186,22 @@ void check_hydrate(Check& check, std::optional<SpecimenDesign> const& design) {
 void check_bonding(Check& check) {
   BondScene const& bond = check.scene.bond;
   if (!has_bonds(check.scene)) {
-    for (std::string_view const key : {"bond.contact_coupling", "bond.critical_thickness_from", "bond.moment_scale",
+    for (std::string_view const key : {"bond.contact_coupling", "bond.critical_thickness_from", "bond.rolling_lever",
                                        "bond.strength_from", "bond.thickness_mapping", "bond.friction_floor"})
       if (check.changed(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
     return;
   }
   if (bond.constant_thickness > 0 && bond.law != BondLawKind::constant_thickness)
     check.warn("bond.constant_thickness has no effect: bond.law is not \"constant_thickness\"");
-  if (bond.constant_thickness > 0 && bond.critical_thickness_from == BondingMode::given_thickness &&
+  if (bond.constant_thickness > 0 && bond.critical_thickness_from == CriticalThicknessFrom::given &&
       bond.constant_thickness >= bond.critical_thickness)
     check.error({"bond.constant_thickness", "bond.critical_thickness"},
                 "'bond.constant_thickness' must be below 'bond.critical_thickness'");
-  if (bond.after_consolidation && bond.contact_coupling == Composite::replace)
+  if (bond.after_consolidation && bond.contact_coupling == ContactCoupling::replaces)
     check.refusal(
         {"bond.after_consolidation", "bond.contact_coupling"},
-        "composite 'replace' with 'after_consolidation' deletes the contact forces that carry the confining stress (Eq. 7a); "
-        "use 'parallel' or 'memory'");
+        "contact_coupling = \"replaces\" with after_consolidation deletes the contact forces that carry the confining stress "
+        "(Eq. 7a); use \"parallel\" or \"replaces_keeping_force\"");
 }
 
 /// The folder itself must be named: neither a root, nor the way up, nor a link to elsewhere.
@@ -211,6 +212,17 @@ void check_output(Check& check) {
   if (name.empty() || name == ".." || name == ".")
     check.error({"output.folder"},
                 fmt::format("'output.folder' must name a folder of its own, got '{}'", check.scene.output.folder));
+  if (check.scene.output.snapshots > check.scene.output.records)
+    check.error({"output.snapshots", "output.records"},
+                fmt::format("'output.snapshots' ({}) must not exceed 'output.records' ({})", check.scene.output.snapshots,
+                            check.scene.output.records));
+  constexpr double coarse = 1e-3, past_a_peak = 0.02;  // strains: of rows apart, of tests that may have a peak
+  double const strain = check.scene.test.axial_strain, apart = strain / check.scene.output.records;
+  if (apart > coarse && strain > past_a_peak)
+    check.warn(
+        fmt::format("rows of history.csv are {:.2g} % of strain apart: the volumetric strain and the bonds at the peak, and E50, "
+                    "are read between them; raise output.records to {:.0f} or more",
+                    100 * apart, std::ceil(strain / coarse)));
   if (!check.scene.output.event_details) return;
   if (!check.scene.output.events)
     check.warn("output.event_details has no effect: output.events is false");

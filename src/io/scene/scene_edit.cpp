@@ -123,7 +123,7 @@ std::string scene_text_for(Scene const& wanted, std::string const& source, std::
   for (SceneEdit const& edit : edits) opening += "# " + edit.key + ": " + edit.comment + "\n";
   std::vector<std::string_view> stated;
   for (Key const& key : schema())
-    if (!is_zero(key, wanted) || key.zero.empty()) stated.push_back(key.name);
+    if (!is_not_given(key, wanted)) stated.push_back(key.name);
   return commented_scene(relative, stated, opening);
 }
 

@@ -128,7 +128,7 @@ class SceneReader {
 
   /// What the presets say of keys that are not stated. A stated rate is kept: no preset bounds its W. Grains that are too
   /// stiff for mixed precision get double from any. A bond that replaces the contact, stated on its own, forms at the bonding
-  /// stress, whatever the reading has: it would drop the force of the contact.
+  /// stress, whatever the preset has: it would drop the force of the contact.
   void complete_presets() {
     bool const states_rate = given("test.strain_rate") || places_.count("test.inertial_number") != 0;
     if (states_rate && places_.count("test.max_platen_wave_stress") == 0) scene_.test.max_platen_wave_stress = 0;
@@ -136,10 +136,12 @@ class SceneReader {
       bool const of_rate = key == "test.inertial_number" || key == "test.max_platen_wave_stress";
       return places_.count(key) != 0 || (of_rate && states_rate);
     };
-    apply_preset(readings().of(scene_.bond.preset), scene_, stated);
-    apply_preset(accuracies().of(scene_.run.preset), scene_, stated);
+    apply_preset(bond_presets().of(scene_.bond.preset), scene_, stated);
+    apply_preset(run_presets().of(scene_.run.preset), scene_, stated);
     if (places_.count("run.precision") == 0 && !mixed_precision_resolves(scene_)) scene_.run.precision = Precision::full;
-    if (scene_.bond.contact_coupling == Composite::replace && places_.count("bond.after_consolidation") == 0)
+    if (places_.count("output.snapshots") == 0)
+      scene_.output.snapshots = std::min(scene_.output.snapshots, scene_.output.records);
+    if (scene_.bond.contact_coupling == ContactCoupling::replaces && places_.count("bond.after_consolidation") == 0)
       scene_.bond.after_consolidation = false;
   }
 

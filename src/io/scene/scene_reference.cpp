@@ -8,6 +8,7 @@
 
 #include "domain/scene/units.hpp"
 #include "io/scene/presets.hpp"
+#include "io/scene/rolling_lever_text.hpp"
 #include "io/scene/scene_value.hpp"
 
 namespace clathra {
@@ -24,8 +25,8 @@ std::string limit_text(Key const& key, double value) {
 
 /// Whether a scene leaves the key out, as opposed to stating the number 0.
 bool is_absent(Key const& key, Scene const& scene) {
-  return is_zero(key, scene) &&
-         (!key.zero.empty() || key.kind == Kind::path || key.kind == Kind::text || key.kind == Kind::quantities);
+  bool const may_be_empty = key.kind == Kind::path || key.kind == Kind::text || key.kind == Kind::quantities;
+  return is_not_given(key, scene) || (may_be_empty && is_zero(key, scene));
 }
 
 /// The default as a scene file states it, or what leaving the key out means.
@@ -41,6 +42,8 @@ std::string_view kind_text(Key const& key) {
       return "list";
     case Kind::quantity:
       return key.dimension == Dimension::ratio ? "number" : dimension_name(key.dimension);
+    case Kind::lever:
+      return "a length";
     case Kind::integer:
       return "whole number";
     case Kind::boolean:
@@ -85,6 +88,7 @@ Json key_json(Key const& key) {
     case Kind::choice:
       json["enum"] = key.choices;
       break;
+    case Kind::lever:
     case Kind::text:
     case Kind::path:
       json.update(text);
@@ -110,14 +114,22 @@ std::string_view stated_text(Key const& key, std::string_view source) {
   throw std::logic_error(std::string(key.name) + " is not stated on a line of its own");
 }
 
+/// What 0 stands for: "0 (none), or 1 to 100", "0 (smooth) to 5".
+std::string range_text(Key const& key) {
+  std::string const least = limit_text(key, key.least), most = limit_text(key, key.most);
+  if (!key.takes_zero) return fmt::format("{} to {}", least, most);
+  if (key.least == 0) return fmt::format("{} ({}) to {}", least, key.zero, most);
+  return fmt::format("0 ({}), or {} to {}", key.zero, least, most);
+}
+
 }  // namespace
 
 std::string allowed_values(Key const& key) {
   if (key.kind == Kind::boolean) return "true or false";
   if (key.kind == Kind::path) return "a path, relative to the folder of the scene";
   if (key.kind == Kind::text) return "text";
-  if (key.kind != Kind::choice)
-    return fmt::format("{}{} to {}", key.takes_zero ? "0, or " : "", limit_text(key, key.least), limit_text(key, key.most));
+  if (key.kind == Kind::lever) return rolling_lever_limits();
+  if (key.kind != Kind::choice) return range_text(key);
   std::string names;
   for (std::string_view const name : key.choices) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
   return names;
@@ -143,15 +155,14 @@ std::string schema_markdown() {
                         default_text(key));
   }
   return text +
-         "\n## Readings\n\nWhat the seed paper leaves open can be read in several ways; docs/paper.md says what speaks for "
-         "which. `bond.preset` names one; keys that a scene states itself keep their values.\n\n" +
-         presets_markdown(readings()) +
-         "\n## Accuracy\n\n`run.preset` names a point of the trade of speed for accuracy; keys that a scene states itself keep "
-         "their values. `test.strain_rate` and `test.inertial_number` state the rate, which a stated "
-         "`test.max_platen_wave_stress` alone "
-         "bounds then. "
-         "Local damping is no part of it: it belongs to the model.\n\n" +
-         presets_markdown(accuracies());
+         "\n## Presets\n\nA preset stands in for the defaults of several keys; a key that the scene states keeps its value.\n"
+         "\n### bond.preset\n\nWhat Jiang, He, Wang, Zhou and Zhu (2017, Comptes Rendus Mecanique 345 (12), 868-889) leave open, "
+         "answered in several ways ([what speaks for which](paper.md)).\n\n" +
+         presets_markdown(bond_presets()) +
+         "\n### run.preset\n\nPoints of the trade of speed for accuracy ([how they were measured](accuracy.md)). A stated "
+         "`test.strain_rate` or `test.inertial_number` is bounded by a stated `test.max_platen_wave_stress` only. Local "
+         "damping belongs to the model, not to these presets.\n\n" +
+         presets_markdown(run_presets());
 }
 
 std::string schema_json() {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "domain/scene/short_number.hpp"
+#include "io/scene/rolling_lever_text.hpp"
 
 namespace clathra {
 namespace {
@@ -33,10 +34,11 @@ void check_range(Key const& key, double value, bool bare) {
   if (value >= key.least && value <= key.most) return;
   std::string text = fmt::format("must lie between {} and {}, got {}", limit_text(key, key.least), limit_text(key, key.most),
                                  is_quantity(key) ? format_quantity(value, key.dimension) : format_number(value));
-  if (key.takes_zero) text += fmt::format(" (0: {})", key.zero);
+  if (key.takes_zero && key.least > 0) text += fmt::format(" (0: {})", key.zero);
   if (is_quantity(key) && key.dimension == Dimension::ratio) {
     if (!bare) text += fmt::format(", which is {} %; {} % is the most", short_number(100 * value), short_number(100 * key.most));
-    if (bare && key.most <= 1 && value > 1 && value <= 100)
+    bool const is_share = key.most <= 1 && (key.least == 0 || key.least >= 1e-6);
+    if (bare && is_share && value >= 2 && value <= 100)
       text += fmt::format("; this looks like percent: write {} or \"{} %\"", short_number(value / 100), format_number(value));
   } else if (is_quantity(key) && bare) {
     text +=
@@ -79,7 +81,10 @@ std::vector<double> quantities_in(Key const& key, std::string_view text) {
 }
 
 void store_integer(Key const& key, Scene& scene, std::int64_t value) {
-  check_range(key, static_cast<double>(value), true);
+  // A number just above the largest may be rounded to it.
+  bool const above = value > static_cast<std::int64_t>(key.most);
+  check_range(key, above ? std::max(static_cast<double>(value), std::nextafter(key.most, HUGE_VAL)) : static_cast<double>(value),
+              true);
   if (auto* const at = std::get_if<int& (*)(Scene&)>(&key.field))
     (*at)(scene) = static_cast<int>(value);
   else if (auto* const wide = std::get_if<std::int64_t& (*)(Scene&)>(&key.field))
@@ -120,6 +125,8 @@ std::string kind_name(Key const& key) {
       return std::string(dimension_name(key.dimension));
     case Kind::quantities:
       return "a list, each item " + std::string(dimension_name(key.dimension));
+    case Kind::lever:
+      return "a length or a part of the bond width, in quotes";
     case Kind::integer:
       return "a whole number";
     case Kind::boolean:
@@ -159,6 +166,9 @@ void set_from_text(Key const& key, Scene& scene, std::string_view text) {
     }
     case Kind::quantities:
       return set_quantities(key, scene, quantities_in(key, text), text.find('%') == std::string_view::npos);
+    case Kind::lever:
+      std::get<RollingLever& (*)(Scene&)>(key.field)(scene) = parse_rolling_lever(text);
+      return;
     case Kind::integer:
       return set_integer_text(key, scene, text);
     case Kind::boolean:
@@ -214,6 +224,7 @@ bool is_zero(Key const& key, Scene const& scene) {
     bool operator()(bool& (*)(Scene&)) const { return false; }
     bool operator()(std::string& (*at)(Scene&)) const { return read(at, scene).empty(); }
     bool operator()(std::vector<double>& (*at)(Scene&)) const { return read(at, scene).empty(); }
+    bool operator()(RollingLever& (*)(Scene&)) const { return false; }
     bool operator()(ChoiceField const&) const { return false; }
   };
   return std::visit(Visitor{scene}, key.field);
@@ -222,8 +233,9 @@ bool is_zero(Key const& key, Scene const& scene) {
 bool is_not_given(Key const& key, Scene const& scene) { return !key.zero.empty() && !key.takes_zero && is_zero(key, scene); }
 
 std::string zero_problem(Key const& key) {
+  bool const has_default = !is_zero(key, Scene{});
   return fmt::format("must lie between {} and {}, got 0; where the key is left out: {}", limit_text(key, key.least),
-                     limit_text(key, key.most), key.zero);
+                     limit_text(key, key.most), has_default ? value_text(key, Scene{}) : std::string(key.zero));
 }
 
 std::string value_text(Key const& key, Scene const& scene) {
@@ -247,6 +259,7 @@ std::string value_text(Key const& key, Scene const& scene) {
       }
       return "[" + list + "]";
     }
+    std::string operator()(RollingLever& (*at)(Scene&)) const { return toml_string(format_rolling_lever(read(at, scene))); }
     std::string operator()(ChoiceField const& field) const {
       return toml_string(key.choices[static_cast<std::size_t>(field.get(scene))]);
     }

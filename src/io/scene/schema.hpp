@@ -20,11 +20,12 @@ struct ChoiceField {
 };
 
 /// The place of a value in a Scene.
-using SceneField = std::variant<double& (*)(Scene&), int& (*)(Scene&), std::int64_t& (*)(Scene&), std::uint64_t& (*)(Scene&),
-                                bool& (*)(Scene&), std::string& (*)(Scene&), std::vector<double>& (*)(Scene&), ChoiceField>;
+using SceneField =
+    std::variant<double& (*)(Scene&), int& (*)(Scene&), std::int64_t& (*)(Scene&), std::uint64_t& (*)(Scene&), bool& (*)(Scene&),
+                 std::string& (*)(Scene&), std::vector<double>& (*)(Scene&), RollingLever& (*)(Scene&), ChoiceField>;
 
-/// quantities: a list of them, each in the allowed range.
-enum class Kind { quantity, quantities, integer, boolean, choice, text, path };
+/// quantities: a list of them, each in the allowed range; lever: a length, or a multiple of the bond width, as "0.25 B".
+enum class Kind { quantity, quantities, lever, integer, boolean, choice, text, path };
 
 /// One key. A path is relative to the folder of the scene file.
 struct Key {

@@ -17,10 +17,10 @@ std::vector<std::string> size_warnings(CurveSizes const& sizes) {
                     "it the rate and the thickness of bonds, hangs on the last per cent of the curve",
                     mm(sizes.d49), mm(sizes.d51), mm(sizes.d50)));
   if (double const ratio = sizes.d90 / sizes.d10; ratio < narrowest)
-    warnings.push_back(
-        fmt::format("the discs are as good as equal (d90 / d10 = {:.3g}): equal discs crystallise, strengths differ between "
-                    "seeds by more than a third",
-                    ratio));
+    warnings.push_back(fmt::format(
+        "the particles are as good as equal (d90 / d10 = {:.3g}): equal particles crystallise, strengths differ between "
+        "seeds by more than a third",
+        ratio));
   if (sizes.d50 < clay)
     warnings.push_back(
         fmt::format("half of the grains are finer than {}, clay by size: forces between clay particles are not modelled; are the "

@@ -19,7 +19,7 @@ bool groups_differ_in(Study const& study, std::string const& key);
 void override_study(Study& study, std::vector<std::string> const& overrides);
 
 /// Lets all members go on where a guard refuses.
-void force_study(Study& study);
+void ignore_guards(Study& study);
 
 /// "key=value" of a member, as for load_scene(): what counts more comes later.
 std::vector<std::string> member_overrides(StudyGroup const& group, std::uint64_t seed);

@@ -1,0 +1,54 @@
+/// What keys may be: limits that are right, what 0 stands for, names that other programs have for a key.
+#include <gtest/gtest.h>
+
+#include "io/scene/scene_file.hpp"
+#include "io/scene/scene_reference.hpp"
+#include "io/scene/schema.hpp"
+
+namespace clathra {
+namespace {
+
+std::string const sized = "[specimen]\nparticles = 2000\n";
+
+std::string problems_of(std::vector<std::string> const& overrides) {
+  try {
+    (void)parse_scene(sized, "a.toml", ".", overrides);
+  } catch (SceneProblems const& problems) {
+    return problems.what();
+  }
+  return "none";
+}
+
+TEST(KeyLimits, SayWhatZeroStandsFor) {
+  EXPECT_EQ(allowed_values(*find_key("hydrate.saturation")), "0 (clean sand) to 1");
+  EXPECT_EQ(allowed_values(*find_key("output.snapshots")), "0 (none), or 1 to 100000");
+  for (Key const& key : schema())
+    if (key.takes_zero) EXPECT_FALSE(key.zero.empty()) << key.name;
+  EXPECT_EQ(problems_of({"grains.friction=6"}),
+            "--set grains.friction=6: error: 'grains.friction' must lie between 0 and 5, got 6");
+}
+
+TEST(KeyLimits, OfTheSeedAreWholeNumbersThatEveryFormatHolds) {
+  EXPECT_EQ(allowed_values(*find_key("run.seed")), "0 to 9007199254740992");
+  EXPECT_EQ(problems_of({"run.seed=9007199254740992"}), "none");
+  EXPECT_NE(problems_of({"run.seed=9007199254740993"}).find("must lie between 0 and 9007199254740992"), std::string::npos);
+  EXPECT_NE(problems_of({"run.seed=9223372036854775808"}).find("must lie between"), std::string::npos);
+}
+
+TEST(KeyLimits, ASnapshotIsTakenAtARecord) {
+  EXPECT_NE(problems_of({"output.records=10", "output.snapshots=11"})
+                .find("'output.snapshots' (11) must not exceed 'output.records' (10)"),
+            std::string::npos);
+  EXPECT_EQ(parse_scene(sized, "a.toml", ".", {"output.records=10"}).scene.output.snapshots, 10)
+      << "the default, as far as it goes";
+  EXPECT_EQ(parse_scene(sized, "a.toml", ".", {}).scene.output.snapshots, 15);
+}
+
+TEST(KeyNames, OfPapersAndOtherProgramsLeadToTheKey) {
+  EXPECT_NE(problems_of({"grains.kn=1"}).find("did you mean 'grains.normal_stiffness'?"), std::string::npos);
+  EXPECT_NE(problems_of({"mu=1"}).find("did you mean 'grains.friction'?"), std::string::npos);
+  EXPECT_NE(problems_of({"test.sigma3=1"}).find("did you mean 'test.confining_stress'?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clathra

@@ -1,0 +1,156 @@
+/// What scripts read of the program: --json, --quiet, --version, exit codes, the modes of its files.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// What it prints to stdout alone.
+CommandResult quiet_errors(std::string const& arguments) { return run_clathra(arguments + " 2>/dev/null; exit $?"); }
+
+class ScriptOutput : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    fs::create_directories(folder());
+    std::ofstream(folder() / "small.toml")
+        << "[specimen]\nparticles = 300\ncompaction_layers = 1\n[hydrate]\nsaturation = \"55 %\"\n[bond]\nrolling_lever = \"0.02 "
+           "B\"\n"
+           "[test]\naxial_strain = \"1 %\"\ninertial_number = 1e-3\n[output]\nrecords = 10\nsnapshots = 2\n";
+    std::ofstream(folder() / "study.toml") << "scene = \"small.toml\"\nseeds = 2\n[matrix]\ngrains.friction = [0.3, 0.5]\n";
+    ran() = run_clathra("--version >/dev/null; umask 002; " + std::string(program_in_shell) + " run --quiet '" + scene() +
+                        "' --output '" + out() + "'");
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder()); }
+  static fs::path folder() { return fs::temp_directory_path() / ("clathra_script_" + std::to_string(::getpid())); }
+  static std::string scene() { return (folder() / "small.toml").string(); }
+  static std::string out() { return (folder() / "out").string(); }
+  static CommandResult& ran() {
+    static CommandResult result;
+    return result;
+  }
+};
+
+TEST_F(ScriptOutput, OfAQuietRunIsNothingButWarnings) {
+  EXPECT_EQ(ran().code, 0) << ran().output;
+  std::size_t const warnings = Json::parse(std::ifstream(out() + "/run.json"))["warnings"].size();
+  EXPECT_EQ(ran().output.empty(), warnings == 0) << ran().output;
+  EXPECT_EQ(ran().output.find('%' + std::string(" eps1")), std::string::npos) << "no progress";
+  EXPECT_EQ(ran().output.find("results "), std::string::npos) << "no summary";
+  EXPECT_EQ(run_clathra("verify --quiet '" + out() + "'").output, "");
+  EXPECT_EQ(run_clathra("check --quiet '" + scene() + "' --set test.inertial_number=0.5").code, 77);
+}
+
+TEST_F(ScriptOutput, FilesFollowTheUmask) {
+  ASSERT_EQ(ran().code, 0);
+  int files = 0;
+  for (fs::directory_entry const& entry : fs::recursive_directory_iterator(out())) {
+    if (!entry.is_regular_file()) continue;
+    struct stat status = {};
+    ASSERT_EQ(::stat(entry.path().c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0664u) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 10);
+}
+
+TEST_F(ScriptOutput, OfCheckIsTheForecastAsJson) {
+  Json const valid = Json::parse(quiet_errors("check --json '" + scene() + "'").output);
+  EXPECT_EQ(valid["verdict"], "valid");
+  EXPECT_NEAR(valid["forecast"]["particles"].get<double>(), 300, 1);
+  EXPECT_GT(valid["shear_seconds"].get<double>(), 0);
+  EXPECT_TRUE(valid["refusals"].empty());
+  EXPECT_TRUE(valid["error_of_peak_q"].is_null()) << "1 % strain was not measured";
+  CommandResult const refused = quiet_errors("check --json '" + scene() + "' --set test.inertial_number=0.5");
+  EXPECT_EQ(refused.code, 77);
+  EXPECT_EQ(Json::parse(refused.output)["verdict"], "refused");
+  EXPECT_FALSE(Json::parse(refused.output)["refusals"].empty());
+  CommandResult const wrong = quiet_errors("check --json '" + scene() + "' --set grains.kn=1 --set test.axial_strain=15");
+  EXPECT_EQ(wrong.code, 65);
+  Json const problems = Json::parse(wrong.output)["problems"];
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(problems[0]["text"], "unknown key 'grains.kn'; did you mean 'grains.normal_stiffness'?");
+  EXPECT_EQ(problems[1]["severity"], "error");
+}
+
+TEST_F(ScriptOutput, NothingThatIsRefusedIsCalledValid) {
+  EXPECT_TRUE(says(run_clathra("check '" + scene() + "'"), "small.toml: valid"));
+  CommandResult const refused = run_clathra("check '" + scene() + "' --set test.inertial_number=0.5");
+  EXPECT_TRUE(says(refused, "small.toml: refused\n"));
+  EXPECT_EQ(refused.output.find("valid"), std::string::npos);
+}
+
+TEST_F(ScriptOutput, OfInfoEventsAndVerifyIsJson) {
+  Json const specimen = Json::parse(quiet_errors("info --json '" + out() + "/specimen.h5'").output);
+  EXPECT_EQ(specimen["kind"], "specimen");
+  EXPECT_EQ(specimen["particles"], 300);
+  EXPECT_NEAR(specimen["void_ratio"].get<double>(), 0.24, 0.03);
+  EXPECT_TRUE(specimen["provenance"].is_object());
+  Json const snapshot = Json::parse(quiet_errors("info --json '" + out() + "/snap/000000000000.h5'").output);
+  EXPECT_EQ(snapshot["particles"], 300);
+  EXPECT_GT(snapshot["pairs"]["bonded"].get<int>(), 100);
+  EXPECT_EQ(Json::parse(quiet_errors("info --json '" + out() + "'").output), Json::parse(std::ifstream(out() + "/run.json")));
+  Json const events = Json::parse(quiet_errors("events --json --parts 4 --to '1 %' '" + out() + "'").output);
+  ASSERT_EQ(events["parts"].size(), 4u);
+  int broken = 0;
+  for (Json const& part : events["parts"]) broken += part["all"].get<int>();
+  EXPECT_GT(broken, 0);
+  EXPECT_NEAR(events["parts"][3]["eps1_to"].get<double>(), 0.01, 1e-4);
+  EXPECT_EQ(run_clathra("events '" + out() + "' --to 15").code, 65) << "15 is no fraction";
+  Json const verified = Json::parse(quiet_errors("verify --json '" + out() + "'").output);
+  EXPECT_EQ(verified["wrong"], 0);
+  EXPECT_GE(verified["files"].size(), 5u);
+}
+
+TEST_F(ScriptOutput, OfADryRunIsJson) {
+  Json const study = Json::parse(
+      quiet_errors("study --dry-run --json '" + (folder() / "study.toml").string() + "' -o '" + (folder() / "s").string() + "'")
+          .output);
+  EXPECT_EQ(study["members"].size(), 4u);
+  EXPECT_GT(study["shear_seconds"].get<double>(), 0);
+  EXPECT_EQ(run_clathra("study --json '" + (folder() / "study.toml").string() + "'").code, 64) << "of a dry run only";
+}
+
+TEST_F(ScriptOutput, ExportsTablesAndASeries) {
+  ASSERT_EQ(run_clathra("export --to spreadsheet '" + out() + "'").code, 0);
+  std::ifstream table(out() + "/export/history.csv");
+  std::string heading;
+  std::getline(table, heading);
+  EXPECT_NE(heading.find(",eps1_pct,eps_v_pct,sigma1_kPa,"), std::string::npos) << heading;
+  EXPECT_EQ(run_clathra("export --to spreadsheet '" + folder().string() + "'").code, 66);
+  ASSERT_EQ(run_clathra("export --quiet --to vtu '" + out() + "'").output, "");
+  std::string const series((std::istreambuf_iterator<char>(std::ifstream(out() + "/export/particles.pvd").rdbuf())), {});
+  EXPECT_NE(series.find("<DataSet timestep=\"0\" file=\"particles_000000000000.vtu\"/>"), std::string::npos) << series;
+  EXPECT_TRUE(fs::exists(out() + "/export/contacts.pvd"));
+}
+
+TEST(ExitCodes, OfTooLittleMemoryIs71) {
+  fs::path const scene = fs::temp_directory_path() / ("clathra_memory_" + std::to_string(::getpid()) + ".toml");
+  std::ofstream(scene) << "[specimen]\nparticles = 1000000000\n";
+  for (std::string const verb : {"run", "generate"}) {
+    CommandResult const result =
+        run_clathra(verb + " '" + scene.string() + "' -o /tmp/clathra_none_" + std::to_string(::getpid()));
+    EXPECT_EQ(result.code, 71) << result.output;
+    EXPECT_TRUE(says(result, "not enough memory: it needs about "));
+  }
+  fs::remove(scene);
+}
+
+TEST(Version, NamesTheLibrariesAndTheInstructionSet) {
+  CommandResult const version = run_clathra("--version");
+  EXPECT_EQ(version.code, 0);
+  for (char const* const part : {"clathra ", "\nKokkos ", "\nMPI: ", "\nHDF5 ", "\ninstruction set: "})
+    EXPECT_TRUE(says(version, part));
+}
+
+}  // namespace
+}  // namespace clathra
