@@ -184,6 +184,12 @@ TEST(CommandLine, EndsEveryHelpWithAnExample) {
   }
 }
 
+TEST(CommandLine, BondSaysWhereItsEquationsWereNotFitted) {
+  EXPECT_TRUE(says(run_clathra("bond --saturation 0.55 --temperature '-50 degC'"),
+                   "note: strength and stiffness of hydrate are extrapolated"));
+  EXPECT_EQ(run_clathra("bond --saturation 0.55").output.find("note"), std::string::npos);
+}
+
 TEST(CommandLine, HasOneCodeForEachKindOfFailure) {
   EXPECT_EQ(run_clathra("").code, 64);
   CommandResult const misspelt = run_clathra("rum quick.toml");

@@ -98,6 +98,8 @@ constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
     {"hydrate.density", [](Scene& s) { s.hydrate.density = 850; }},
     {"bond.law", [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; }},
     {"bond.contact_coupling", [](Scene& s) { s.bond.contact_coupling = ContactCoupling::replaces_keeping_force; }},
+    {"run.time_step_rule", [](Scene& s) { s.run.time_step_rule = TimeStepRule::fixed; }},
+    {"run.time_step_safety", [](Scene& s) { s.run.time_step_safety = 0.3; }},
     {"bond.rolling_lever",
      [](Scene& s) {
        s.bond.rolling_lever = {1, 0};

@@ -44,6 +44,26 @@ TEST(KeyLimits, ASnapshotIsTakenAtARecord) {
   EXPECT_EQ(parse_scene(sized, "a.toml", ".", {}).scene.output.snapshots, 15);
 }
 
+TEST(KeyLimits, ARecordMustBeNearThePeak) {
+  auto const warnings = [](std::vector<std::string> const& overrides) {
+    std::string all;
+    for (std::string const& one : parse_scene(sized, "a.toml", ".", overrides).warnings) all += one + "\n";
+    return all;
+  };
+  EXPECT_NE(warnings({"output.records=100"}).find("rows of history.csv are 0.15 % of strain apart: the volumetric strain"),
+            std::string::npos);
+  EXPECT_NE(warnings({"output.records=100"}).find("raise output.records to 150 or more"), std::string::npos);
+  EXPECT_EQ(warnings({"output.records=150"}), "");
+  EXPECT_EQ(warnings({"output.records=10", "test.axial_strain=1 %"}), "") << "no peak is there yet";
+}
+
+TEST(KeyLimits, HintsAreThoseOfTheKey) {
+  EXPECT_NE(problems_of({"hydrate.saturation=41"}).find("this looks like percent: write 0.41"), std::string::npos);
+  for (char const* const text : {"hydrate.saturation=1.1", "test.inertial_number=2"})
+    EXPECT_EQ(problems_of({text}).find("percent"), std::string::npos) << text;
+  EXPECT_NE(problems_of({"test.inertial_number=0"}).find("got 0; where the key is left out: 2e-04"), std::string::npos);
+}
+
 TEST(KeyNames, OfPapersAndOtherProgramsLeadToTheKey) {
   EXPECT_NE(problems_of({"grains.kn=1"}).find("did you mean 'grains.normal_stiffness'?"), std::string::npos);
   EXPECT_NE(problems_of({"mu=1"}).find("did you mean 'grains.friction'?"), std::string::npos);

@@ -35,7 +35,7 @@ def plant(folder, seed, numbers, q, finished=True, energy=False, rate=1e-4, **ru
     (member / "run.json").write_text(json.dumps(document))
     with open(member / "history.csv", "w", newline="") as file:
         rows = csv.writer(file)
-        ledger = ["boundary_work_J_per_m"] + [f"{name}_J" for name in collect.LEDGER] if energy else []
+        ledger = ["boundary_work_J_per_m"] + [f"{name}_J_per_m" for name in collect.LEDGER] if energy else []
         rows.writerow(["eps1", "q_Pa", "contact_sigma1_Pa", "contact_sigma3_Pa", "platen_wave_stress"] + ledger)
         for number, (walls, contacts) in enumerate(q):
             rows.writerow([0.01 * number, walls, contacts + 1e6, 1e6, 0.04] + ([4, 2, 0, 1, 0.5, 0, 0.25] if energy else []))

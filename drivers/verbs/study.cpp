@@ -205,12 +205,11 @@ void add_parts(CLI::App& verb, StudyOptions& options) {
   auto* const slurm = verb.add_option("--slurm", options.slurm, "only write a script that runs the study as arrays of Slurm")
                           ->type_name("FILE")
                           ->check(CLI::Validator(name_problem, ""));
-  auto* const member = verb.add_option("--member", options.member, "only run this member, counted from 1: a job of an array")
-                           ->check(CLI::Range(1, static_cast<int>(most_members)))
-                           ->type_name("N");
-  auto* const specimen = verb.add_option("--specimen", options.specimen, "only make this specimen, counted from 1")
-                             ->check(CLI::Range(1, static_cast<int>(most_members)))
-                             ->type_name("N");
+  // For the jobs of an array (--slurm): one member, or one specimen, counted from 1.
+  auto* const member =
+      verb.add_option("--member", options.member)->check(CLI::Range(1, static_cast<int>(most_members)))->group("");
+  auto* const specimen =
+      verb.add_option("--specimen", options.specimen)->check(CLI::Range(1, static_cast<int>(most_members)))->group("");
   auto* const collected = verb.add_flag("--collect", options.collect, "only write study.csv and the page of what there is");
   for (auto* const one : {dry, slurm, member, specimen, collected})
     for (auto* const other : {dry, slurm, member, specimen, collected})

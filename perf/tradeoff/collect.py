@@ -57,7 +57,7 @@ def of_history(path):
         found["early_steps"] = int(early["step"])
     work = rows[peak].get("boundary_work_J_per_m")
     if work:
-        found.update({f"{name}_share": rows[peak][f"{name}_J"] / work for name in LEDGER})
+        found.update({f"{name}_share": rows[peak][f"{name}_J_per_m"] / work for name in LEDGER})
     return found
 
 
