@@ -12,9 +12,10 @@
 #include "domain/parallel/ranks.hpp"
 #include "io/errors/failure.hpp"
 #include "io/scene/schema.hpp"
-#include "own_program.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "machine/own_program.hpp"
+#include "terminal/print.hpp"
+#include "terminal/status.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -29,6 +30,7 @@ void secure_standard_streams() {
 }
 
 ExitCode say(ExitCode code, std::string const& text) {
+  say_failure(text);
   print_error("clathra: " + text);
   return code;
 }
@@ -37,6 +39,7 @@ ExitCode run_guarded(Verb const& verb) {
   try {
     return verb();
   } catch (SceneProblems const& problems) {
+    say_failure(problems.problems.front().message());
     for (Problem const& problem : problems.problems) print_error(problem.message());
     return problems.code();
   } catch (...) {
@@ -45,7 +48,7 @@ ExitCode run_guarded(Verb const& verb) {
   }
 }
 
-/// For a first argument that is no verb: "there is no verb 'cehck'; did you mean 'check'?", else nothing.
+/// For a first argument that is no verb: "there is no command 'cehck'; did you mean 'check'?", else nothing.
 std::string unknown_verb(CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
   std::vector<std::string> names;
@@ -53,7 +56,7 @@ std::string unknown_verb(CLI::App& program, int argc, char** argv) {
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
   std::vector<std::string_view> const views(names.begin(), names.end());
   std::string const name = std::string(argv[1]).substr(0, 60);
-  return fmt::format("there is no verb '{}'{}; `clathra --help` lists them", name, name_suggestion(name, views));
+  return fmt::format("there is no command '{}'{}; `clathra --help` lists all", name, name_suggestion(name, views));
 }
 
 /// Help and version, which end the parsing too, go to stdout, what is wrong with the command line to stderr.
@@ -76,6 +79,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
   program.set_version_flag("--version", version_and_libraries);
   program.require_subcommand(1);
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   program.footer("Example: clathra run examples/quick.toml --output out/quick");
   Verb chosen;
   add_init(program, chosen);
@@ -96,6 +100,8 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_selftest(program, chosen);
   add_completion(program, chosen);
   add_manual(program, chosen);
+  for (CLI::App* const verb : program.get_subcommands([](CLI::App const* app) { return !app->get_group().empty(); }))
+    verb->group("Commands");
   bool quiet = false;
   add_quiet(program, quiet);
   try {

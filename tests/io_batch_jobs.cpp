@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "available_memory.hpp"
 #include "command.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "io/formats/text_file.hpp"
+#include "machine/available_memory.hpp"
 
 namespace clathra {
 namespace {

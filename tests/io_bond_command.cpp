@@ -194,7 +194,7 @@ TEST(CommandLine, HasOneCodeForEachKindOfFailure) {
   EXPECT_EQ(run_clathra("").code, 64);
   CommandResult const misspelt = run_clathra("rum quick.toml");
   EXPECT_EQ(misspelt.code, 64);
-  EXPECT_NE(misspelt.output.find("there is no verb 'rum'; did you mean 'run'?"), std::string::npos) << misspelt.output;
+  EXPECT_NE(misspelt.output.find("there is no command 'rum'; did you mean 'run'?"), std::string::npos) << misspelt.output;
   EXPECT_EQ(run_clathra("check no_such.toml").code, 66);
   EXPECT_EQ(run_clathra("info no_such.h5").code, 66);
   EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set hydrate.saturation=26").code, 65);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "expected_error.hpp"
+#include "run/expected_error.hpp"
 
 namespace clathra {
 namespace {

@@ -16,7 +16,7 @@ std::string manual() {
 TEST(Manual, NamesEveryVerbOfTheHelpEveryKeyAndEveryExitCode) {
   std::string const text = manual();
   std::string const help = run_clathra("--help").output;
-  std::size_t const list = help.find("Subcommands:");
+  std::size_t const list = help.find("Commands:");
   ASSERT_NE(list, std::string::npos) << help;
   int verbs = 0;
   for (std::size_t at = list; (at = help.find("\n  ", at)) != std::string::npos; ++at) {

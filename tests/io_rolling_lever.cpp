@@ -38,8 +38,7 @@ TEST(RollingLever, IsWrittenSoThatItReadsBackToTheSameBits) {
 }
 
 TEST(RollingLever, SaysWhatIsWrongWithOthers) {
-  EXPECT_EQ(problem("0.25"),
-            "needs a length (\"1 mm\") or a part of the bond width B (\"0.25 B\"), got a number without unit ('0.25')");
+  EXPECT_EQ(problem("0.25"), "needs a length (\"1 mm\") or a part of the bond width B (\"0.25 B\", \"B/4\"), got '0.25'");
   for (char const* const text : {"0 B", "-1 B", "11 B", "B/0", "B/20000", "0 m", "11 m", "1 nm"})
     EXPECT_NE(problem(text).find("must lie in 1 um to 10 m, or 1e-04 B to 10 B, got '"), std::string::npos)
         << text << problem(text);

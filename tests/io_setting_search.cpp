@@ -5,7 +5,7 @@
 #include <random>
 
 #include "domain/measurement/confidence.hpp"
-#include "setting_search.hpp"
+#include "tune/setting_search.hpp"
 
 namespace clathra {
 namespace {

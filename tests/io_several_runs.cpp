@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "test_run.hpp"
+#include "run/biaxial_run.hpp"
 
 namespace clathra {
 namespace {
@@ -18,7 +18,7 @@ std::string state_hash(fs::path const& folder, std::string const& saturation, st
                                   "small.toml", folder);
   input.scene.hydrate.saturation = saturation == "clean" ? 0 : 0.41;
   input.scene.output.folder = (folder / name).string();
-  TestRun run(std::move(input), std::nullopt, {}, Ranks());
+  BiaxialRun run(std::move(input), std::nullopt, {}, Ranks());
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
   ExitCode const code = run.run();

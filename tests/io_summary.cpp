@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "summary.hpp"
+#include "run/curve_summary.hpp"
 
 namespace clathra {
 namespace {
 
 /// A test of 100 records whose q rises to its peak between two of them, with a ledger of which a part is unaccounted for.
-Summary of_records(double unaccounted) {
-  Summary summary;
+CurveSummary of_records(double unaccounted) {
+  CurveSummary summary;
   for (int n = 0; n < 100; ++n) {
     HistoryRow row;
     row.eps1 = 1e-3 * n;
@@ -24,8 +24,8 @@ Summary of_records(double unaccounted) {
   return summary;
 }
 
-TEST(Summary, SaysPeakAndControlAndWarnsOfWorkThatIsUnaccountedFor) {
-  Summary const sound = of_records(-0.009);
+TEST(CurveSummary, SaysPeakAndControlAndWarnsOfWorkThatIsUnaccountedFor) {
+  CurveSummary const sound = of_records(-0.009);
   EXPECT_EQ(sound.numbers().at("peak_q_Pa"), 2.5e6);
   EXPECT_EQ(sound.numbers().at("peak_eps1"), 0.0205);
   EXPECT_EQ(sound.numbers().at("energy_residual"), 0.009);

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "io/results/run_record.hpp"
-#include "print.hpp"
-#include "threads.hpp"
+#include "machine/threads.hpp"
+#include "terminal/print.hpp"
 #include "throughput/throughput_card.hpp"
-#include "verbs.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {

@@ -8,8 +8,8 @@
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/units.hpp"
 #include "io/scene/presets.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/print.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {

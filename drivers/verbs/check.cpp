@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "domain/measurement/specimen_facts.hpp"
-#include "forecast.hpp"
-#include "json_text.hpp"
-#include "print.hpp"
-#include "rank_checks.hpp"
-#include "scene_options.hpp"
-#include "specimen_source.hpp"
-#include "verbs.hpp"
+#include "run/forecast.hpp"
+#include "run/rank_checks.hpp"
+#include "run/specimen_source.hpp"
+#include "terminal/json_text.hpp"
+#include "terminal/print.hpp"
+#include "verbs/scene_options.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {

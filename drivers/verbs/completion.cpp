@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "command_table.hpp"
-#include "examples.hpp"
 #include "io/scene/schema.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/command_table.hpp"
+#include "terminal/print.hpp"
+#include "verbs/examples.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {

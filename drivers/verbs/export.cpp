@@ -11,8 +11,8 @@
 #include "io/formats/text_file.hpp"
 #include "io/results/snapshot_file.hpp"
 #include "io/results/spreadsheet.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/print.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -66,8 +66,9 @@ ExitCode export_tables(ExportOptions const& options) {
     std::filesystem::create_directories(folder, error);
     if (error) throw FileProblem(ExitCode::cannot_create, folder, error.message());
     constexpr std::size_t largest_table = std::size_t{1} << 30;
-    replace_text_file(folder / name, spreadsheet_csv(read_text_file(options.source / name, largest_table)));
-    text += (folder / name).string() + "\n";
+    std::filesystem::path const table = folder / (std::filesystem::path(name).stem().string() + "-spreadsheet.csv");
+    replace_text_file(table, spreadsheet_csv(read_text_file(options.source / name, largest_table)));
+    text += fmt::format("{} is written\n", table.string());
   }
   if (text.empty()) throw FileProblem(ExitCode::file_missing, options.source, "has neither history.csv nor study.csv");
   return print_result(text);

@@ -4,18 +4,18 @@
 #include <memory>
 
 #include "clathra_version.hpp"
-#include "forecast.hpp"
-#include "interrupt.hpp"
 #include "io/errors/rank_errors.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/specimen_file.hpp"
-#include "print.hpp"
-#include "rank_checks.hpp"
-#include "scene_options.hpp"
-#include "specimen_source.hpp"
-#include "stage_progress.hpp"
-#include "threads.hpp"
-#include "verbs.hpp"
+#include "machine/interrupt.hpp"
+#include "machine/threads.hpp"
+#include "run/forecast.hpp"
+#include "run/rank_checks.hpp"
+#include "run/specimen_source.hpp"
+#include "run/stage_progress.hpp"
+#include "terminal/print.hpp"
+#include "verbs/scene_options.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -51,7 +51,7 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   std::vector<std::string> refusals;
   if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.ignore_guards) refusals.push_back(refusal);
   share_refusals(ranks, refusals);
-  if (!refusals.empty()) throw OutOfMemory(refusals.front() + " (--ignore-guards goes on)");
+  if (!refusals.empty()) throw OutOfMemory(refusals.front() + " (--ignore-guards runs it anyway)");
   require_enough_discs(ranks.count(), static_cast<std::int64_t>(cost.at("particles")));
   watch_for_interrupt();
   ProgressLine line;
@@ -88,6 +88,7 @@ void add_generate(CLI::App& program, Verb& chosen) {
       ->type_name("FILE")
       ->check(CLI::Validator(name_problem, ""));
   verb->add_flag("--overwrite", options->overwrite, "take the place of a file of that name, once the specimen is made");
+  add_status_option(*verb);
   verb->footer(
       "Example: clathra generate examples/quick.toml -o specimen.h5\n"
       "         clathra run examples/quick.toml --set specimen.file=specimen.h5");

@@ -6,12 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "examples.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reference.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/print.hpp"
+#include "verbs/examples.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {

@@ -4,10 +4,10 @@
 #include <array>
 
 #include "clathra_version.hpp"
-#include "command_table.hpp"
 #include "io/scene/schema.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/command_table.hpp"
+#include "terminal/print.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -18,7 +18,7 @@ struct ExitEntry {
 };
 constexpr std::array exits = {
     ExitEntry{ExitCode::done, "Done."},
-    ExitEntry{ExitCode::usage, "A wrong option or verb."},
+    ExitEntry{ExitCode::usage, "A wrong option or command."},
     ExitEntry{ExitCode::bad_input, "A scene or a file with wrong content; every fault is printed with its place."},
     ExitEntry{ExitCode::file_missing, "An input file is not there or cannot be read."},
     ExitEntry{ExitCode::internal, "A fault of Clathra, or a failed check of selftest."},
@@ -27,7 +27,9 @@ constexpr std::array exits = {
     ExitEntry{ExitCode::io_error, "A read or write failed half way, as on a full disk."},
     ExitEntry{ExitCode::to_be_resumed, "Stopped early, by a signal or the wall time, with a checkpoint: --resume goes on."},
     ExitEntry{ExitCode::diverged, "The run became unstable."},
-    ExitEntry{ExitCode::refused, "Refused by a guard that --ignore-guards overrides."},
+    ExitEntry{ExitCode::refused,
+              "Refused: by a guard (its message names --ignore-guards where that helps), because a result is in the way, or "
+              "because no such specimen can be made."},
     ExitEntry{ExitCode::member_failed, "Members of a study failed; the others have results."},
     ExitEntry{ExitCode::undetermined, "What was asked for cannot be told from the runs that there are."},
     ExitEntry{ExitCode::interrupted, "Stopped by Ctrl-C or a signal before there was a checkpoint."},
@@ -111,7 +113,7 @@ std::string manual(CLI::App const& program) {
   text += ".SH NAME\nclathra \\- discrete element solver for hydrate\\-bearing sand\n.SH SYNOPSIS\n";
   for (VerbEntry const& verb : verbs) text += fmt::format(".B clathra {}\\fR ...\n.br\n", verb.name);
   text += description;
-  text += ".SH VERBS\n";
+  text += ".SH COMMANDS\n";
   for (VerbEntry const& verb : verbs) text += verb_text(verb);
   text += ".SH SCENE\nKeys of a scene file and of \\-\\-set. A quantity may have a unit; a bare number is in SI units.\n";
   for (Key const& key : schema()) text += key_text(key);

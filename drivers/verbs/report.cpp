@@ -5,9 +5,11 @@
 
 #include <memory>
 
+#include "io/formats/text_file.hpp"
+#include "io/report/markup.hpp"
 #include "io/results/numbers_file.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/print.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -18,12 +20,15 @@ struct ReportOptions {
 };
 
 ExitCode report(ReportOptions const& options) {
+  constexpr char instead[] = "name another file";
+  if (!options.json.empty()) require_own_file(options.json, "\"clathra numbers\"", instead);
+  if (!options.html.empty()) require_own_file(options.html, page_mark, instead);
   if (!options.json.empty()) write_numbers(read_runs(options.runs), options.json);
-  if (!options.json.empty() && options.html.empty()) return print_result(options.json.string() + "\n");
+  if (!options.json.empty() && options.html.empty()) return print_result(options.json.string() + " is written\n");
   std::filesystem::path html = options.html;
   if (html.empty()) html = options.runs.size() == 1 ? options.runs.front() / "report.html" : "report.html";
   write_report(options.runs, html);
-  return print_result((options.json.empty() ? "" : options.json.string() + "\n") + html.string() + "\n");
+  return print_result((options.json.empty() ? "" : options.json.string() + " is written\n") + html.string() + " is written\n");
 }
 
 }  // namespace

@@ -2,26 +2,20 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
-#include <algorithm>
 #include <memory>
 
-#include "domain/scene/specimen_design.hpp"
-#include "duration.hpp"
-#include "interrupt.hpp"
-#include "io/formats/text_file.hpp"
-#include "io/report/paper_report.hpp"
 #include "io/results/laboratory_data.hpp"
 #include "io/results/output_folder.hpp"
-#include "io/results/paper_numbers.hpp"
-#include "io/results/scorecard.hpp"
-#include "json_text.hpp"
-#include "own_program.hpp"
-#include "print.hpp"
-#include "reproduction.hpp"
-#include "scene_options.hpp"
-#include "study_forecast.hpp"
-#include "study_run.hpp"
-#include "verbs.hpp"
+#include "machine/interrupt.hpp"
+#include "reproduce/outcome.hpp"
+#include "reproduce/reproduction.hpp"
+#include "study/study_forecast.hpp"
+#include "study/study_run.hpp"
+#include "terminal/duration.hpp"
+#include "terminal/json_text.hpp"
+#include "terminal/print.hpp"
+#include "verbs/scene_options.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -50,57 +44,13 @@ PaperDesign design_of(ReproduceOptions const& options) {
   return options.screening ? PaperDesign{{26, 55}, {1, 3}, {}} : PaperDesign{};
 }
 
-std::map<std::string, std::string> facts_of(ReproduceOptions const& options, StudyPlan const& plan) {
-  ReproductionSize const size = size_of(options);
-  std::string settings, seeds;
-  for (std::string const& text : options.overrides) settings += (settings.empty() ? "" : "; ") + text;
-  for (std::uint64_t const seed : plan.study.seeds) seeds += fmt::format("{}{}", seeds.empty() ? "" : ", ", seed);
-  double cost = 0;
-  for (MemberResult const& member : plan.members) cost += member.wall_seconds;
-  return {{"particles", fmt::format("{}", size.discs)},
-          {"seeds", seeds},
-          {"settings", settings.empty() ? "the defaults" : settings},
-          {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
-          {"program", "clathra " + own_version()}};
-}
-
 std::optional<LaboratoryData> data_of(ReproduceOptions const& options) {
   if (options.data.empty()) return {};
   return read_laboratory_data(options.data);
 }
 
-/// Scorecard and report of what there is.
-ExitCode conclude(StudyPlan const& plan, ReproduceOptions const& options, std::optional<LaboratoryData> const& data,
-                  ProgressLine& line) {
-  std::vector<fs::path> folders;
-  for (StudyTask const& task : plan.runs) folders.push_back(task.result);
-  PaperDesign const design = design_of(options);
-  std::size_t const last = plan.study.groups.size() - 1;
-  Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front()).scene;
-  double const d50 = design_sample(scene).grading.d50();
-  Scorecard const card{"Jiang et al. (2017), claim by claim", facts_of(options, plan),
-                       paper_claims(design, numbers_of_members(plan.study, plan.members, folders), d50)};
-  fs::path const& out = plan.study.folder;
-  replace_text_file(out / "study.csv", study_csv(plan.study, plan.members));
-  replace_text_file(out / "scorecard.md", scorecard_markdown(card));
-  replace_text_file(out / "scorecard.json", scorecard_json(card));
-  auto const finished = std::count_if(plan.members.begin(), plan.members.end(),
-                                      [](MemberResult const& m) { return m.state == MemberState::finished; });
-  if (finished > 0)
-    write_paper_report({plan.study, plan.members, folders, design, card, scene, d50, data}, out / "reproduce.html");
-  line.repeat_warnings();
-  std::string text = fmt::format("tests     {} of {} finished\n", finished, plan.members.size());
-  for (std::size_t i = 0; i < plan.members.size(); ++i)
-    if (plan.members[i].state == MemberState::failed)
-      text += "failed    " + plan.runs[i].name + ": " + plan.members[i].message + "\n";
-  for (Claim const& claim : card.claims)
-    text += fmt::format("{:>5}     {:<13} {}\n", "(" + claim.id + ")", name_of(claim.verdict()), claim.words);
-  text += fmt::format("claims    {}\nresults   {}\n", tally(card.claims), (out / "scorecard.md").string());
-  if (options.quick) text += "two small specimens decide little: most claims need the full reproduction, without --quick\n";
-  print_result(text);
-  bool const failed =
-      std::any_of(plan.members.begin(), plan.members.end(), [](MemberResult const& m) { return m.state == MemberState::failed; });
-  return failed ? ExitCode::member_failed : finished == std::ssize(plan.members) ? ExitCode::done : ExitCode::to_be_resumed;
+ReproductionOutcome outcome_of(ReproduceOptions const& options, std::optional<LaboratoryData> const& data) {
+  return {design_of(options), size_of(options), options.overrides, data, options.quick};
 }
 
 StudyPlan plan_of(ReproduceOptions const& options, fs::path const& scene) {
@@ -145,13 +95,13 @@ ExitCode reproduce(ReproduceOptions const& options) {
     if (!options.allow_mixed) require_one_program(plan);
     ProgressLine line;
     find_all_finished(plan);
-    return conclude(plan, options, data, line);
+    return conclude(plan, outcome_of(options, data), line);
   }
   print_result(study_forecast_text(plan, study_forecast(plan, limits.parallel, limits.threads)));
   watch_for_interrupt();
   StudyRun run(plan, limits, folder);
   ExitCode const code = run.run();
-  ExitCode const concluded = conclude(plan, options, data, run.line());
+  ExitCode const concluded = conclude(plan, outcome_of(options, data), run.line());
   return code == ExitCode::done ? concluded : code;
 }
 

@@ -5,16 +5,16 @@
 #include <optional>
 
 #include "domain/measurement/specimen_facts.hpp"
-#include "duration.hpp"
-#include "forecast.hpp"
-#include "interrupt.hpp"
-#include "print.hpp"
-#include "rank_checks.hpp"
-#include "scene_options.hpp"
-#include "specimen_source.hpp"
-#include "test_run.hpp"
-#include "threads.hpp"
-#include "verbs.hpp"
+#include "machine/interrupt.hpp"
+#include "machine/threads.hpp"
+#include "run/biaxial_run.hpp"
+#include "run/forecast.hpp"
+#include "run/rank_checks.hpp"
+#include "run/specimen_source.hpp"
+#include "terminal/duration.hpp"
+#include "terminal/print.hpp"
+#include "verbs/scene_options.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -41,7 +41,7 @@ ExitCode run_on(Ranks const& ranks, RunOptions const& options, RunLimits const& 
   watch_for_interrupt();
   std::vector<std::string> const warnings = warnings_of(input, cost);
   KokkosSession const kokkos;
-  TestRun now(std::move(input), std::move(specimen), limits, ranks);
+  BiaxialRun now(std::move(input), std::move(specimen), limits, ranks);
   for (std::string const& warning : warnings) now.warn(warning);
   return now.run();
 }
@@ -70,7 +70,7 @@ void add_run(CLI::App& program, Verb& chosen) {
   CLI::Option* const resume = verb->add_flag("--resume", options->resume,
                                              "go on from the newest checkpoint in the folder of the results, if there is one");
   verb->add_flag("--overwrite", options->overwrite,
-                 "take the place of an earlier run in the folder of the results, once there is a result")
+                 "replace an earlier run in that folder, which is kept until the new one is ready to be sheared")
       ->excludes(resume);
   verb->add_option("--max-walltime", options->most_time, "stop after this time with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
@@ -79,6 +79,7 @@ void add_run(CLI::App& program, Verb& chosen) {
       ->capture_default_str()
       ->type_name("TIME")
       ->check(CLI::Validator(duration_problem, ""));
+  add_status_option(*verb);
   verb->footer("Example: clathra run examples/quick.toml --set hydrate.saturation=\"41 %\" --output out/s41");
   verb->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

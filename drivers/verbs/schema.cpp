@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "io/scene/scene_reference.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/print.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 

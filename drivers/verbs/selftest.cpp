@@ -7,11 +7,11 @@
 #include <memory>
 
 #include "io/results/run_record.hpp"
-#include "own_program.hpp"
-#include "print.hpp"
-#include "self_checks.hpp"
-#include "threads.hpp"
-#include "verbs.hpp"
+#include "machine/own_program.hpp"
+#include "machine/threads.hpp"
+#include "run/self_checks.hpp"
+#include "terminal/print.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {

@@ -6,20 +6,21 @@
 #include <memory>
 
 #include "domain/scene/stage.hpp"
-#include "duration.hpp"
-#include "interrupt.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/study_report.hpp"
 #include "io/results/output_folder.hpp"
-#include "json_text.hpp"
-#include "print.hpp"
-#include "scene_options.hpp"
-#include "slurm_script.hpp"
-#include "study_forecast.hpp"
-#include "study_goal.hpp"
-#include "study_plan.hpp"
-#include "study_run.hpp"
-#include "verbs.hpp"
+#include "machine/interrupt.hpp"
+#include "study/slurm_script.hpp"
+#include "study/study_forecast.hpp"
+#include "study/study_goal.hpp"
+#include "study/study_outcome.hpp"
+#include "study/study_plan.hpp"
+#include "study/study_run.hpp"
+#include "terminal/duration.hpp"
+#include "terminal/json_text.hpp"
+#include "terminal/print.hpp"
+#include "verbs/scene_options.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -50,6 +51,8 @@ Study study_of(StudyOptions const& options) {
     for (int seed = 1; seed <= options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
   }
   if (!options.precision_target.empty()) study.precision_target = goal_of(options.precision_target);
+  if (options.max_seeds > 0 && !study.precision_target)
+    throw SceneProblems({{"--max-seeds", 0, 0, "has no effect without --precision-target"}});
   if (options.max_seeds > 0) study.max_seeds = options.max_seeds;
   override_study(study, options.overrides);
   if (options.ignore_guards) ignore_guards(study);
@@ -62,32 +65,6 @@ StudyLimits limits_of(StudyOptions const& options, StudyPlan const& plan) {
   limits.allow_mixed = options.allow_mixed;
   limits.most_seconds = options.most_time.empty() ? 0 : duration_of(options.most_time);
   return limits;
-}
-
-/// study.csv and the page of what there is. @return done only where every member is finished
-ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
-  replace_text_file(plan.study.folder / "study.csv", study_csv(plan.study, plan.members));
-  std::vector<std::string> failed;
-  std::size_t finished = 0, waiting = 0, refused = 0;
-  for (std::size_t i = 0; i < plan.members.size(); ++i) {
-    MemberResult const& member = plan.members[i];
-    if (member.state == MemberState::failed) failed.push_back(plan.runs[i].name + ": " + member.message);
-    refused += member.state == MemberState::refused ? 1 : 0;
-    finished += member.state == MemberState::finished ? 1 : 0;
-    waiting += member.state == MemberState::waiting ? 1 : 0;
-  }
-  std::vector<std::filesystem::path> folders;
-  for (StudyTask const& task : plan.runs) folders.push_back(task.result);
-  if (finished > 0) write_study_report(plan.study, plan.members, folders, plan.study.folder / "study.html");
-  line.repeat_warnings();
-  std::string text = fmt::format("members   {} finished", finished);
-  if (waiting > 0) text += fmt::format(", {} not yet", waiting);
-  if (!failed.empty()) text += fmt::format(", {} failed", failed.size());
-  if (refused > 0) text += fmt::format(", {} refused by guards and left out", refused);
-  text += "\nspecimens " + sharing_text(plan) + "\n" + statistics_text(plan);
-  for (std::string const& member : failed) text += "failed    " + member + "\n";
-  print_result(text + fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
-  return !failed.empty() ? ExitCode::member_failed : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;
 }
 
 /// One program in place of this one: what a job of an array does.
@@ -193,8 +170,8 @@ void add_members_options(CLI::App& verb, StudyOptions& options) {
   verb.add_option("--launcher", options.launcher, "starts each member: \"mpirun -n 2\", \"srun -n 4\"")
       ->type_name("COMMAND")
       ->check(CLI::Validator(words_problem, ""));
-  verb.add_flag("--ignore-guards", options.ignore_guards, "members go on where a guard refuses");
-  verb.add_flag("--skip-refused", options.skip_refused, "leave out the groups that a guard refuses");
+  verb.add_flag("--ignore-guards", options.ignore_guards, "run members although a guard refuses; their run.json says so");
+  verb.add_flag("--skip-refused", options.skip_refused, "leave out the groups that `check` would refuse");
   verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and members that another program made");
 }
 

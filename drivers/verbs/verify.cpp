@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "io/results/run_check.hpp"
-#include "json_text.hpp"
-#include "print.hpp"
-#include "verbs.hpp"
+#include "terminal/json_text.hpp"
+#include "terminal/print.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
@@ -25,6 +25,7 @@ ExitCode verify(VerifyOptions const& options) {
     text += fmt::format("{:<28} {}\n", check.file, check.problem.empty() ? "ok" : check.problem);
     json["files"].push_back({{"file", check.file}, {"problem", check.problem}});
     wrong += check.problem.empty() ? 0 : 1;
+    if (is_quiet() && !check.problem.empty()) print_error(fmt::format("clathra: {} {}", check.file, check.problem));
   }
   text += wrong == 0 ? fmt::format("all {} files are as the run wrote them\n", checks.size())
                      : fmt::format("{} of {} files are not as the run wrote them\n", wrong, checks.size());

@@ -43,7 +43,7 @@ std::string overshoot_text(double reached, double wanted) {
   char text[160];
   std::snprintf(
       text, sizeof text,
-      "the test ends at an axial strain of %.4g %%, %.4g %% were asked for: a single step strains it that far, lower the "
+      "the test ends at an axial strain of %.4g %%, %.4g %% was asked for: a single step strains it that far, lower the "
       "rate",
       100 * reached, 100 * wanted);
   return text;
@@ -291,7 +291,8 @@ Measures const& BiaxialTest::State::measures() {
 void BiaxialTest::State::require_grains(double deep_share) const {
   if (scene.run.ignore_guards) return;
   if (std::string const problem = collapse(simulation->assembly().void_ratio(), deep_share); !problem.empty())
-    throw Refused(problem + ": the grains are too soft for this stress, raise grains.normal_stiffness (--ignore-guards goes on)");
+    throw Refused(problem +
+                  ": the grains are too soft for this stress, raise grains.normal_stiffness (--ignore-guards runs it anyway)");
 }
 
 /// Masses scaled further than usual must not carry the loads that contacts should: such a test ends.

@@ -91,6 +91,7 @@ TestNumbers test_numbers(TestCurves const& curves) {
 StageRecord record_of(TestNumbers const& n) {
   StageRecord record{{"peak_q_Pa", n.peak_q},
                      {"peak_eps1", n.peak_eps1},
+                     {"peak_passed", n.passed_peak ? 1.0 : 0.0},
                      {"peak_eps_v", n.eps_v_peak},
                      {"peak_bonds_intact_pct", n.intact_peak},
                      {"residual_q_Pa", n.residual_q},

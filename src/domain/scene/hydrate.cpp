@@ -77,7 +77,7 @@ std::string hydrate_problem(HydrateScene const& hydrate) {
     double const shown = std::floor(limit * 100) / 100;
     return "hydrate is not stable at " + format_number(hydrate.temperature) + " degC and a pore pressure of " +
            format_quantity(hydrate.pore_pressure, Dimension::pressure) + ": it dissociates above " + format_number(shown) +
-           " degC (hydrate.allow_unstable = true goes on)";
+           " degC (hydrate.allow_unstable = true runs it anyway)";
   }
   HydrateStrength const strength = hydrate_strength(hydrate.temperature, hydrate.pore_pressure, hydrate.density);
   if (!(strength.tension > 0) || !(strength.compression > 0))

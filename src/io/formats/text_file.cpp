@@ -93,6 +93,16 @@ void require_no_file(std::filesystem::path const& path, std::string_view instead
     throw FileProblem(ExitCode::cannot_create, path, fmt::format("exists already and is left as it is; {}", instead));
 }
 
+void require_own_file(std::filesystem::path const& path, std::string_view mark, std::string_view instead) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(path, ignored))) return;
+  constexpr std::size_t beginning = 4096;
+  std::string head(beginning, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head.find(mark) == std::string::npos) require_no_file(path, instead);
+}
+
 void give_name(std::filesystem::path const& temporary, std::filesystem::path const& path, Existing existing) {
   constexpr char another_name[] = "choose another name";
   if (existing == Existing::kept) {

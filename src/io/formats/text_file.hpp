@@ -28,6 +28,8 @@ void replace_text_file(std::filesystem::path const& path, std::string_view text,
 
 /// @throws FileProblem cannot_create where there is something of that name. @param instead  what the user may do then
 void require_no_file(std::filesystem::path const& path, std::string_view instead);
+/// The same, but a file that begins with our mark, within 4 KiB, may be there: it is to be replaced.
+void require_own_file(std::filesystem::path const& path, std::string_view mark, std::string_view instead);
 
 /// Whether a file of this name could be put there, without doing it: for work that takes long before it writes.
 /// @throws FileProblem cannot_create where the name is that of a folder, or nothing can be made beside it

@@ -13,11 +13,6 @@ namespace {
 constexpr double percent = 100, mega = 1e-6;
 constexpr char strain_axis[] = "axial strain ε₁ [%]";
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
-}
-
 /// A column of every run that has it against its axial strain.
 Plot plot_of(std::vector<RunResults> const& runs, std::string const& column, double factor, std::string axis) {
   Plot plot;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "io/report/markup.hpp"
 #include "io/report/plot.hpp"
@@ -27,10 +26,6 @@ std::string drawn(Picture const& wanted, std::size_t bytes) {
     double const shrink = std::sqrt(static_cast<double>(bytes) / static_cast<double>(png.size()));
     pixels = std::max(lowest, pixels * std::min(safety, shrink));
   }
-}
-
-double mean_diameter(Snapshot const& s) {
-  return 2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
 }
 
 std::string titled(std::string const& image, std::string const& text) {

@@ -21,8 +21,6 @@ struct Picture {
 /// As high as `bytes` of PNG allow, but no higher than is of use, and at most 1400 pixels. HTML.
 std::string drawn(Picture const& wanted, std::size_t bytes);
 
-double mean_diameter(Snapshot const& s);  ///< [m]
-
 /// "ε₁ = 3.38 %"
 std::string strain_text(Snapshot const& s);
 

@@ -17,11 +17,6 @@ constexpr char saturation_key[] = "hydrate.saturation";
 
 }  // namespace
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
-}
-
 std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<MemberResult> const& members,
                                           std::vector<std::filesystem::path> const& folders) {
   std::vector<GroupCurves> groups;

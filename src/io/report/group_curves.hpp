@@ -50,7 +50,6 @@ bool says_something(GroupCurves const& group, ShownBand const& what);
 Axis axis_of(ShownBand const& what, Range const& values);
 Area area_of(GroupCurves const& group, ShownBand const& what);
 Curve mean_of(GroupCurves const& group, ShownBand const& what);
-std::vector<double> scaled(std::vector<double> values, double factor);
 
 /// The means of groups with their bands in one figure; empty where there is nothing. HTML.
 /// @param more  further curves, such as points of a laboratory

@@ -7,13 +7,14 @@
 #include "io/report/colours.hpp"
 
 namespace clathra {
-namespace {
-
-using namespace map_colours;
 
 double mean_diameter(Snapshot const& s) {
   return 2 * std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.radius.size());
 }
+
+namespace {
+
+using namespace map_colours;
 
 ContactState state_of(Snapshot const& s, std::size_t pair) { return static_cast<ContactState>(s.state[pair]); }
 

@@ -7,6 +7,8 @@
 
 namespace clathra {
 
+double mean_diameter(Snapshot const& s);  ///< [m]
+
 /// A part of the plane [m] and how large it is drawn.
 struct MapView {
   double left = 0, bottom = 0, width = 0, height = 0;

@@ -43,6 +43,9 @@ std::string table(std::vector<std::string> const& head, std::vector<std::vector<
 /// Figures or pictures beside each other where there is room.
 std::string side_by_side(std::string const& contents);
 
+/// Stands in the head of each page.
+inline constexpr std::string_view page_mark = "<meta name=\"generator\" content=\"clathra\">";
+
 /// The whole page with its style.
 std::string page(std::string const& title, std::string const& body);
 

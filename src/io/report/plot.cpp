@@ -191,4 +191,9 @@ std::string svg(Plot const& plot) {
       plot.y.from, plot.y.to, left, top, width, height, drawn);
 }
 
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
 }  // namespace clathra

@@ -66,4 +66,7 @@ double tick_step(double from, double to, int count);
 /// The multiples of that step in a range.
 std::vector<double> ticks(double from, double to, int count);
 
+/// Values in another unit.
+std::vector<double> scaled(std::vector<double> values, double factor);
+
 }  // namespace clathra

@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::size_t largest_record = std::size_t{64} << 20;
 constexpr char finished[] = "finished";
 
 /// A text inside objects of a record, "" where it is not there.
@@ -39,7 +38,7 @@ Json record_of(fs::path const& run_folder) {
   std::error_code ignored;
   fs::path const file = run_folder / "run.json";
   if (!fs::exists(fs::symlink_status(file, ignored))) return {};
-  Json record = Json::parse(read_text_file(file, largest_record + 1), nullptr, false);
+  Json record = Json::parse(read_text_file(file, largest_run_record + 1), nullptr, false);
   if (!says_how_it_ended(record))
     throw FileProblem(
         ExitCode::bad_input, file,

@@ -53,7 +53,7 @@ Json numbers_of(std::vector<RunResults> const& runs) {
                        {"numbers", record_of(test_numbers(run.history.curves()))}});
   for (StrengthGroup const& group : strength_groups(runs))
     if (group.at_several_stresses()) strength.push_back(json_of(group, runs));
-  return {{"runs", std::move(of_runs)}, {"strength", std::move(strength)}};
+  return {{"format", "clathra numbers"}, {"runs", std::move(of_runs)}, {"strength", std::move(strength)}};
 }
 
 void write_numbers(std::vector<RunResults> const& runs, std::filesystem::path const& path) {

@@ -6,6 +6,7 @@
 #include "io/formats/digest.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/output_folder.hpp"
+#include "io/results/run_record.hpp"
 #include "io/results/snapshot_file.hpp"
 
 namespace clathra {
@@ -23,11 +24,10 @@ std::map<std::string, std::string> result_digests(fs::path const& run_folder) {
 }
 
 std::vector<FileCheck> check_run(fs::path const& run_folder) {
-  constexpr std::size_t largest_record = std::size_t{64} << 20;
   fs::path const record = run_folder / "run.json";
   std::map<std::string, std::string> expected;
   try {
-    nlohmann::json const json = nlohmann::json::parse(read_text_file(record, largest_record));
+    nlohmann::json const json = nlohmann::json::parse(read_text_file(record, largest_run_record));
     if (!json.contains("result_digests_xxh3_128")) {
       std::string const reason = json.at("exit").at("reason");
       throw FileProblem(ExitCode::bad_input, record,

@@ -35,6 +35,8 @@ struct RunRecord {
   std::string exit_reason;  ///< "running", "finished", or why it ended
 };
 
+inline constexpr std::size_t largest_run_record = std::size_t{64} << 20;  ///< bytes of a run.json that is read
+
 /// Puts run.json in place of an older one. @throws FileProblem
 void write_run_record(std::filesystem::path const& path, RunRecord const& record);
 

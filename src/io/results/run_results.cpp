@@ -167,7 +167,8 @@ std::string RunResults::bond_variant() const {
 
 RunResults read_run(std::filesystem::path const& folder) {
   std::error_code error;
-  if (!std::filesystem::is_directory(folder, error)) throw FileProblem(ExitCode::file_missing, folder, "is no folder of a run");
+  if (!std::filesystem::is_directory(folder, error))
+    throw FileProblem(ExitCode::file_missing, folder, "is not the folder of a run");
   return {folder_name(folder), folder, HistoryTable(folder / "history.csv"), read_record(folder / "run.json"),
           snapshot_files(folder)};
 }

@@ -30,17 +30,21 @@ double width_fraction(std::string_view text) {
 
 RollingLever parse_rolling_lever(std::string_view text) {
   text = trimmed(text);
-  if (text.starts_with('B') || text.ends_with('B')) {
-    double const fraction = width_fraction(text);
-    if (fraction >= least_width_fraction && fraction <= most_width_fraction) return {0, fraction};
-  } else {
-    if (text.find_first_not_of("0123456789+-.eE") == std::string_view::npos)
-      throw std::invalid_argument(fmt::format(
-          "needs a length (\"1 mm\") or a part of the bond width B (\"0.25 B\"), got a number without unit ({})", quoted(text)));
-    double const length = parse_quantity(text, Dimension::length);
-    if (length >= shortest_lever && length <= longest_lever) return {length, 0};
+  bool const has_width = text.starts_with('B') || text.ends_with('B');
+  RollingLever lever;
+  try {
+    if (!has_width && text.find_first_not_of("0123456789+-.eE") == std::string_view::npos) throw std::invalid_argument("no unit");
+    (has_width ? lever.width_fraction : lever.length) =
+        has_width ? width_fraction(text) : parse_quantity(text, Dimension::length);
+  } catch (std::invalid_argument const&) {
+    throw std::invalid_argument(
+        fmt::format("needs a length (\"1 mm\") or a part of the bond width B (\"0.25 B\", \"B/4\"), got {}{}", quoted(text),
+                    text.find(',') == text.npos ? "" : "; a number has a decimal point"));
   }
-  throw std::invalid_argument(fmt::format("must lie in {}, got {}", rolling_lever_limits(), quoted(text)));
+  bool const in_range = has_width ? lever.width_fraction >= least_width_fraction && lever.width_fraction <= most_width_fraction
+                                  : lever.length >= shortest_lever && lever.length <= longest_lever;
+  if (!in_range) throw std::invalid_argument(fmt::format("must lie in {}, got {}", rolling_lever_limits(), quoted(text)));
+  return lever;
 }
 
 std::string format_rolling_lever(RollingLever const& lever) {

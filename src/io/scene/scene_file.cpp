@@ -206,7 +206,11 @@ class SceneReader {
 
   void report_unknown(Place const& place, std::string const& section, std::string const& dotted, bool is_table) {
     std::string const leaf = section.empty() ? dotted : dotted.substr(section.size() + 1);
-    std::string const hint = is_table && section.empty() ? section_suggestion(dotted) : key_suggestion(dotted);
+    bool const of_a_study = section.empty() && (leaf == "scene" || leaf == "seeds" || leaf == "matrix" || leaf == "groups");
+    std::string const hint = of_a_study                    ? "; a file with it is a study: clathra study " + file_
+                             : is_table && section.empty() ? section_suggestion(dotted)
+                             : section.empty()             ? key_suggestion(dotted)
+                                                           : key_suggestion_in(section, leaf);
     if (is_table && section.empty())
       report(place, fmt::format("unknown section [{}]{}", leaf.substr(0, 60), hint));
     else if (section.empty())

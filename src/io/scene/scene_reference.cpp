@@ -74,7 +74,10 @@ Json key_json(Key const& key) {
                  {"maximum", key.most}};
   switch (key.kind) {
     case Kind::quantity:
-      json["anyOf"] = Json::array({number, text});
+      if (key.dimension == Dimension::temperature)
+        json.update(text);  // a bare one could be deg C or K
+      else
+        json["anyOf"] = Json::array({number, text});
       break;
     case Kind::quantities:
       json.update({{"type", "array"}, {"items", {{"anyOf", Json::array({number, text})}}}});

@@ -184,8 +184,8 @@ void set_from_text(Key const& key, Scene& scene, std::string_view text) {
 
 void set_from_number(Key const& key, Scene& scene, double value) {
   if (key.kind == Kind::integer) {
-    check_range(key, value, true);
     if (value != std::floor(value)) refuse("needs a whole number, got " + format_number(value));
+    check_range(key, value, true);
     return store_integer(key, scene, static_cast<std::int64_t>(value));
   }
   if (key.kind == Kind::quantities) return set_quantities(key, scene, {value}, true);

@@ -78,11 +78,11 @@ Key const table[] = {
   {"bond.law", choice, CLATHRA_CHOICE(bond, law), "bonds: none, of the thickness of the gap each one spans, or all of one thickness", ratio, 0, 0, {}, laws},
   {"bond.contact_coupling", choice, CLATHRA_CHOICE(bond, contact_coupling), "a bond replaces the grain contact, acts in parallel to it, or replaces it and keeps its force", ratio, 0, 0, {}, couplings},
   {"bond.grain_stiffness_factor", quantity, CLATHRA_FIELD(bond, grain_stiffness_factor), "normal stiffness of one grain (Eq. 16) over that of a contact: 2 for two grains in series, 1 as printed", ratio, 0.01, 100},
-  {"bond.rolling_lever", lever, CLATHRA_FIELD(bond, rolling_lever), "length L_r that Eq. 9b lacks: one of its own (\"1 mm\"), or a part of the bond width B (\"0.25 B\")"},
+  {"bond.rolling_lever", lever, CLATHRA_FIELD(bond, rolling_lever), "lever arm L_r of the rolling strength, which Eq. 9b lacks: a length (\"1 mm\") or a part of the bond width B (\"0.25 B\", \"B/4\")"},
   {"bond.thickness_mapping", choice, CLATHRA_CHOICE(bond, thickness_mapping), "rod thickness in Eqs. 10 and 11: the gap itself, the gap but at least 0.6 mm, or the gap times 12 mm over d50", ratio, 0, 0, {}, thickness_mappings},
   {"bond.friction_floor", boolean, CLATHRA_FIELD(bond, friction_floor), "a bonded contact is never weaker than an unbonded one: R_s >= mu F_n, R_r >= F_n B_c / 6"},
   {"bond.strength_from", choice, CLATHRA_CHOICE(bond, strength_from), "strength of hydrate: as printed in Eq. 15, or of temperature, pressure and density (Eq. 13)", ratio, 0, 0, {}, sources},
-  {"bond.critical_thickness_from", choice, CLATHRA_CHOICE(bond, critical_thickness_from), "largest gap that a bond spans: of the saturation (Eq. 3), as given, or such that bonds fill the saturation", ratio, 0, 0, {}, critical_thicknesses},
+  {"bond.critical_thickness_from", choice, CLATHRA_CHOICE(bond, critical_thickness_from), "largest gap that a bond spans: from the saturation (Eq. 3), from critical_thickness, or such that the bonds fill the saturation", ratio, 0, 0, {}, critical_thicknesses},
   {"bond.critical_thickness", quantity, CLATHRA_FIELD(bond, critical_thickness), "largest gap that a bond spans, where critical_thickness_from is \"given\"", length, 1e-9, 0.01, "bond.critical_thickness_from decides"},
   {"bond.constant_thickness", quantity, CLATHRA_FIELD(bond, constant_thickness), "thickness of all bonds where law is \"constant_thickness\"", length, 1e-9, 0.01, "half the critical thickness"},
   {"bond.after_consolidation", boolean, CLATHRA_FIELD(bond, after_consolidation), "hydrate forms under test.confining_stress, not under specimen.preparation_stress"},
@@ -98,16 +98,16 @@ Key const table[] = {
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5, "smooth", {}, true},
   {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of a consolidation; a specimen not at rest by then is refused", ratio, 0, 1e9, "none", {}, true},
 
-  {"run.preset", choice, CLATHRA_FIELD(run, preset), "trade of speed for accuracy; a key that is stated keeps its value (section Presets)", ratio, 0, 0, {}, run_presets().names},
+  {"run.preset", choice, CLATHRA_FIELD(run, preset), "trade-off between speed and accuracy; a key that is stated keeps its value (section Presets)", ratio, 0, 0, {}, run_presets().names},
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},
   {"run.threads", integer, CLATHRA_FIELD(run, threads), "threads; results do not depend on them", ratio, 1, 4096, "OMP_NUM_THREADS, or all cores"},
-  {"run.precision", choice, CLATHRA_CHOICE(run, precision), "numbers while consolidating and shearing: 64 bits, or 32 bits with sums and positions in 64 (docs/accuracy.md)", ratio, 0, 0, {}, precisions},
+  {"run.precision", choice, CLATHRA_CHOICE(run, precision), "floating point precision while consolidating and shearing; \"mixed\" has sums and positions in 64 bits (docs/accuracy.md)", ratio, 0, 0, {}, precisions},
   {"run.time_step_rule", choice, CLATHRA_CHOICE(run, time_step_rule), "time step: a share of the limit of stability, updated as that changes, or of one estimate at the start of a stage", ratio, 0, 0, {}, step_rules},
   {"run.time_step_safety", quantity, CLATHRA_FIELD(run, time_step_safety), "time step over that limit or estimate, while consolidating and shearing", ratio, 0.001, 1, "0.95 of the limit, 0.7 of the estimate"},
   {"run.rotational_inertia_factor", quantity, CLATHRA_FIELD(run, rotational_inertia_factor), "moments of inertia over their true values while consolidating and shearing; 1 is unscaled (docs/accuracy.md)", ratio, 1, 10},
   {"run.mass_scaled_fraction", quantity, CLATHRA_FIELD(run, mass_scaled_fraction), "fraction of the particles, the smallest, that get the mass of the smallest other one (docs/accuracy.md)", ratio, 0, 0.5, "none", {}, true},
   {"run.verlet_skin", quantity, CLATHRA_FIELD(run, verlet_skin), "distance beyond touching up to which neighbours are listed; changes rounding only", length, 1e-9, 1, "chosen"},
-  {"run.ignore_guards", boolean, CLATHRA_FIELD(run, ignore_guards), "go on where a guard refuses; run.json says which"},
+  {"run.ignore_guards", boolean, CLATHRA_FIELD(run, ignore_guards), "run although a guard refuses; run.json says which"},
 
   {"output.folder", text, CLATHRA_FIELD(output, folder), "folder of the results"},
   {"output.records", integer, CLATHRA_FIELD(output, records), "rows of history.csv over the whole strain", ratio, 1, 1e6},
@@ -179,34 +179,55 @@ Key const* find_key(std::string_view name) {
   return found == std::end(table) ? nullptr : found;
 }
 
-std::string name_suggestion(std::string_view name, std::span<std::string_view const> names) {
+namespace {
+
+/// The nearest of the names, or nothing.
+std::string_view nearest(std::string_view name, std::span<std::string_view const> names) {
   std::string_view best;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (std::string_view const candidate : names)
     if (name.size() <= longest_name)
-      if (std::size_t const distance = edit_distance(name, candidate); distance < least) {
-        least = distance;
-        best = candidate;
-      }
-  return best.empty() || !is_near(least, name) ? std::string() : hint(best);
+      if (std::size_t const distance = edit_distance(name, candidate); distance < least) least = distance, best = candidate;
+  return best.empty() || !is_near(least, name) ? std::string_view() : best;
 }
 
-std::string key_suggestion(std::string_view name) {
+/// The dotted key that was meant by "section.leaf" or "leaf"; nothing where none is near.
+std::string meant_key(std::string_view name) {
   auto const dot = name.find('.');
   std::string_view const section = name.substr(0, dot);
   std::string_view const leaf = dot == std::string_view::npos ? std::string_view{} : name.substr(dot + 1);
   for (Symbol const& symbol : symbols)
-    if (symbol.name == (leaf.empty() ? name : leaf)) return hint(symbol.key);
-  std::vector<std::string_view> leaves, elsewhere, whole;
+    if (symbol.name == (leaf.empty() ? name : leaf)) return std::string(symbol.key);
+  std::vector<std::string_view> leaves, whole;
+  std::string_view elsewhere;
   for (Key const& key : schema()) {
     if (key.section() == section) leaves.push_back(key.leaf());
-    if (key.leaf() == leaf || key.leaf() == name) elsewhere.push_back(key.name);
+    if (elsewhere.empty() && (key.leaf() == leaf || key.leaf() == name)) elsewhere = key.name;
     whole.push_back(key.name);
   }
   if (!leaf.empty())
-    if (std::string const near = name_suggestion(leaf, leaves); !near.empty()) return near;
-  if (!elsewhere.empty()) return hint(elsewhere.front());
-  return name_suggestion(name, whole);
+    if (std::string_view const near = nearest(leaf, leaves); !near.empty()) return std::string(section) + "." + std::string(near);
+  return std::string(elsewhere.empty() ? nearest(name, whole) : elsewhere);
+}
+
+}  // namespace
+
+std::string name_suggestion(std::string_view name, std::span<std::string_view const> names) {
+  std::string_view const best = nearest(name, names);
+  return best.empty() ? std::string() : hint(best);
+}
+
+std::string key_suggestion(std::string_view name) {
+  std::string const meant = meant_key(name);
+  return meant.empty() ? std::string() : hint(meant);
+}
+
+std::string key_suggestion_in(std::string_view section, std::string_view name) {
+  std::string const meant = meant_key(std::string(section) + "." + std::string(name));
+  if (meant.empty()) return {};
+  Key const& key = *find_key(meant);
+  if (key.section() == section) return hint(key.leaf());
+  return "; did you mean '" + std::string(key.leaf()) + "' in [" + std::string(key.section()) + "]?";
 }
 
 }  // namespace clathra

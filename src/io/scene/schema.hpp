@@ -52,6 +52,8 @@ Key const* find_key(std::string_view name);
 /// The nearest right name of a mistaken dotted key: "; did you mean 'time_step_safety'?" (with its section where that differs),
 /// or nothing.
 std::string key_suggestion(std::string_view name);
+/// The same for a key that stands below [section]: "did you mean 'friction'?", or "... 'confining_stress' in [test]?"
+std::string key_suggestion_in(std::string_view section, std::string_view name);
 
 /// The nearest of some names, "; did you mean 'parallel'?", or nothing where none is near.
 std::string name_suggestion(std::string_view name, std::span<std::string_view const> names);

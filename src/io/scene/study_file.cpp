@@ -27,6 +27,10 @@ constexpr std::pair<std::string_view, char const*> other_keys[] = {
     {"output.folder", "'folder' of the study names the folder of all members, or --output"},
     {"run.threads", "--threads gives the threads of a member"}};
 
+bool is_section(std::string_view name) {
+  return std::any_of(schema().begin(), schema().end(), [name](Key const& key) { return key.section() == name; });
+}
+
 /// A piece of a file's name: "26 %" -> "26pct".
 std::string slug(std::string_view text) {
   std::string name;
@@ -120,7 +124,9 @@ class StudyReader {
             node,
             fmt::format(
                 "unknown key '{}'{}; a study has scene, seeds, folder, precision_target, max_seeds, [matrix] and [groups.NAME]",
-                name.substr(0, 60), name_suggestion(name, names)));
+                name.substr(0, 60),
+                is_section(name) ? "; this is a section of a scene, which a study names: scene = \"my.toml\""
+                                 : name_suggestion(name, names)));
     }
     if (study_.scene.empty() && problems_.empty())
       problems_.push_back({file_, 0, 0, "'scene' is missing: the scene file that all members share"});

@@ -1,0 +1,68 @@
+#include "reproduce/outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "domain/scene/specimen_design.hpp"
+#include "io/formats/text_file.hpp"
+#include "io/report/paper_report.hpp"
+#include "io/results/paper_numbers.hpp"
+#include "io/results/scorecard.hpp"
+#include "machine/own_program.hpp"
+#include "terminal/print.hpp"
+#include "terminal/text.hpp"
+
+namespace clathra {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, std::string> facts_of(ReproductionOutcome const& outcome, StudyPlan const& plan) {
+  std::string settings, seeds;
+  for (std::string const& text : outcome.overrides) settings += (settings.empty() ? "" : "; ") + text;
+  for (std::uint64_t const seed : plan.study.seeds) seeds += fmt::format("{}{}", seeds.empty() ? "" : ", ", seed);
+  double cost = 0;
+  for (MemberResult const& member : plan.members) cost += member.wall_seconds;
+  return {{"particles", fmt::format("{}", outcome.size.discs)},
+          {"seeds", seeds},
+          {"settings", settings.empty() ? "the defaults" : settings},
+          {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
+          {"program", "clathra " + own_version()}};
+}
+
+}  // namespace
+
+ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, ProgressLine& line) {
+  std::vector<fs::path> folders;
+  for (StudyTask const& task : plan.runs) folders.push_back(task.result);
+  std::size_t const last = plan.study.groups.size() - 1;
+  Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front()).scene;
+  double const d50 = design_sample(scene).grading.d50();
+  Scorecard const card{"Jiang et al. (2017), claim by claim", facts_of(outcome, plan),
+                       paper_claims(outcome.design, numbers_of_members(plan.study, plan.members, folders), d50)};
+  fs::path const& out = plan.study.folder;
+  replace_text_file(out / "study.csv", study_csv(plan.study, plan.members));
+  replace_text_file(out / "scorecard.md", scorecard_markdown(card));
+  replace_text_file(out / "scorecard.json", scorecard_json(card));
+  auto const finished = std::count_if(plan.members.begin(), plan.members.end(),
+                                      [](MemberResult const& m) { return m.state == MemberState::finished; });
+  if (finished > 0)
+    write_paper_report({plan.study, plan.members, folders, outcome.design, card, scene, d50, outcome.data},
+                       out / "reproduce.html");
+  line.repeat_warnings();
+  std::string text = fmt::format("tests     {} of {} finished\n", finished, plan.members.size());
+  for (std::size_t i = 0; i < plan.members.size(); ++i)
+    if (plan.members[i].state == MemberState::failed)
+      text += "failed    " + plan.runs[i].name + ": " + plan.members[i].message + "\n";
+  for (Claim const& claim : card.claims)
+    text += fmt::format("{:>5}     {:<13} {}\n", "(" + claim.id + ")", name_of(claim.verdict()), claim.words);
+  text += fmt::format("claims    {}\nresults   {}\n", tally(card.claims), (out / "scorecard.md").string());
+  if (outcome.quick) text += "two small specimens decide little: most claims need the full reproduction, without --quick\n";
+  print_result(text);
+  bool const failed =
+      std::any_of(plan.members.begin(), plan.members.end(), [](MemberResult const& m) { return m.state == MemberState::failed; });
+  return failed ? ExitCode::member_failed : finished == std::ssize(plan.members) ? ExitCode::done : ExitCode::to_be_resumed;
+}
+
+}  // namespace clathra

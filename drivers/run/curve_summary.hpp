@@ -1,0 +1,41 @@
+#pragma once
+/// The numbers of a finished test that people compare: peak, residual, volume change, quality of the control.
+#include <string>
+#include <vector>
+
+#include "domain/measurement/history_row.hpp"
+#include "domain/measurement/test_numbers.hpp"
+#include "domain/scene/stage.hpp"
+
+namespace clathra {
+
+/// A line for the screen: the void ratio at the start of the test. @param prepare  BiaxialTest::preparation()
+std::string start_text(StageRecord const& prepare, double confining_stress);
+
+/// Collects them from the records of a test as they come.
+class CurveSummary {
+ public:
+  void add(HistoryRow const& row);
+  void add(EnergyRow const& row) { energy_ = row, has_energy_ = true; }
+
+  int records() const { return count_; }
+  /// Those of record_of(), the bonds broken by mode; energy_residual (part of the boundary work) where there is a ledger.
+  StageRecord numbers() const;
+  /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work).
+  std::vector<std::string> warnings() const;
+  /// A few lines for the screen. @param sigma3_held  part of the checks with sigma3 within 1 %
+  std::string text(double sigma3_held) const;
+
+ private:
+  double energy_residual() const { return energy_.boundary_work != 0 ? energy_.residual / energy_.boundary_work : 0; }
+
+  TestNumbers test() const { return test_numbers({eps1_, eps_v_, q_, sigma3_, intact_, largest_q_, largest_q_eps1_, dilation_}); }
+
+  std::vector<double> eps1_, eps_v_, q_, sigma3_, intact_, largest_q_, largest_q_eps1_, dilation_;  // of all records
+  HistoryRow last_;
+  EnergyRow energy_;
+  bool has_energy_ = false;
+  int count_ = 0;  // records
+};
+
+}  // namespace clathra

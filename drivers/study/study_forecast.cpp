@@ -1,0 +1,75 @@
+#include "study/study_forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "machine/available_memory.hpp"
+#include "machine/machine_speed.hpp"
+#include "run/forecast.hpp"
+#include "terminal/progress_line.hpp"
+#include "terminal/text.hpp"
+
+namespace clathra {
+int parallel_in_memory(StudyPlan const& plan) {
+  double const most = largest_memory(plan);
+  return most > 0 ? std::max(1, static_cast<int>(std::min(4096.0, usable_memory * available_memory() / most))) : 1;
+}
+
+StudyForecast study_forecast(StudyPlan const& plan, int parallel, int threads) {
+  double runs = 0, specimens = 0;
+  StudyForecast forecast{parallel, threads};
+  for (StudyTask const& task : plan.runs) runs += task.disc_steps, forecast.disk_bytes += task.disk;
+  for (StudyTask const& task : plan.specimens) specimens += task.disc_steps;
+  Scene scene = member_scene(plan.study, plan.study.groups.back(), plan.study.seeds.front()).scene;
+  scene.run.threads = threads;
+  MachineSpeed const speed = machine_speed(scene, 1, true);
+  forecast.disc_steps_per_second = speed.disc_steps_per_second * parallel;
+  forecast.speed_origin = speed.origin;
+  forecast.generation_seconds = specimens / (generation_speedup * forecast.disc_steps_per_second);
+  forecast.shear_seconds = runs / forecast.disc_steps_per_second;
+  forecast.memory_bytes = largest_memory(plan) * parallel;
+  return forecast;
+}
+
+std::string study_forecast_text(StudyPlan const& plan, StudyForecast const& forecast) {
+  std::string text = fmt::format("{}: {} groups of {} seed{}\n", plan.study.file.string(), plan.study.groups.size(),
+                                 plan.study.seeds.size(), plan.study.seeds.size() == 1 ? "" : "s");
+  text += table_row("members", fmt::format("{}, {} at a time with {} thread{} each", plan.runs.size(), forecast.parallel,
+                                           forecast.threads, forecast.threads == 1 ? "" : "s"));
+  text += table_row("specimens", sharing_text(plan));
+  text += table_row("generation", duration_text(forecast.generation_seconds));
+  text += table_row("shear", fmt::format("{} at {} disc-steps/s ({})", duration_text(forecast.shear_seconds),
+                                         short_count(forecast.disc_steps_per_second), forecast.speed_origin));
+  text += table_row("memory", fmt::format("{:.3g} GB", forecast.memory_bytes * 1e-9));
+  text += table_row("disk", fmt::format("{:.3g} GB", forecast.disk_bytes * 1e-9));
+  if (plan.study.precision_target)
+    text += table_row("target",
+                      fmt::format("{} is known to {:.3g} % of its mean, at most {} seeds", plan.study.precision_target->number,
+                                  plan.study.precision_target->width * 100, plan.study.max_seeds));
+  return text;
+}
+
+nlohmann::ordered_json study_forecast_json(StudyPlan const& plan, StudyForecast const& forecast) {
+  nlohmann::ordered_json members = nlohmann::json::array();
+  for (StudyTask const& task : plan.runs)
+    members.push_back({{"name", task.name},
+                       {"disc_steps", task.disc_steps},
+                       {"memory_bytes", task.memory},
+                       {"disk_bytes", task.disk},
+                       {"refusals", task.refusals}});
+  return {{"study", plan.study.file.string()},
+          {"groups", plan.study.groups.size()},
+          {"seeds", plan.study.seeds.size()},
+          {"specimens", plan.specimens.size()},
+          {"parallel", forecast.parallel},
+          {"threads", forecast.threads},
+          {"disc_steps_per_second", forecast.disc_steps_per_second},
+          {"generation_seconds", forecast.generation_seconds},
+          {"shear_seconds", forecast.shear_seconds},
+          {"memory_bytes", forecast.memory_bytes},
+          {"disk_bytes", forecast.disk_bytes},
+          {"members", std::move(members)}};
+}
+
+}  // namespace clathra

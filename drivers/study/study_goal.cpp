@@ -1,0 +1,123 @@
+#include "study/study_goal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "domain/measurement/test_numbers.hpp"
+#include "io/scene/schema.hpp"
+#include "kernels/break_mode.hpp"
+
+namespace clathra {
+namespace {
+
+/// The seeds that a group has, in the order in which they came.
+std::vector<std::uint64_t> seeds_of(StudyPlan const& plan, std::size_t group) {
+  std::vector<std::uint64_t> seeds;
+  for (MemberResult const& member : plan.members)
+    if (member.group == group) seeds.push_back(member.seed);
+  return seeds;
+}
+
+std::string interval_text(GroupNumbers const& group, char const* name, char const* words, char const* unit, double factor) {
+  auto const found = group.values.find(name);
+  if (found == group.values.end()) return {};
+  MeanInterval const m = mean_interval(found->second);
+  std::string text = fmt::format("{} {:.4g}", words, m.mean * factor);
+  if (m.half_width) text += fmt::format(" ± {:.2g}", *m.half_width * factor);
+  text += std::string(" ") + unit;
+  if (found->second.size() != group.seeds.size()) text += fmt::format(" (of {})", found->second.size());
+  return text;
+}
+
+std::string line_of(GroupNumbers const& group, std::vector<std::string> const& parts) {
+  std::string text;
+  for (std::string const& part : parts)
+    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
+  return fmt::format("{:<9} {} ({} seed{})\n", "", group.name + ": " + text, group.seeds.size(),
+                     group.seeds.size() == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::vector<std::string> known_numbers() {
+  TestNumbers every;
+  every.secant_modulus = every.dilation_angle = 0;
+  std::vector<std::string> names;
+  for (auto const& entry : record_of(every)) names.push_back(entry.first);
+  for (BreakModeNames const& mode : break_modes) names.emplace_back(mode.broken);
+  return names;
+}
+
+void require_known_number(StudyGoal const& goal) {
+  std::vector<std::string> names = known_numbers();
+  for (char const* const state : {"peak", "residual"})
+    for (char const* const number : {"_cohesion_Pa", "_friction_angle_deg"}) names.push_back(std::string(state) + number);
+  if (std::find(names.begin(), names.end(), goal.number) != names.end()) return;
+  std::vector<std::string_view> const views(names.begin(), names.end());
+  std::string all;
+  for (std::string const& name : names) all += (all.empty() ? "" : ", ") + name;
+  throw SceneProblems({{"--precision-target", 0, 0,
+                        fmt::format("no member has a number '{}'{}; there are {}", goal.number.substr(0, 60),
+                                    name_suggestion(goal.number, views), all)}});
+}
+
+std::map<std::string, GoalSearch::Searched> GoalSearch::collect(StudyPlan const& plan) const {
+  std::map<std::string, Searched> found;
+  bool const of_envelope = goal_->number.ends_with("_cohesion_Pa") || goal_->number.ends_with("_friction_angle_deg");
+  for (std::size_t g = 0; g < plan.study.groups.size(); ++g) {
+    StudyGroup const& group = plan.study.groups[g];
+    Searched& searched =
+        found.try_emplace(of_envelope ? group.material : group.name, Searched{{}, SequentialMean(goal_->width), {}})
+            .first->second;
+    searched.groups.push_back(g);
+  }
+  for (GroupNumbers const& numbers :
+       of_envelope ? envelopes_by_material(plan.study, plan.members) : numbers_by_group(plan.study, plan.members))
+    if (auto const values = numbers.values.find(goal_->number); values != numbers.values.end())
+      found.at(numbers.name).values = values->second;
+  return found;
+}
+
+bool GoalSearch::add_members(StudyPlan& plan, ProgressLine& line) {
+  if (!goal_) return false;
+  bool added = false;
+  for (auto const& [name, searched] : collect(plan)) {
+    SequentialMean& search = searches_.try_emplace(name, goal_->width).first->second;
+    if (search.done()) continue;
+    if (searched.values.empty()) {
+      line.warn(fmt::format("{}: no seed gave {}", name, goal_->number));
+      continue;
+    }
+    search.look(searched.values);
+    if (search.done()) continue;
+    std::vector<std::uint64_t> const seeds = seeds_of(plan, searched.groups.front());
+    auto const count = static_cast<int>(seeds.size()),
+               more = std::min(search.wanted() - static_cast<int>(searched.values.size()), max_seeds_ - count);
+    if (more <= 0) {
+      MeanInterval const now = mean_interval(searched.values);
+      line.warn(fmt::format("{}: {} is known to {:.2g} % with {} seeds, not to {:.2g} %", name, goal_->number,
+                            100 * now.half_width.value_or(0) / std::abs(now.mean), count, 100 * goal_->width));
+      continue;
+    }
+    std::uint64_t const last = *std::max_element(seeds.begin(), seeds.end());
+    for (std::size_t const group : searched.groups)
+      for (int i = 1; i <= more; ++i) add_member(plan, group, last + static_cast<std::uint64_t>(i));
+    added = true;
+  }
+  return added;
+}
+
+std::string statistics_text(StudyPlan const& plan) {
+  std::string text;
+  for (GroupNumbers const& group : numbers_by_group(plan.study, plan.members))
+    text += line_of(group, {interval_text(group, "peak_q_Pa", "peak q", "MPa", 1e-6),
+                            interval_text(group, "residual_q_Pa", "residual q", "MPa", 1e-6)});
+  for (GroupNumbers const& material : envelopes_by_material(plan.study, plan.members))
+    text += line_of(material, {interval_text(material, "peak_cohesion_Pa", "c", "MPa", 1e-6),
+                               interval_text(material, "peak_friction_angle_deg", "φ", "°", 1)});
+  return text.empty() ? text : "mean" + text.substr(4);
+}
+
+}  // namespace clathra

@@ -1,0 +1,29 @@
+#include "terminal/text.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace clathra {
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0) return "?";
+  if (seconds >= 365.25 * 86400) return fmt::format("{:.3g} years", seconds / (365.25 * 86400));
+  if (seconds >= 3 * 86400) return fmt::format("{:.3g} days", seconds / 86400);
+  auto const whole = static_cast<long long>(std::llround(seconds));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+}
+
+std::string short_count(double value) {
+  for (auto const& [scale, prefix] : {std::pair{1e12, "T"}, {1e9, "G"}, {1e6, "M"}, {1e3, "k"}})
+    if (std::fabs(value) >= scale) return fmt::format("{:.3g} {}", value / scale, prefix);
+  return fmt::format("{:.3g}", value);
+}
+
+std::string table_row(std::string const& name, std::string const& value) { return fmt::format("  {:<18} {}\n", name, value); }
+
+double clock_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+}  // namespace clathra
