@@ -104,7 +104,7 @@ std::string shortened(std::string command) {
   };
   if (command.starts_with("clathra run ") || command.starts_with("clathra generate ") || command.starts_with("clathra tune "))
     command += " --set specimen.particles=200 --set specimen.compaction_layers=2";
-  if (command.starts_with("clathra run ")) command += " --overwrite --set test.axial_strain=\"0.5 %\"";
+  if (command.starts_with("clathra run ")) command += " --overwrite --set test.axial_strain=\"1.5 %\"";
   if (command.starts_with("clathra run ") && command.find("specimen.file=") != command.npos)
     command += " --output out/read --set specimen.particles= --set specimen.compaction_layers=";
   if (command.starts_with("clathra tune ")) replace("\"10 min\"", "1s");

@@ -63,7 +63,8 @@ TEST_F(ReportStrength, GivesItsNumbersToOtherPrograms) {
     folders += made("s" + std::to_string(static_cast<int>(sigma3 / 1e6)), test).string() + " ";
   }
   std::string const file = (folder / "numbers.json").string(), html = (folder / "page.html").string();
-  EXPECT_EQ(run_clathra("report " + folders + " --numbers " + file + " -o " + html).output, file + "\n" + html + "\n");
+  EXPECT_EQ(run_clathra("report " + folders + " --numbers " + file + " -o " + html).output,
+            file + " is written\n" + html + " is written\n");
   auto const json = nlohmann::json::parse(content_of(file));
   ASSERT_EQ(json["runs"].size(), 3u);
   EXPECT_EQ(json["runs"][1]["name"], "s2");

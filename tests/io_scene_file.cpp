@@ -98,7 +98,7 @@ TEST(SceneFile, ReportsAllProblemsAtOnceInTheOrderOfTheFile) {
 }
 
 TEST(SceneFile, SuggestsTheNearestNameWhereverItIs) {
-  expect_problem(sized + "friction = 0.5\n", "unknown key 'friction' in [specimen]; did you mean 'grains.friction'?");
+  expect_problem(sized + "friction = 0.5\n", "unknown key 'friction' in [specimen]; did you mean 'friction' in [grains]?");
   expect_problem("particles = 2000\n", "unknown key 'particles' outside any section; did you mean 'specimen.particles'?");
   expect_problem(sized + "[bond]\ncontact_coupling = \"paralel\"\n",
                  "must be one of 'replaces', 'parallel', 'replaces_keeping_force', got 'paralel'; did you mean 'parallel'?");
@@ -229,7 +229,7 @@ TEST(SceneFile, OverridesWinOverTheFile) {
   EXPECT_EQ(scene.output.folder, "out/a b");
   EXPECT_NE(
       problems_of(sized, {"run.time_step_saftey=1"})
-          .find("--set run.time_step_saftey=1: error: unknown key 'run.time_step_saftey'; did you mean 'time_step_safety'?"),
+          .find("--set run.time_step_saftey=1: error: unknown key 'run.time_step_saftey'; did you mean 'run.time_step_safety'?"),
       std::string::npos);
 }
 

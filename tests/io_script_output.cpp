@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "terminal/status.hpp"
 
 namespace clathra {
 namespace {
@@ -122,7 +123,7 @@ TEST_F(ScriptOutput, OfADryRunIsJson) {
 
 TEST_F(ScriptOutput, ExportsTablesAndASeries) {
   ASSERT_EQ(run_clathra("export --to spreadsheet '" + out() + "'").code, 0);
-  std::ifstream table(out() + "/export/history.csv");
+  std::ifstream table(out() + "/export/history-spreadsheet.csv");
   std::string heading;
   std::getline(table, heading);
   EXPECT_NE(heading.find(",eps1_pct,eps_v_pct,sigma1_kPa,"), std::string::npos) << heading;
@@ -131,6 +132,38 @@ TEST_F(ScriptOutput, ExportsTablesAndASeries) {
   std::string const series((std::istreambuf_iterator<char>(std::ifstream(out() + "/export/particles.pvd").rdbuf())), {});
   EXPECT_NE(series.find("<DataSet timestep=\"0\" file=\"particles_000000000000.vtu\"/>"), std::string::npos) << series;
   EXPECT_TRUE(fs::exists(out() + "/export/contacts.pvd"));
+}
+
+/// What is there and not a page or a table of ours stays.
+TEST_F(ScriptOutput, NoReportTakesThePlaceOfAnotherFile) {
+  ASSERT_EQ(run_clathra("report '" + out() + "'").code, 0) << "its own page is made again";
+  for (std::string const& option : {std::string("-o "), std::string("--numbers ")})
+    for (std::string const& file : {scene(), out() + "/run.json", out() + "/history.csv"}) {
+      CommandResult const refused = run_clathra("report '" + out() + "' " + option + "'" + file + "'");
+      EXPECT_EQ(refused.code, 73) << refused.output;
+      EXPECT_TRUE(says(refused, "exists already and is left as it is; name another file"));
+    }
+  std::string const numbers = "report '" + out() + "' --numbers '" + (folder() / "n.json").string() + "'";
+  for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(run_clathra(numbers).code, 0);
+  EXPECT_EQ(run_clathra("verify '" + out() + "'").code, 0);
+}
+
+TEST_F(ScriptOutput, OfAStudyTellsHowFarMembersAreAndWhyTheyFailed) {
+  fs::path const file = folder() / "told.status";
+  CommandResult const run = run_clathra("run --quiet --status '" + file.string() + "' '" + scene() + "' --output '" +
+                                        (folder() / "told").string() + "'");
+  EXPECT_EQ(run.code, 0) << run.output;
+  RunStatus const done = read_status(file);
+  EXPECT_EQ(done.stage, "shear");
+  EXPECT_GT(done.fraction, 0.97);
+  EXPECT_EQ(done.failed, "");
+  EXPECT_EQ(run_clathra("run --status '" + file.string() + "' '" + scene() + "' --set specimen.void_ratio=0.1 --output '" +
+                        (folder() / "loose").string() + "'")
+                .code,
+            77);
+  EXPECT_NE(read_status(file).failed.find("looser than the 0.1 that was asked for"), std::string::npos)
+      << read_status(file).failed;
+  EXPECT_EQ(read_status(folder() / "nowhere").fraction, 0);
 }
 
 TEST(ExitCodes, OfTooLittleMemoryIs71) {

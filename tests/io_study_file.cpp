@@ -90,7 +90,7 @@ TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
                                        "\"test.axial_strain\" = { from = \"1 %\", to = 0.2, count = 3 }\n");
   for (char const* const part :
        {":2:9: error: unknown key 'sedes'; did you mean 'seeds'?; a study has", ":3:13: error: seed 1 is there twice",
-        "error: unknown key 'test.confinig_stress' of a scene; did you mean 'confining_stress'?",
+        "error: unknown key 'test.confinig_stress' of a scene; did you mean 'test.confining_stress'?",
         ":6:25: error: 'hydrate.saturation' needs a",
         ":7:14: error: 'run.seed' cannot be varied here: 'seeds' of the study gives the seeds",
         "needs two numbers in the same unit, got '1 %' and '0.2'"})

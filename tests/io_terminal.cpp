@@ -64,7 +64,7 @@ TEST_F(Terminal, GetsNoControlCharacterOfASceneOrAName) {
   expect_escaped("check \"$(printf 'no\\033[31mfile\\n.toml')\"", "no\\x1b[31mfile\\x0a.toml: cannot be opened", 66);
   expect_escaped("check " + scene(right, "red\033[31m.toml"), "red\\x1b[31m.toml: valid", 0);
   expect_escaped("check a.toml \"$(printf -- '--\\033[31mred')\"", "\\x1b[31mred", 64);
-  expect_escaped("\"$(printf 'ch\\033[31meck')\"", "no verb 'ch\\x1b[31meck'", 64);
+  expect_escaped("\"$(printf 'ch\\033[31meck')\"", "no command 'ch\\x1b[31meck'", 64);
 }
 
 TEST_F(Terminal, GetsNoControlCharacterOfARecord) {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <span>
 
-#include "kernels/break_mode.hpp"
-
 namespace clathra {
 namespace {
 

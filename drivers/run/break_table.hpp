@@ -7,6 +7,7 @@
 
 #include "io/results/events.hpp"
 #include "io/results/run_results.hpp"
+#include "kernels/break_mode.hpp"
 
 namespace clathra {
 

@@ -183,10 +183,13 @@ void add_parts(CLI::App& verb, StudyOptions& options) {
                           ->type_name("FILE")
                           ->check(CLI::Validator(name_problem, ""));
   // For the jobs of an array (--slurm): one member, or one specimen, counted from 1.
-  auto* const member =
-      verb.add_option("--member", options.member)->check(CLI::Range(1, static_cast<int>(most_members)))->group("");
-  auto* const specimen =
-      verb.add_option("--specimen", options.specimen)->check(CLI::Range(1, static_cast<int>(most_members)))->group("");
+  auto const from_1 = [](std::string const& text) {
+    int number = 0;
+    bool const is_one = CLI::detail::lexical_cast(text, number) && number >= 1 && number <= static_cast<int>(most_members);
+    return is_one ? std::string() : fmt::format("--member and --specimen count from 1 to {}, got {}", most_members, text);
+  };
+  auto* const member = verb.add_option("--member", options.member)->check(from_1)->group("");
+  auto* const specimen = verb.add_option("--specimen", options.specimen)->check(from_1)->group("");
   auto* const collected = verb.add_flag("--collect", options.collect, "only write study.csv and the page of what there is");
   for (auto* const one : {dry, slurm, member, specimen, collected})
     for (auto* const other : {dry, slurm, member, specimen, collected})

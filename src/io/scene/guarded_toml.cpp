@@ -30,8 +30,7 @@ std::string syntax_text(std::string_view description, std::string_view line) {
       (std::isalpha(static_cast<unsigned char>(from_number[after])) || from_number[after] == '%'))
     return fmt::format("a number with its unit goes in quotes: \"{}\"", from_number.substr(0, 40));
   if (number && after != from_number.npos && from_number[after] == ',')
-    return "a number has a decimal point: " +
-           in_ascii(std::string(from_number.substr(0, after)) + "." + std::string(from_number.substr(after + 1, 20)));
+    return fmt::format("a number has a decimal point: {}.{}", from_number.substr(0, after), from_number.substr(after + 1, 20));
   return "cannot be understood: " + std::string(description);
 }
 

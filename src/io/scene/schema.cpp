@@ -174,6 +174,10 @@ constexpr std::size_t longest_name = 60;  // a longer one resembles no key
 
 std::span<Key const> schema() { return table; }
 
+bool is_section(std::string_view name) {
+  return std::any_of(std::begin(table), std::end(table), [&](Key const& key) { return key.section() == name; });
+}
+
 Key const* find_key(std::string_view name) {
   auto const found = std::find_if(std::begin(table), std::end(table), [&](Key const& key) { return key.name == name; });
   return found == std::end(table) ? nullptr : found;

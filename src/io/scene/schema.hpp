@@ -49,6 +49,9 @@ std::span<Key const> schema();
 /// The key of a dotted name, or nullptr.
 Key const* find_key(std::string_view name);
 
+/// Whether a name is that of a section.
+bool is_section(std::string_view name);
+
 /// The nearest right name of a mistaken dotted key: "; did you mean 'time_step_safety'?" (with its section where that differs),
 /// or nothing.
 std::string key_suggestion(std::string_view name);

@@ -27,10 +27,6 @@ constexpr std::pair<std::string_view, char const*> other_keys[] = {
     {"output.folder", "'folder' of the study names the folder of all members, or --output"},
     {"run.threads", "--threads gives the threads of a member"}};
 
-bool is_section(std::string_view name) {
-  return std::any_of(schema().begin(), schema().end(), [name](Key const& key) { return key.section() == name; });
-}
-
 /// A piece of a file's name: "26 %" -> "26pct".
 std::string slug(std::string_view text) {
   std::string name;
