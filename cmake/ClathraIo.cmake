@@ -33,7 +33,7 @@ set(clathra_measurement_sources "fabric|principal_axes|strain_field|grain_strain
 if(Eigen3_FOUND AND Boost_FOUND)
   set(CLATHRA_MEASUREMENT ON)
   add_library(clathra_measurement_libraries INTERFACE)
-  target_link_libraries(clathra_measurement_libraries INTERFACE $<BUILD_INTERFACE:Eigen3::Eigen> $<BUILD_INTERFACE:Boost::headers>)
+  target_link_libraries(clathra_measurement_libraries INTERFACE Eigen3::Eigen Boost::headers)
   target_compile_definitions(clathra_measurement_libraries INTERFACE EIGEN_DONT_VECTORIZE)
   if(CLATHRA_DEVICE STREQUAL "CUDA") # measured on the host only
     target_compile_definitions(clathra_measurement_libraries INTERFACE EIGEN_NO_CUDA)

@@ -1,5 +1,5 @@
 # The .deb of the program: `cpack` in the build folder, or scripts/package. It holds the component `program` of
-# ClathraInstall.cmake; libraries and headers stay out, as they need the very Kokkos that they were built with.
+# ClathraInstall.cmake.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clathra)
 set(CPACK_PACKAGE_VENDOR "The Clathra developers")

@@ -166,6 +166,26 @@ TEST_F(ScriptOutput, OfAStudyTellsHowFarMembersAreAndWhyTheyFailed) {
   EXPECT_EQ(read_status(folder() / "nowhere").fraction, 0);
 }
 
+TEST_F(ScriptOutput, OfAStudyIsNotThatOfARun) {
+  fs::path const study = folder() / "a_study";
+  fs::create_directories(study);
+  std::ofstream(study / "study.csv") << "row\n";
+  for (std::string const verb : {"events", "info", "verify", "report"}) {
+    CommandResult const result = run_clathra(verb + " '" + study.string() + "'");
+    EXPECT_EQ(result.code, 66) << verb << result.output;
+    EXPECT_TRUE(says(result, "is the folder of a study: name a run among its members")) << verb;
+    EXPECT_EQ(run_clathra(verb + " '" + (folder() / "none").string() + "'").code, 66) << verb;
+  }
+}
+
+TEST_F(ScriptOutput, WarnsOfADiskThatIsTooSmall) {
+  CommandResult const check =
+      run_clathra("check '" + scene() + "' --set specimen.particles=20000000 --set output.records=100000 " +
+                  "--set output.snapshots=100000 --set output.lossless_snapshots=true --ignore-guards");
+  EXPECT_TRUE(says(check, " of disk, "));
+  EXPECT_EQ(run_clathra("check '" + scene() + "'").output.find(" of disk, "), std::string::npos);
+}
+
 TEST(ExitCodes, OfTooLittleMemoryIs71) {
   fs::path const scene = fs::temp_directory_path() / ("clathra_memory_" + std::to_string(::getpid()) + ".toml");
   std::ofstream(scene) << "[specimen]\nparticles = 1000000000\n";

@@ -1,6 +1,9 @@
 """The package clathra of share/python, with a real run and a real study: python_package_test.py CLATHRA PROJECT FOLDER"""
 import os
+import pathlib
+import re
 import shutil
+import subprocess
 import sys
 import unittest
 
@@ -113,6 +116,22 @@ class Package(unittest.TestCase):
         text = clathra.program._toml(scene)
         for line in ('"particles" = 20', '"void_ratio" = 0.25', '"energy" = true', '"snapshots_at" = [0.01, 0.02]', '"saturation" = 0.5'):
             self.assertIn(line + "\n", text)
+
+    def test_check_gives_the_verdict_and_all_problems(self):
+        valid = clathra.check({"specimen": {"particles": 300}}, set=["test.axial_strain=1 %"])
+        self.assertEqual(valid["verdict"], "valid")
+        self.assertAlmostEqual(valid["forecast"]["particles"], 300, delta=1)
+        wrong = clathra.check({"specimen": {"particles": 300}, "grains": {"friktion": 0.4}, "test": {"axial_strain": 15}})
+        self.assertEqual((wrong["verdict"], len(wrong["problems"])), ("invalid", 2))
+        self.assertIn("did you mean 'friction'?", wrong["problems"][0]["text"])
+        with self.assertRaises(clathra.ClathraError) as caught:
+            clathra.check("nowhere.toml")
+        self.assertEqual(caught.exception.code, 66)
+
+    def test_the_package_has_the_version_of_the_program(self):
+        package = (pathlib.Path(clathra.__file__).parent.parent / "pyproject.toml").read_text()
+        program = subprocess.run([clathra.program.program(), "--version"], capture_output=True, text=True).stdout
+        self.assertIn(f'clathra {re.search(r"version = .(.+).$", package, re.M).group(1)} ', program)
 
     def test_runs_of_a_group_that_failed_are_none(self):
         with self.assertRaises(clathra.ClathraError) as caught:

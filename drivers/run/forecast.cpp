@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/parallel/ranks.hpp"
@@ -21,6 +22,7 @@ namespace {
 constexpr double paper_rate = 0.05 / 60;  // "5 %/min" [1/s]
 
 std::string bytes_text(double bytes) {
+  if (bytes >= 1e12) return fmt::format("{:.3g} TB", bytes * 1e-12);
   return bytes < 1e9 ? fmt::format("{:.3g} MB", bytes * 1e-6) : fmt::format("{:.3g} GB", bytes * 1e-9);
 }
 
@@ -44,6 +46,17 @@ double generation_seconds(StageRecord const& n, MachineSpeed const& speed) {
   return n.at("generation_disc_steps") / (generation_speedup * speed.disc_steps_per_second);
 }
 
+/// Of the file system that the results would go to, or nothing where it cannot be asked.
+std::string disk_warning(Scene const& scene, StageRecord const& numbers) {
+  std::filesystem::path folder = std::filesystem::absolute(scene.output.folder);
+  std::error_code error;
+  while (folder.has_relative_path() && !std::filesystem::exists(folder, error)) folder = folder.parent_path();
+  std::filesystem::space_info const space = std::filesystem::space(folder, error);
+  double const needed = numbers.at("disk_bytes"), free = static_cast<double>(space.available);
+  if (error || needed <= free) return {};
+  return fmt::format("its results take about {} of disk, {} are free", bytes_text(needed), bytes_text(free));
+}
+
 }  // namespace
 
 Forecast forecast(Scene const& scene, SpecimenDesign const& design, int ranks) {
@@ -52,6 +65,7 @@ Forecast forecast(Scene const& scene, SpecimenDesign const& design, int ranks) {
   RateNumbers const rate = rate_of(result.numbers);
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
+  if (std::string const warning = disk_warning(scene, result.numbers); !warning.empty()) result.warnings.push_back(warning);
   if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty())
     result.refusals.push_back(refusal), result.out_of_memory = true;
   if (!scene.specimen.is_read()) return result;

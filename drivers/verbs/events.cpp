@@ -45,6 +45,7 @@ std::vector<std::string> mode_names() {
 }
 
 ExitCode show_events(EventsOptions const& options) {
+  require_run_folder(options.folder);
   HistoryTable const history(options.folder / "history.csv");
   BreakTable const table = chosen_breaks(options.folder, history, {options.mode, options.first(), options.last()});
   if (options.csv) return print_result(csv_text(table));

@@ -9,6 +9,7 @@
 #include "io/results/checkpoint.hpp"
 #include "io/results/export.hpp"
 #include "io/results/run_record.hpp"
+#include "io/results/run_results.hpp"
 #include "io/results/snapshot_file.hpp"
 #include "io/results/specimen_check.hpp"
 #include "io/results/specimen_file.hpp"
@@ -44,6 +45,7 @@ ExitCode info(InfoOptions const& options) {
   std::filesystem::path const file = options.file;
   if (options.cost) return print_result(needs_text(load_scene(file).scene));
   std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) require_run_folder(file);
   if (std::filesystem::is_directory(file, ignored)) return info_of_run(file / "run.json", options);
   if (file.extension() == ".json") return info_of_run(file, options);
   if (is_snapshot(file)) {

@@ -28,12 +28,23 @@ std::string_view opening_comment(std::string_view text) {
   return text.substr(0, end);
 }
 
+/// Of lines that begin with '#', with its full stop.
+std::string first_sentence(std::string_view comment) {
+  std::string text;
+  for (std::size_t k = 0; k < comment.size(); ++k) {
+    if (comment[k] != '#') text += comment[k] == '\n' ? ' ' : comment[k];
+    if (text.starts_with(' ')) text.erase(0, 1);
+    if (text.ends_with("  ")) text.pop_back();
+    bool const abbreviates = text.ends_with("al. ") || text.ends_with("Eq. ");
+    if (text.ends_with(". ") && !abbreviates) break;
+  }
+  return text;
+}
+
 std::string listing() {
   std::string text;
   for (Example const& example : examples()) {
-    std::string_view const comment = opening_comment(example.text);
-    std::string_view const first = comment.substr(std::min<std::size_t>(2, comment.size()), comment.find('\n') - 2);
-    text += fmt::format("{:<24} {}\n", example.name, first);
+    text += fmt::format("{:<24} {}\n", example.name, first_sentence(opening_comment(example.text)));
   }
   return text;
 }

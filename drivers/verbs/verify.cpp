@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "io/results/run_check.hpp"
+#include "io/results/run_results.hpp"
 #include "terminal/json_text.hpp"
 #include "terminal/print.hpp"
 #include "verbs/verbs.hpp"
@@ -19,6 +20,7 @@ struct VerifyOptions {
 ExitCode verify(VerifyOptions const& options) {
   std::string text;
   int wrong = 0;
+  require_run_folder(options.folder);
   std::vector<FileCheck> const checks = check_run(options.folder);
   nlohmann::ordered_json json = {{"folder", options.folder}, {"files", nlohmann::json::array()}};
   for (FileCheck const& check : checks) {

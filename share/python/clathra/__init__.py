@@ -11,8 +11,8 @@
 All numbers are in SI units, compression is positive. Needs NumPy, pandas and h5py (Debian: python3-pandas python3-h5py).
 """
 from . import program
-from .program import ClathraError, run, study
+from .program import ClathraError, check, run, study
 from .results import Run, Study, open_run, open_study, units_of
 from .states import Columns, Snapshot, Specimen
 
-__all__ = ["ClathraError", "Columns", "Run", "Snapshot", "Specimen", "Study", "open_run", "open_study", "run", "study", "units_of"]
+__all__ = ["ClathraError", "Columns", "Run", "Snapshot", "Specimen", "Study", "check", "open_run", "open_study", "run", "study", "units_of"]

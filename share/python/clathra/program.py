@@ -1,4 +1,5 @@
 """Starting the program `clathra`."""
+import contextlib
 import json
 import math
 import numbers
@@ -8,21 +9,25 @@ import signal
 import subprocess
 import sys
 import tempfile
+from typing import Any, Callable, Union
 
 import numpy as np
 
-from .results import open_run, open_study
+from .results import Path, Run, Study, open_run, open_study
+
+Scene = Union[dict, Path]  # sections and keys, or the name of a file
+Progress = Union[bool, Callable[[str], Any]]
 
 
 class ClathraError(RuntimeError):
     """The program ended with an error: `code` is its exit code, the text what it said."""
 
-    def __init__(self, code, text):
+    def __init__(self, code: int, text: str) -> None:
         super().__init__(f"clathra ended with exit code {code}:\n{text.strip()}")
         self.code = code
 
 
-def program():
+def program() -> str:
     """The path of the program: $CLATHRA, else the one in PATH, else that of the build folder beside this package's sources."""
     built = os.path.join(os.path.dirname(__file__), "..", "..", "..", "build", "release", "drivers", "clathra")
     for candidate in (os.environ.get("CLATHRA"), shutil.which("clathra"), built):
@@ -96,35 +101,55 @@ def _watch(arguments, progress):
         raise ClathraError(code, "".join(said))
 
 
-def _call(verb, what, output, progress, options):
-    """Calls the program with a file, or with a dictionary that becomes one in the current folder, so that paths in it hold."""
-    arguments = [program(), verb]
-    made = None
+@contextlib.contextmanager
+def _file_of(what):
+    """The name of a file, or of one in the current folder, so that paths in it hold, that a dictionary becomes for a while."""
+    if not isinstance(what, dict):
+        yield os.fspath(what)
+        return
+    text = _toml(what)
+    descriptor, made = tempfile.mkstemp(suffix=".toml", prefix=".clathra-", dir=".")
     try:
-        if isinstance(what, dict):
-            text = _toml(what)
-            descriptor, made = tempfile.mkstemp(suffix=".toml", prefix=".clathra-", dir=".")
-            with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-                file.write(text)
-        arguments += [made or os.fspath(what), "--output", os.fspath(output)]
-        for name, value in options.items():
-            option = "--" + name.replace("_", "-")
-            if isinstance(value, np.ndarray):
-                value = value.tolist()
-            if isinstance(value, (bool, np.bool_)):
-                arguments += [option] if value else []
-            elif isinstance(value, (list, tuple)):  # an option that may be repeated
-                for item in value:
-                    arguments += [option, str(item)]
-            elif value is not None:
-                arguments += [option, str(value)]
-        _watch(arguments, _show if progress is True else progress)
+        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+        yield made
     finally:
-        if made:
-            os.unlink(made)
+        os.unlink(made)
 
 
-def run(scene, output, progress=True, **options):
+def _options(options):
+    """Options of the command line: max_walltime="1h" is --max-walltime 1h, resume=True is --resume, a list repeats an option."""
+    arguments = []
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if isinstance(value, np.ndarray):
+            value = value.tolist()
+        if isinstance(value, (bool, np.bool_)):
+            arguments += [option] if value else []
+        elif isinstance(value, (list, tuple)):
+            for item in value:
+                arguments += [option, str(item)]
+        elif value is not None:
+            arguments += [option, str(value)]
+    return arguments
+
+
+def _call(verb, what, output, progress, options):
+    with _file_of(what) as file:
+        _watch([program(), verb, file, "--output", os.fspath(output), *_options(options)], _show if progress is True else progress)
+
+
+def check(scene: Scene, **options: Any) -> dict:
+    """What `clathra check --json` says of a scene: its verdict ("valid", "refused", "invalid"), problems or forecast (SI units) and
+    warnings. Raises ClathraError where it says nothing, as of a file that is not there."""
+    with _file_of(scene) as file:
+        done = subprocess.run([program(), "check", file, "--json", *_options(options)], capture_output=True, text=True, errors="replace")
+    if not done.stdout:
+        raise ClathraError(done.returncode, done.stderr)
+    return json.loads(done.stdout)
+
+
+def run(scene: Scene, output: Path, progress: Progress = True, **options: Any) -> Run:
     """Runs a scene and opens its results.
 
     scene: a dictionary of sections, {"specimen": {"particles": 2000}, "hydrate": {"saturation": "55 %"}}, values as in a scene
@@ -137,7 +162,7 @@ def run(scene, output, progress=True, **options):
     return open_run(output)
 
 
-def study(plan, output, progress=True, **options):
+def study(plan: Scene, output: Path, progress: Progress = True, **options: Any) -> Study:
     """Runs a study and opens its results.
 
     plan: a dictionary, {"scene": "quick.toml", "seeds": 5, "matrix": {"hydrate.saturation": ["26 %", "55 %"]}}, or the name of a

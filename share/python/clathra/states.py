@@ -1,6 +1,7 @@
 """Snapshots and specimens: HDF5 files, as NumPy arrays."""
 import os
 from functools import cached_property
+from typing import Any
 
 import h5py
 import numpy as np
@@ -27,19 +28,19 @@ class _State:
 
     _format = None
 
-    def __init__(self, path):
+    def __init__(self, path: "os.PathLike[str] | str") -> None:
         """Raises FileNotFoundError, or ValueError where the file is something else."""
         self.path = os.fspath(path)
         if not os.path.isfile(self.path):
             raise FileNotFoundError(self.path)
         if not h5py.is_hdf5(self.path):
-            raise ValueError(f"{self.path}: is no HDF5 file")
+            raise ValueError(f"{self.path}: is not an HDF5 file")
         with h5py.File(self.path, "r") as file:
             self.attributes = {name: _text(value) for name, value in file.attrs.items()}
         if self.attributes.get("format") != self._format:
             raise ValueError(f"{self.path}: is no {self._format}")
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         attributes = self.__dict__.get("attributes", {})
         if name in attributes:
             return attributes[name]
@@ -50,17 +51,17 @@ class _State:
             return Columns(file[group])
 
     @cached_property
-    def particles(self):
-        """A row for each disc, in no order but that of the file; `id` is its identity."""
+    def particles(self) -> Columns:
+        """A row for each particle, in no order but that of the file; `id` is its identity."""
         return self._columns("particles")
 
     @cached_property
-    def contacts(self):
+    def contacts(self) -> Columns:
         """A row for each pair that touches or is or was bonded."""
         return self._columns("contacts")
 
     @property
-    def walls(self):
+    def walls(self) -> np.ndarray:
         """(left, right, bottom, top) [m]."""
         return np.array([self.attributes[side] for side in ("left", "right", "bottom", "top")])
 
@@ -71,12 +72,12 @@ class Snapshot(_State):
     _format = "clathra snapshot"
 
     @cached_property
-    def events(self):
+    def events(self) -> Columns:
         """Bonds that broke since the snapshot before."""
         return self._columns("events")
 
     def __repr__(self):
-        return f"<Snapshot at eps1 = {100 * self.eps1:.3g} %, {self.attributes['particles']} discs>"
+        return f"<Snapshot at eps1 = {100 * self.eps1:.3g} %, {self.attributes['particles']} particles>"
 
 
 class Specimen(_State):
@@ -85,4 +86,4 @@ class Specimen(_State):
     _format = "clathra specimen"
 
     def __repr__(self):
-        return f"<Specimen of {self.attributes['particles']} discs, void ratio {self.void_ratio:.4f}>"
+        return f"<Specimen of {self.attributes['particles']} particles, void ratio {self.void_ratio:.4f}>"

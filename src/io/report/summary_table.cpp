@@ -16,6 +16,12 @@ namespace {
 constexpr double percent = 100, mega = 1e-6;
 constexpr char unknown[] = "–";
 
+/// A line below the other.
+std::string lines_of(std::string text) {
+  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos;) text.replace(at, 1, "<br>");
+  return text;
+}
+
 std::string shown(std::optional<double> value, char const* format, double factor = 1) {
   return value && std::isfinite(*value) ? with_minus(fmt::format(fmt::runtime(format), *value * factor)) : unknown;
 }
@@ -45,7 +51,7 @@ std::vector<Quantity> specimen_quantities() {
       {"void ratio at the start", "", [](Run r, Numbers) { return shown(r.history["void_ratio"].front(), "{:.4f}"); }},
       {"bonds at the start", "", [](Run r, Numbers) { return count(r.history["bonds_intact"].front()); }},
       {"bond law", "",
-       [](Run r, Numbers) { return r.has_bonds() ? escaped(r.bond_variant()) : std::string("none (clean sand)"); }}};
+       [](Run r, Numbers) { return r.has_bonds() ? lines_of(escaped(r.bond_variant())) : std::string("none (clean sand)"); }}};
 }
 
 std::vector<Quantity> result_quantities() {

@@ -161,14 +161,21 @@ bool RunResults::has_bonds() const {
 std::string RunResults::bond_variant() const {
   std::string variant;
   for (char const* const key : {"law", "contact_coupling", "rolling_lever", "thickness_mapping", "strength_from"})
-    variant += (variant.empty() ? "" : ", ") + text(std::string("/scene/bond/") + key).value_or("?");
+    variant += fmt::format("{}{} {}", variant.empty() ? "" : "\n", key, text(std::string("/scene/bond/") + key).value_or("?"));
   return variant;
 }
 
-RunResults read_run(std::filesystem::path const& folder) {
+void require_run_folder(std::filesystem::path const& folder) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
     throw FileProblem(ExitCode::file_missing, folder, "is not the folder of a run");
+  if (!std::filesystem::exists(folder / "run.json", error) && std::filesystem::exists(folder / "study.csv", error))
+    throw FileProblem(ExitCode::file_missing, folder,
+                      "is the folder of a study: name a run among its members, " + (folder / "members" / "...").string());
+}
+
+RunResults read_run(std::filesystem::path const& folder) {
+  require_run_folder(folder);
   return {folder_name(folder), folder, HistoryTable(folder / "history.csv"), read_record(folder / "run.json"),
           snapshot_files(folder)};
 }

@@ -56,12 +56,15 @@ struct RunResults {
   std::optional<double> number(std::string const& at) const;
   std::optional<std::string> text(std::string const& at) const;
   bool has_bonds() const;            ///< were any intact at the start?
-  std::string bond_variant() const;  ///< law, coupling, rolling lever and origin of the strength as the scene names them
+  std::string bond_variant() const;  ///< law, coupling, rolling lever, ... with their keys, a line each
 };
 
 /// @throws FileProblem file_missing without the folder, its run.json or history.csv; bad_input where one of these is damaged or
 /// the history has fewer than two rows
 RunResults read_run(std::filesystem::path const& folder);
+
+/// @throws FileProblem file_missing where there is no such folder, or it is that of a study, which is said
+void require_run_folder(std::filesystem::path const& folder);
 
 /// Reads several; those in folders of the same name are named by their whole path.
 std::vector<RunResults> read_runs(std::vector<std::filesystem::path> const& folders);

@@ -138,6 +138,22 @@ std::string allowed_values(Key const& key) {
   return names;
 }
 
+namespace {
+
+constexpr char study_keys[] =
+    "\n## Study files\n\nA study (`clathra study`) is a TOML file of its own, which names a scene and what is varied of it.\n\n"
+    "| key | what it is |\n|---|---|\n"
+    "| `scene` | scene file that all members share, relative to the folder of the study |\n"
+    "| `seeds` | list of seeds, or how many: `5`, the default, is 1 to 5 |\n"
+    "| `folder` | folder of the results; `out/` and the name of the study file where it is left out |\n"
+    "| `precision_target` | add seeds until a number is known: `\"peak_q_Pa=2%\"` |\n"
+    "| `max_seeds` | at most so many seeds of a group, with `precision_target` |\n"
+    "| `[matrix]` | keys of the scene in quotes, each with a list of values, or `{ from = ..., to = ..., count = ... }`: every "
+    "combination is a group |\n"
+    "| `[groups.NAME]` | a group of its own: keys of the scene, each with one value |\n";
+
+}  // namespace
+
 std::string schema_markdown() {
   std::string text =
       "# Scene files\n\nA scene is a TOML file, in UTF-8 within quotes and comments, else ASCII. Every quantity is a number with "
@@ -165,7 +181,7 @@ std::string schema_markdown() {
          "\n### run.preset\n\nPoints of the trade of speed for accuracy ([how they were measured](accuracy.md)). A stated "
          "`test.strain_rate` or `test.inertial_number` is bounded by a stated `test.max_platen_wave_stress` only. Local "
          "damping belongs to the model, not to these presets.\n\n" +
-         presets_markdown(run_presets());
+         presets_markdown(run_presets()) + study_keys;
 }
 
 std::string schema_json() {
