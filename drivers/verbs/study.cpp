@@ -10,7 +10,7 @@
 #include "io/report/study_report.hpp"
 #include "io/results/output_folder.hpp"
 #include "machine/interrupt.hpp"
-#include "study/slurm_script.hpp"
+#include "study/array_jobs.hpp"
 #include "study/study_forecast.hpp"
 #include "study/study_goal.hpp"
 #include "study/study_outcome.hpp"
@@ -67,31 +67,8 @@ StudyLimits limits_of(StudyOptions const& options, StudyPlan const& plan) {
   return limits;
 }
 
-/// One program in place of this one: what a job of an array does.
-ExitCode run_alone(StudyPlan const& plan, StudyOptions const& options) {
-  bool const specimen = options.specimen > 0;
-  std::vector<StudyTask> const& tasks = specimen ? plan.specimens : plan.runs;
-  int const number = specimen ? options.specimen : options.member;
-  if (static_cast<std::size_t>(number) > tasks.size())
-    throw Refused(fmt::format("the study has {} {}, not {}", tasks.size(), specimen ? "specimens" : "members", number));
-  StudyTask const& task = tasks[static_cast<std::size_t>(number) - 1];
-  claim_folder(plan.study.folder, "study");
-  std::error_code ignored;
-  if (!specimen && task.specimen && !std::filesystem::exists(plan.specimens[*task.specimen].result, ignored))
-    throw FileProblem(
-        ExitCode::file_missing, plan.specimens[*task.specimen].result,
-        fmt::format("is not there, which the member {} needs: make it first (--specimen {})", task.name, *task.specimen + 1));
-  for (char const* const folder : {"specimens", "members"})
-    std::filesystem::create_directories(plan.study.folder / folder, ignored);
-  if (specimen && std::filesystem::exists(task.result, ignored))
-    return print_result(fmt::format("{} is there\n", task.result.string()));
-  std::vector<std::string> command = words_of(options.launcher);
-  command.push_back(own_path());
-  command.insert(command.end(), task.arguments.begin(), task.arguments.end());
-  if (options.threads > 0) command.insert(command.end(), {"--threads", fmt::format("{}", options.threads)});
-  if (!specimen) command.insert(command.end(), {"--checkpoint-every", options.checkpoint_every});
-  if (!specimen && !options.most_time.empty()) command.insert(command.end(), {"--max-walltime", options.most_time});
-  become(command);
+SlurmJobs jobs_of(StudyOptions const& options) {
+  return {options.slurm, options.launcher, options.threads, options.most_time, options.checkpoint_every, options.allow_mixed};
 }
 
 ExitCode collect(StudyPlan& plan, StudyOptions const& options) {
@@ -100,25 +77,6 @@ ExitCode collect(StudyPlan& plan, StudyOptions const& options) {
   ProgressLine line;
   find_all_finished(plan);
   return conclude(plan, line);
-}
-
-/// A script, and beside it the study that its jobs read: without the groups that guards refuse, which jobs would count.
-ExitCode write_script(StudyPlan const& plan, StudyOptions const& options) {
-  for (std::string const& file : {options.slurm, options.slurm + ".toml"}) require_no_file(file, "--slurm names another script");
-  claim_folder(plan.study.folder, "study");  // which the jobs work in side by side
-  Study study = plan.study;
-  std::vector<StudyGroup> groups;
-  for (std::size_t g = 0; g < study.groups.size(); ++g)
-    if (std::none_of(plan.members.begin(), plan.members.end(),
-                     [g](MemberResult const& m) { return m.group == g && m.state == MemberState::refused; }))
-      groups.push_back(study.groups[g]);
-  study.groups = std::move(groups);
-  StudyPlan script_plan = plan_study(std::move(study));
-  add_members(script_plan);
-  write_slurm_script(script_plan, {options.slurm, options.launcher, options.threads, options.most_time, options.checkpoint_every,
-                                   options.allow_mixed});
-  return print_result(fmt::format("{}: {} specimens, {} members; submit it with: bash {}\n", options.slurm,
-                                  script_plan.specimens.size(), script_plan.runs.size(), shell_word(options.slurm)));
 }
 
 /// Everything, wave by wave. Whatever ends it, there are a table and a page of what was done.
@@ -154,14 +112,15 @@ ExitCode study(StudyOptions const& options) {
   // Before study.csv is touched; the waves of a study with a goal are asked again.
   bool const only_plans = options.dry_run || !options.slurm.empty();
   if (!only_plans && !options.allow_mixed) require_one_program(plan);
-  if (options.member > 0 || options.specimen > 0) return run_alone(plan, options);
+  if (options.member > 0 || options.specimen > 0)
+    return run_alone(plan, jobs_of(options), options.specimen > 0, options.specimen > 0 ? options.specimen : options.member);
   if (options.collect) return collect(plan, options);
   StudyLimits const limits = limits_of(options, plan);
   if (options.dry_run)
     if (ExitCode const printed = print_forecast(plan, limits, options.json); printed != ExitCode::done) return printed;
   heed_guards(plan, options.skip_refused);
   if (options.dry_run) return ExitCode::done;
-  if (!options.slurm.empty()) return write_script(plan, options);
+  if (!options.slurm.empty()) return write_script(plan, jobs_of(options));
   return run_all(plan, limits);
 }
 
