@@ -71,9 +71,11 @@ TEST_F(Report, ShowsTheSummaryAndTheWarningsWithHarmlessText) {
   EXPECT_NE(page.find("<td>2.000 (12–15 %)</td>"), std::string::npos) << "residual q";
   EXPECT_NE(page.find("<td>250</td>"), std::string::npos) << "E50";
   EXPECT_NE(page.find("<td>0x0000000000000abc</td>"), std::string::npos);
-  EXPECT_NE(page.find("<td>law thickness_dependent<br>contact_coupling parallel<br>rolling_lever 0.25 B<br>thickness_mapping identity<br>"
-                      "strength_from conditions</td>"),
-            std::string::npos);
+  EXPECT_NE(
+      page.find(
+          "<td>law thickness_dependent<br>contact_coupling parallel<br>rolling_lever 0.25 B<br>thickness_mapping identity<br>"
+          "strength_from conditions</td>"),
+      std::string::npos);
   EXPECT_NE(page.find("the &lt;wall&gt; is &quot;near&quot;"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
 }
