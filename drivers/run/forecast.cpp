@@ -156,7 +156,7 @@ void refuse_if_needed(Scene const& scene, Forecast const& forecast) {
   if (forecast.refusals.empty() || scene.run.ignore_guards) return;
   std::string text;
   for (std::string const& refusal : forecast.refusals) text += (text.empty() ? "" : "; ") + refusal;
-  text += " (--ignore-guards runs it anyway)";
+  text += ignore_hint;
   if (forecast.out_of_memory && forecast.refusals.size() == 1) throw OutOfMemory(text);
   throw Refused(text);
 }

@@ -23,10 +23,12 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::string verdict_of(LoadedScene const& input, Forecast const& result) {
-  if (!result.refusals.empty() && !input.scene.run.ignore_guards) return "refused";
-  std::size_t const warnings = warnings_of(input, result).size();
-  return warnings == 0 ? "valid" : fmt::format("valid, {} warning{}", warnings, warnings == 1 ? "" : "s");
+std::string verdict_of(Scene const& scene, Forecast const& result) {
+  return result.refusals.empty() || scene.run.ignore_guards ? "valid" : "refused";
+}
+
+std::string count_text(std::size_t warnings) {
+  return warnings == 0 ? "" : fmt::format(", {} warning{}", warnings, warnings == 1 ? "" : "s");
 }
 
 nlohmann::ordered_json problem_json(Problem const& problem) {
@@ -52,18 +54,20 @@ ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
   require_enough_discs(options.ranks, static_cast<std::int64_t>(result.numbers.at("particles")));
   MachineSpeed const speed =
       options.rate > 0 ? MachineSpeed{options.rate, "as given"} : machine_speed(scene, options.ranks, true);
-  std::string const verdict = verdict_of(input, result);
+  std::string const verdict = verdict_of(scene, result);
+  std::vector<std::string> const warnings = warnings_of(input, result);
   ExitCode printed = ExitCode::done;
   if (options.json) {
-    nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", verdict.substr(0, verdict.find(','))}};
+    nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", verdict}};
     json.update(forecast_json(scene, result, speed));
-    json["warnings"] = warnings_of(input, result);
+    json["warnings"] = warnings;
     printed = print_json(json_text(json));
   } else {
-    printed = print_result(fmt::format("{}: {}\n{}{}", options.scene.file, verdict, forecast_text(scene, result, speed),
+    printed = print_result(fmt::format("{}: {}{}\n{}{}", options.scene.file, verdict,
+                                       verdict == "valid" ? count_text(warnings.size()) : "", forecast_text(scene, result, speed),
                                        warnings_text(input, result)));
     if (is_quiet())
-      for (std::string const& warning : warnings_of(input, result)) print_error("warning: " + warning);
+      for (std::string const& warning : warnings) print_error("warning: " + warning);
   }
   refuse_if_needed(scene, result);
   return printed;

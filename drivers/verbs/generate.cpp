@@ -51,7 +51,7 @@ ExitCode generate_on(Ranks const& ranks, GenerateOptions const& options, RunReco
   std::vector<std::string> refusals;
   if (std::string const refusal = memory_refusal(cost); !refusal.empty() && !scene.run.ignore_guards) refusals.push_back(refusal);
   share_refusals(ranks, refusals);
-  if (!refusals.empty()) throw OutOfMemory(refusals.front() + " (--ignore-guards runs it anyway)");
+  if (!refusals.empty()) throw OutOfMemory(refusals.front() + ignore_hint);
   require_enough_discs(ranks.count(), static_cast<std::int64_t>(cost.at("particles")));
   watch_for_interrupt();
   ProgressLine line;

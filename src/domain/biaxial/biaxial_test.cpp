@@ -175,8 +175,7 @@ void BiaxialTest::State::require_rest(std::int64_t steps) {
                            "consolidation did not come to rest within " + std::to_string(steps) +
                            (steps == 1 ? " step: " : " steps: ") +
                            (why.empty() ? "it rested for fewer than three checks on end" : why);
-  if (!scene.run.ignore_guards)
-    throw Refused(text + " (test.consolidation_steps gives it more; --ignore-guards shears it as it is)");
+  if (!scene.run.ignore_guards) throw Refused(text + "; test.consolidation_steps gives it more" + ignore_hint);
   warnings.push_back(text + ": the test is not quasi-static from its beginning");
 }
 
@@ -291,8 +290,7 @@ Measures const& BiaxialTest::State::measures() {
 void BiaxialTest::State::require_grains(double deep_share) const {
   if (scene.run.ignore_guards) return;
   if (std::string const problem = collapse(simulation->assembly().void_ratio(), deep_share); !problem.empty())
-    throw Refused(problem +
-                  ": the grains are too soft for this stress, raise grains.normal_stiffness (--ignore-guards runs it anyway)");
+    throw Refused(problem + ": the grains are too soft for this stress, raise grains.normal_stiffness" + ignore_hint);
 }
 
 /// Masses scaled further than usual must not carry the loads that contacts should: such a test ends.

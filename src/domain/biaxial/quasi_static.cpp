@@ -130,7 +130,7 @@ std::vector<std::string> check_rate(Scene const& scene, RateNumbers const& n) {
     warnings.push_back("guard ignored: " + refusal);
     all += (all.empty() ? "" : "; ") + refusal;
   }
-  if (!all.empty() && !scene.run.ignore_guards) throw Refused(all + " (use run.ignore_guards = true to run it all the same)");
+  if (!all.empty() && !scene.run.ignore_guards) throw Refused(all + ignore_hint);
   return warnings;
 }
 

@@ -66,7 +66,7 @@ class Compression {
   [[noreturn]] void refuse(double reached, GenerationFriction const& friction) const {
     bool const denser = reached > wanted_;
     std::string const held =
-        "with a friction of " + digits(friction.friction) + " and a shape factor of " + digits(friction.shape_factor);
+        "with a friction of " + digits(friction.friction) + " and a rolling width factor of " + digits(friction.shape_factor);
     throw VoidRatioMissed("under " + digits(stress_ / 1e3) + " kPa these grains came to rest at a void ratio of " +
                               digits(reached) + (denser ? " without friction: looser" : " " + held + ": denser") + " than the " +
                               digits(wanted_) + " that was asked for",

@@ -22,6 +22,9 @@ using ProgressCallback = std::function<bool(Progress const&)>;
 struct Refused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// Ends the text of a refusal that a scene can overrule.
+inline constexpr char ignore_hint[] = " (run.ignore_guards = true or --ignore-guards runs it anyway)";
+
 /// Thrown where a forecast asks for more memory than there is.
 struct OutOfMemory : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -35,8 +35,6 @@ struct FileProblem : std::runtime_error {
 };
 
 enum class Severity { error, missing_file, refusal };
-/// Ends the text of a refusal that a scene can overrule.
-inline constexpr std::string_view ignore_hint = " (run.ignore_guards = true or --ignore-guards runs it anyway)";
 
 /// One thing wrong in a scene. `line` and `column` count from 1; 0 where the problem has no place in the file.
 struct Problem {

@@ -158,10 +158,9 @@ std::string side_by_side(std::string const& contents) { return "<div class=\"bes
 std::string page(std::string const& title, std::string const& body) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width,initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light\"><meta name=\"generator\" "
-      "content=\"clathra\"><title>{}</title>\n"
+      "content=\"width=device-width,initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light\">{}<title>{}</title>\n"
       "<style>{}</style></head>\n<body>\n{}</body></html>\n",
-      escaped(title), style, body);
+      page_mark, escaped(title), style, body);
 }
 
 }  // namespace clathra

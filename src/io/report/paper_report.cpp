@@ -56,7 +56,7 @@ std::string parameter_table(Reproduction const& r) {
                 {"k_n, k_s", "0.3, 0.2 GPa",
                  fmt::format("{:g}, {:g} GPa", s.grains.normal_stiffness * 1e-9, s.grains.shear_stiffness * 1e-9)},
                 {"friction", "0.5", fmt::format("{:g}", s.grains.friction)},
-                {"shape factor", "2", fmt::format("{:g}", s.grains.rolling_width_factor)},
+                {"rolling width factor beta", "2", fmt::format("{:g}", s.grains.rolling_width_factor)},
                 {"E_m", "0.289 GPa", fmt::format("{:.3g} GPa", evaluate_bond(s, r.d50, r.d50 / 2, r.d50 / 2, 0, 0).E_m * 1e-9)},
                 {"confining stress", "1, 2, 3 MPa", "1, 2, 3 MPa"}});
 }

@@ -11,6 +11,7 @@
 
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/specimen_design.hpp"
+#include "domain/scene/stage.hpp"
 #include "domain/scene/units.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -32,7 +33,7 @@ struct Check {
     if (scene.run.ignore_guards)
       found.warnings.push_back("guard ignored: " + text);
     else
-      found.problems.push_back({std::move(keys), text + std::string(ignore_hint), Severity::refusal});
+      found.problems.push_back({std::move(keys), text + ignore_hint, Severity::refusal});
   }
   /// Whether a key is stated, and not as it is by default: what a run writes down as resolved states all keys.
   bool changed(std::string_view name) const {
