@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -116,7 +117,7 @@ std::string envelope_cells(PairedStrength const& strength, std::vector<SeedTest>
   double miss = 0;
   for (SeedTest const& t : tests)
     miss = std::max(miss, std::abs(t.at.sigma1 - 2 * fit->cohesion * std::sqrt(n) - n * t.at.sigma3));
-  constexpr double degrees = 180 / 3.14159265358979;
+  constexpr double degrees = 180 / std::numbers::pi;
   EnvelopeErrors errors = fit->errors.value_or(EnvelopeErrors());
   if (strength.cohesion) {
     errors.cohesion = strength.cohesion->half_width.value_or(0);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -134,7 +135,7 @@ double planted_eps_v(double eps1, double psi) {
 }
 
 TEST(DilationWatch, HasTheAngleThatWasPlantedOverStretchesOfOnePercent) {
-  constexpr double psi = 0.2, degree = 3.14159265358979323846 / 180;
+  constexpr double psi = 0.2, degree = std::numbers::pi / 180;
   DilationWatch watch;
   for (int n = 1; n <= 150; ++n) {
     double const eps1 = n * check_interval + 3e-6 * (n % 7);  // checks come a step late, by different steps

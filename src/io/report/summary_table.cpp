@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "domain/measurement/test_numbers.hpp"
 #include "io/report/curves.hpp"
@@ -57,21 +58,20 @@ std::vector<Quantity> specimen_quantities() {
 std::vector<Quantity> result_quantities() {
   using Run = RunResults const&;
   using Numbers = TestNumbers const&;
-  return {
-      {"peak q", "MPa",
-       [](Run, Numbers n) { return shown(n.peak_q, "{:.3f}", mega) + (n.passed_peak ? "" : " (still rising)"); }},
-      {"axial strain at the peak", "%", [](Run, Numbers n) { return shown(n.peak_eps1, "{:.2f}", percent); }},
-      {"residual q", "MPa",
-       [](Run, Numbers n) {
-         return shown(n.residual_q, "{:.3f}", mega) +
-                fmt::format(" ({:.3g}–{:.3g} %)", n.residual_from * percent, n.end_eps1 * percent);
-       }},
-      {"secant modulus E₅₀", "MPa", [](Run, Numbers n) { return shown(n.secant_modulus, "{:.4g}", mega); }},
-      {"volumetric strain at the peak", "%", [](Run, Numbers n) { return shown(n.eps_v_peak, "{:+.2f}", percent); }},
-      {"largest contraction", "%", [](Run, Numbers n) { return shown(n.largest_eps_v, "{:+.2f}", percent); }},
-      {"dilation angle ψ", "°", [](Run, Numbers n) { return shown(n.dilation_angle, "{:.1f}", 180 / 3.14159265358979323846); }},
-      {"volumetric strain at the end", "%", [](Run, Numbers n) { return shown(n.eps_v_end, "{:+.2f}", percent); }},
-      {"intact bonds at the end", "%", [](Run r, Numbers n) { return bonded(r, shown(n.intact_end, "{:.1f}")); }}};
+  return {{"peak q", "MPa",
+           [](Run, Numbers n) { return shown(n.peak_q, "{:.3f}", mega) + (n.passed_peak ? "" : " (still rising)"); }},
+          {"axial strain at the peak", "%", [](Run, Numbers n) { return shown(n.peak_eps1, "{:.2f}", percent); }},
+          {"residual q", "MPa",
+           [](Run, Numbers n) {
+             return shown(n.residual_q, "{:.3f}", mega) +
+                    fmt::format(" ({:.3g}–{:.3g} %)", n.residual_from * percent, n.end_eps1 * percent);
+           }},
+          {"secant modulus E₅₀", "MPa", [](Run, Numbers n) { return shown(n.secant_modulus, "{:.4g}", mega); }},
+          {"volumetric strain at the peak", "%", [](Run, Numbers n) { return shown(n.eps_v_peak, "{:+.2f}", percent); }},
+          {"largest contraction", "%", [](Run, Numbers n) { return shown(n.largest_eps_v, "{:+.2f}", percent); }},
+          {"dilation angle ψ", "°", [](Run, Numbers n) { return shown(n.dilation_angle, "{:.1f}", 180 / std::numbers::pi); }},
+          {"volumetric strain at the end", "%", [](Run, Numbers n) { return shown(n.eps_v_end, "{:+.2f}", percent); }},
+          {"intact bonds at the end", "%", [](Run r, Numbers n) { return bonded(r, shown(n.intact_end, "{:.1f}")); }}};
 }
 
 std::vector<Quantity> cost_quantities() {
