@@ -1,4 +1,5 @@
 /// Snapshots: what they hold of a simulation, the way through their file, their XDMF index, and other programs' formats.
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "domain/generation/periodic_cell.hpp"
+#include "domain/measurement/strain_field.hpp"
 #include "domain/scene/specimen_design.hpp"
 #include "file_content.hpp"
 #include "io/formats/hdf5_file.hpp"
@@ -219,6 +221,11 @@ TEST_F(SnapshotFile, ExportsUnderNamesOfTheStep) {
   std::string const pairs = content(folder / "x" / "contacts_000000004000.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(pairs.begin(), pairs.end(), '\n')), snapshot.a.size() + 1);
   EXPECT_NE(pairs.find(",broken_"), std::string::npos);
+  auto const particles = csv_rows(content(folder / "x" / "particles_000000004000.csv"));
+  EXPECT_EQ(particles[0].back(), "shear_strain");
+  std::vector<float> const shear = shear_strain(snapshot);
+  ASSERT_EQ(particles.size(), shear.size() + 1);
+  for (std::size_t i = 0; i < shear.size(); ++i) ASSERT_EQ(particles[i + 1].back(), fmt::format("{}", shear[i]));
   std::string const grid = content(folder / "x" / "contacts_000000004000.vtu");
   // 3 doubles a disc, 2 + 1 integers and 1 + 1 bytes and 5 doubles a pair, and ten lengths of 8 bytes lie behind the XML.
   std::size_t const raw = grid.rfind("\n</AppendedData>") - grid.find("_", grid.find("<AppendedData")) - 1;

@@ -3,6 +3,7 @@
 # <python with h5py and matplotlib>
 set -euo pipefail
 clathra=$1 project=$2 viewer=$3 interpreter=$4
+export CLATHRA=$clathra # for the scripts that call it
 folder=$(mktemp -d)
 server=
 finish() {

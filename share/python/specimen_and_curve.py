@@ -5,10 +5,14 @@
 Left: each disc by the share of its bonds that are lost, in the snapshot nearest to --strain (clean sand: the shear strain until then).
 Middle: the shear strain until the last snapshot, from zero to five times what it would be were it the same everywhere.
 Right: q and the volumetric strain, compression positive; --beside adds other runs in grey and makes the axes hold them all.
-Needs matplotlib, numpy, pandas and h5py.
+Needs the program clathra (see clathra.program), matplotlib, numpy, pandas and h5py.
 """
 import argparse
+import glob
 import io
+import os
+import subprocess
+import tempfile
 
 import clathra
 import matplotlib
@@ -16,6 +20,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, to_rgb
 from matplotlib.ticker import MaxNLocator
@@ -23,7 +28,6 @@ from PIL import Image
 
 LOST = LinearSegmentedColormap.from_list("lost", ["0.9", "#f0b890", "#d55e00", "#a03000"])
 LINE, MARK = "#0072b2", "#d55e00"
-WINDOW = 7.5  # mean diameters over which the shear strain is averaged, as in the report
 SCALE = 5  # times the mean shear strain
 
 
@@ -31,11 +35,11 @@ class Moment:
     """What one snapshot says, in mm."""
 
     def __init__(self, snapshot):
+        self.path = snapshot.path
         self.eps1, self.eps_v = snapshot.eps1, snapshot.eps_v
         self.walls = 1e3 * snapshot.walls
         discs = snapshot.particles
         self.position = 1e3 * discs["position"]
-        self.displacement = 1e3 * discs["displacement"][:, :2]
         self.diameter = 2e3 * discs["radius"]
         initial, intact = discs["bonds_initial"].astype(float), discs["bonds_intact"].astype(float)
         self.bonded = initial.max() > 0
@@ -45,36 +49,10 @@ class Moment:
         return 100 * (2 * self.eps1 - self.eps_v)
 
     def shear(self):
-        """Shear strain [%], ln(l1/l2) of the F fitted over 3 x 3 cells of the undeformed specimen, and where the cells are now."""
-        first = self.position - self.displacement
-        first -= first.min(axis=0)
-        size = self.diameter.mean() * WINDOW / 3
-        cells = np.ceil(first.max(axis=0) / size).astype(int)
-        at = tuple(np.minimum((first / size).astype(int), cells - 1).T)
-
-        def total(values, reach=1):
-            """Sums over a cell and those around it."""
-            sums = np.zeros(cells)
-            np.add.at(sums, at, values)
-            padded = np.pad(sums, reach)
-            return sum(padded[i:i + cells[0], j:j + cells[1]] for i in range(2 * reach + 1) for j in range(2 * reach + 1))
-
-        count, means = total(1.0), [total(x) for x in (*first.T, *self.position.T)]
-
-        def product(a, b):
-            values = (*first.T, *self.position.T)
-            return total(values[a] * values[b]) - means[a] * means[b] / count
-
-        xx, xy, yy = product(0, 0), product(0, 1), product(1, 1)
-        gradient = np.empty((*cells, 2, 2))
-        for row in range(2):
-            along_x, along_y = product(0, 2 + row), product(1, 2 + row)
-            gradient[..., row, 0] = (along_x * yy - along_y * xy) / (xx * yy - xy**2)
-            gradient[..., row, 1] = (along_y * xx - along_x * xy) / (xx * yy - xy**2)
-        stretches = np.linalg.svd(gradient, compute_uv=False)
-        own = total(1.0, 0)
-        now = [np.where(own > 0, total(x, 0) / np.maximum(own, 1), total(x) / count) for x in self.position.T]
-        return 100 * np.log(stretches[..., 0] / stretches[..., 1]), now
+        """Shear strain of each disc [%], as the report shows it."""
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([clathra.program.program(), "export", self.path, "--to", "csv", "--output", folder], check=True, stdout=subprocess.DEVNULL)
+            return 100 * pandas.read_csv(glob.glob(os.path.join(folder, "particles_*.csv"))[0])["shear_strain"].to_numpy()
 
 
 def circles(position, diameter, corners):
@@ -83,17 +61,19 @@ def circles(position, diameter, corners):
     return position[:, None, :] + diameter[:, None, None] / 2 * np.column_stack((np.cos(angle), np.sin(angle)))
 
 
+def draw_discs(axis, moment, values, largest, colours, name):
+    wider = 1.2 * moment.diameter  # the gaps between the discs say nothing here
+    shapes = PolyCollection(circles(moment.position, wider, 10), array=values, cmap=colours, linewidths=0, antialiaseds=False)
+    shapes.set_clim(0, largest)
+    return axis.add_collection(shapes), name
+
+
 def draw_shear(axis, moment):
-    values, (x, y) = moment.shear()
-    axis.set_facecolor(plt.get_cmap("viridis")(0))
-    return axis.pcolormesh(x, y, values, cmap="viridis", vmin=0, vmax=SCALE * moment.mean_shear(), shading="gouraud"), "shear strain [%]"
+    return draw_discs(axis, moment, moment.shear(), SCALE * moment.mean_shear(), "viridis", "shear strain [%]")
 
 
 def draw_lost(axis, moment):
-    wider = 1.2 * moment.diameter  # the gaps between the discs say nothing here
-    shapes = PolyCollection(circles(moment.position, wider, 10), array=moment.lost, cmap=LOST, linewidths=0, antialiaseds=False)
-    shapes.set_clim(0, 100)
-    return axis.add_collection(shapes), "lost bonds of a disc [%]"
+    return draw_discs(axis, moment, moment.lost, 100, LOST, "lost bonds of a disc [%]")
 
 
 def draw_specimen(figure, left_edge, moment, draw):

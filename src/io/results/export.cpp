@@ -6,6 +6,7 @@
 #include <map>
 #include <type_traits>
 
+#include "domain/measurement/strain_field.hpp"
 #include "io/errors/problems.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/results/snapshot_file.hpp"
@@ -121,6 +122,7 @@ std::string particles_vtu(Snapshot const& s) {
   for_each_disc_column([&]<class Value, std::size_t Parts>(SnapshotColumn<Value, Parts> const& column) {
     if constexpr (!std::is_same_v<Value, double>) add_column(file, s, column);  // the position is that of the points
   });
+  file.add("shear_strain", "Float32", shear_strain(s));
   file.xml("</PointData>\n");
   add_points(file, s);
   std::vector<std::int32_t> index(s.id.size());
@@ -159,13 +161,14 @@ void append_cells(std::string& text, Snapshot const& s, Column const& column, st
 
 std::string particles_csv(Snapshot const& s) {
   std::string text = "id";
+  std::vector<float> const shear = shear_strain(s);
   for_each_disc_column([&](auto const& column) { append_header(text, column); });
-  text += "\n";
+  text += ",shear_strain\n";
   auto const cell = [](auto value) { return fmt::format("{}", value); };
   for (std::size_t i = 0; i < s.id.size(); ++i) {
     fmt::format_to(std::back_inserter(text), "{}", s.id[i]);
     for_each_disc_column([&](auto const& column) { append_cells(text, s, column, i, cell); });
-    text += "\n";
+    fmt::format_to(std::back_inserter(text), ",{}\n", shear[i]);
   }
   return text;
 }

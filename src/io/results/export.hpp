@@ -14,7 +14,7 @@ enum class ExportFormat { lammpsdump, vtu, csv };
 /// The discs as a LAMMPS text dump (ITEM: ATOMS id type x y z radius vx vy vz omegaz sxx syy sxy coordination), SI units, z = 0.
 std::string lammps_dump(Snapshot const& snapshot);
 
-/// The discs, or the pairs as lines, as a VTK unstructured grid (.vtu, raw appended binary).
+/// The discs with their shear_strain(), or the pairs as lines, as a VTK unstructured grid (.vtu, raw appended binary).
 std::string particles_vtu(Snapshot const& snapshot);
 std::string contacts_vtu(Snapshot const& snapshot);
 
