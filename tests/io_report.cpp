@@ -29,9 +29,9 @@ TEST_F(Report, DrawsTheHistoryWhereItsAxesSay) {
 TEST(ReportPlot, AnAxisHasNoEmptyStripBelowACurveThatStartsAHairBelowZero) {
   Range q;
   q.include({-0.001, 6.4});
-  EXPECT_EQ(q.axis("q").from, 0);
+  EXPECT_EQ(q.axis({"q"}).from, 0);
   q.include(-0.5);
-  EXPECT_LT(q.axis("q").from, -0.4);
+  EXPECT_LT(q.axis({"q"}).from, -0.4);
 }
 
 TEST_F(Report, ThinsALongCurveButKeepsItsPeak) {

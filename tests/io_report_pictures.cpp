@@ -173,8 +173,8 @@ TEST(ReportRose, CountsContactsThatAreTooWeakForTheDigitsOfASnapshot) {
 
 TEST(ReportGrading, CountsMassByTheAreaOfDiscs) {
   Curve const curve = grading_curve({1e-3f, 1e-3f, 1e-3f, 1e-3f, 2e-3f}, "a", {});
-  EXPECT_NEAR(curve.x.front(), 2, 1e-6);
-  EXPECT_NEAR(curve.x.back(), 4, 1e-6);
+  EXPECT_NEAR(curve.x.front(), 2e-3, 1e-9);
+  EXPECT_NEAR(curve.x.back(), 4e-3, 1e-9);
   EXPECT_NEAR(curve.y.front(), 0, 1e-9);
   EXPECT_NEAR(curve.y[3], 37.5, 1e-9);
   EXPECT_NEAR(curve.y.back(), 100, 1e-9);

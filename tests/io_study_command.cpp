@@ -70,7 +70,14 @@ TEST_F(StudyCommand, LeavesATableWithARowForEachMemberAndStatisticsOfEachGroup) 
   EXPECT_EQ(rows[0].back(), "disc_steps_per_second");
   EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("<polygon data-name=\"1MPa\""), std::string::npos) << "a band";
   std::string const before = csv();
-  EXPECT_EQ(study(two).code, 0);
+  EXPECT_EQ(study(two, "--figures '" + (folder / "figures").string() + "'").code, 0);
+  std::string small, numbers;
+  for (auto const& entry : fs::directory_iterator(folder / "figures"))
+    if (std::string const name = entry.path().filename().string(); name.find("-1mpa-stress-and-strain.") != name.npos)
+      (entry.path().extension() == ".csv" ? numbers : small) += content(entry.path());
+  EXPECT_NE(small.find(">deviator stress q [MPa]<"), std::string::npos) << "its page says that once above all";
+  for (char const* const line : {"series,eps1,q_Pa\n", "\n\"1MPa, seed 2 of 2\",", "\n1MPa,0,", "\n\"1MPa, lower edge\","})
+    EXPECT_NE(numbers.find(line), std::string::npos) << line;
   EXPECT_EQ(csv(), before) << "what is finished is not run again, its times stay, too";
 }
 

@@ -9,6 +9,7 @@
 #include "io/report/paper_report.hpp"
 #include "io/results/paper_numbers.hpp"
 #include "io/results/scorecard.hpp"
+#include "machine/figure_files.hpp"
 #include "machine/own_program.hpp"
 #include "terminal/print.hpp"
 #include "terminal/text.hpp"
@@ -47,9 +48,12 @@ ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, Pro
   replace_text_file(out / "scorecard.json", scorecard_json(card));
   auto const finished = std::count_if(plan.members.begin(), plan.members.end(),
                                       [](MemberResult const& m) { return m.state == MemberState::finished; });
-  if (finished > 0)
-    write_paper_report({plan.study, plan.members, folders, outcome.design, card, scene, d50, outcome.data},
-                       out / "reproduce.html");
+  std::string drawn;
+  if (finished > 0) {
+    std::vector<Figure> const figures = write_paper_report(
+        {plan.study, plan.members, folders, outcome.design, card, scene, d50, outcome.data}, out / "reproduce.html");
+    if (!plan.figures.empty()) drawn = "figures   " + write_figure_files(figures, plan.figures);
+  }
   line.repeat_warnings();
   std::string text = fmt::format("tests     {} of {} finished\n", finished, plan.members.size());
   for (std::size_t i = 0; i < plan.members.size(); ++i)
@@ -57,7 +61,7 @@ ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, Pro
       text += "failed    " + plan.runs[i].name + ": " + plan.members[i].message + "\n";
   for (Claim const& claim : card.claims)
     text += fmt::format("{:>5}     {:<13} {}\n", "(" + claim.id + ")", name_of(claim.verdict()), claim.words);
-  text += fmt::format("claims    {}\nresults   {}\n", tally(card.claims), (out / "scorecard.md").string());
+  text += fmt::format("claims    {}\n{}results   {}\n", tally(card.claims), drawn, (out / "scorecard.md").string());
   if (outcome.quick) text += "two small specimens decide little: most claims need the full reproduction, without --quick\n";
   print_result(text);
   bool const failed =

@@ -4,6 +4,7 @@
 
 #include "io/formats/text_file.hpp"
 #include "io/report/study_report.hpp"
+#include "machine/figure_files.hpp"
 #include "study/study_goal.hpp"
 #include "terminal/print.hpp"
 
@@ -23,7 +24,11 @@ ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   }
   std::vector<std::filesystem::path> folders;
   for (StudyTask const& task : plan.runs) folders.push_back(task.result);
-  if (finished > 0) write_study_report(plan.study, plan.members, folders, plan.study.folder / "study.html");
+  std::string drawn;
+  if (finished > 0) {
+    std::vector<Figure> const figures = write_study_report(plan.study, plan.members, folders, plan.study.folder / "study.html");
+    if (!plan.figures.empty()) drawn = "figures   " + write_figure_files(figures, plan.figures);
+  }
   line.repeat_warnings();
   if (warned > 0)
     line.note(fmt::format("warning: {} of {} members have warnings ({} in all); study.csv and study.html list them", warned,
@@ -34,7 +39,8 @@ ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   if (refused > 0) text += fmt::format(", {} refused by guards and left out", refused);
   text += "\nspecimens " + sharing_text(plan) + "\n" + statistics_text(plan);
   for (std::string const& member : failed) text += "failed    " + member + "\n";
-  print_result(text + fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
+  print_result(text + drawn +
+               fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
   return !failed.empty() ? ExitCode::member_failed : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;
 }
 

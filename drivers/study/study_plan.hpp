@@ -32,6 +32,7 @@ struct StudyPlan {
   std::vector<StudyTask> specimens;                         ///< each for all members of the same scene of generation and seed
   std::map<std::string, std::vector<std::string>> refused;  ///< by group: what the guards of its scene say
   std::map<std::string, SpecimenDesign> designs;            ///< of the specimens that scenes read from files of their own
+  std::filesystem::path figures;                            ///< folder for those of the page as files; empty = none
 
   /// The scene of a run, once its specimen is there. @throws SceneProblems, FileProblem
   LoadedScene scene_of_run(std::size_t member) const;

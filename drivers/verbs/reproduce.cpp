@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "io/report/figure.hpp"
 #include "io/results/laboratory_data.hpp"
 #include "io/results/output_folder.hpp"
 #include "machine/interrupt.hpp"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct ReproduceOptions {
   std::string output = "out/reproduce", data, most_time;
+  fs::path figures;
   std::vector<std::string> overrides;
   std::int64_t discs = 0;
   std::uint64_t first_seed = 1;
@@ -90,6 +92,8 @@ ExitCode reproduce(ReproduceOptions const& options) {
   if (options.dry_run) return forecast_only(options);
   OutputFolder const folder(options.output, "reproduce");
   StudyPlan plan = plan_of(options, folder / "scene.toml");
+  plan.figures = options.figures;
+  if (!plan.figures.empty()) claim_figures(plan.figures);
   StudyLimits const limits = limits_of(options, plan);
   if (options.collect) {
     if (!options.allow_mixed) require_one_program(plan);
@@ -137,6 +141,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what it will cost");
   verb.add_flag("--json", options.json, "with --dry-run: one JSON object, SI units")->needs(dry);
   verb.add_flag("--collect", options.collect, "only scorecard and report of what there is")->excludes(dry);
+  add_figures_option(verb, options.figures)->excludes(dry);
 }
 
 }  // namespace

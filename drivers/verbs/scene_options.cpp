@@ -5,6 +5,7 @@
 #include "io/scene/scene_guard.hpp"
 #include "run/read_once.hpp"
 #include "terminal/status.hpp"
+#include "verbs/verbs.hpp"
 
 namespace clathra {
 
@@ -26,6 +27,13 @@ LoadedScene SceneOptions::load(std::vector<std::string> more) const {
   all.insert(all.end(), more.begin(), more.end());
   std::filesystem::path const path = file;
   return parse_scene(read_once(path, largest_scene_file + 1), file, path.parent_path(), all);
+}
+
+CLI::Option* add_figures_option(CLI::App& verb, std::filesystem::path& folder) {
+  return verb
+      .add_option("--figures", folder, "also write each figure of the page as SVG, PDF and the CSV behind it, into this folder")
+      ->type_name("DIR")
+      ->check(CLI::Validator(name_problem, ""));
 }
 
 void add_status_option(CLI::App& verb) {

@@ -1,6 +1,7 @@
 #pragma once
-/// The options of every verb that reads a scene.
+/// Options that several verbs have.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct SceneOptions {
   /// @param more  overrides by options of the verb itself
   LoadedScene load(std::vector<std::string> more = {}) const;
 };
+
+/// Where the figures of a verb's page become files.
+CLI::Option* add_figures_option(CLI::App& verb, std::filesystem::path& folder);
 
 /// The hidden option by which a study learns how far its members are (terminal/status.hpp).
 void add_status_option(CLI::App& verb);

@@ -27,6 +27,7 @@ namespace {
 
 struct StudyOptions {
   std::string file, output, precision_target, launcher, slurm;
+  std::filesystem::path figures;
   std::vector<std::string> overrides;
   int seeds = 0, max_seeds = 0, parallel = 0, threads = 0, member = 0, specimen = 0;
   bool dry_run = false, collect = false, ignore_guards = false, json = false, skip_refused = false, allow_mixed = false;
@@ -107,11 +108,13 @@ ExitCode print_forecast(StudyPlan const& plan, StudyLimits const& limits, bool j
 
 ExitCode study(StudyOptions const& options) {
   StudyPlan plan = plan_study(study_of(options));
+  plan.figures = options.figures;
   if (plan.study.precision_target) require_known_number(*plan.study.precision_target);
   add_members(plan);
   // Before study.csv is touched; the waves of a study with a goal are asked again.
   bool const only_plans = options.dry_run || !options.slurm.empty();
   if (!only_plans && !options.allow_mixed) require_one_program(plan);
+  if (!plan.figures.empty()) claim_figures(plan.figures);
   if (options.member > 0 || options.specimen > 0)
     return run_alone(plan, jobs_of(options), options.specimen > 0, options.specimen > 0 ? options.specimen : options.member);
   if (options.collect) return collect(plan, options);
@@ -153,6 +156,8 @@ void add_parts(CLI::App& verb, StudyOptions& options) {
   for (auto* const one : {dry, slurm, member, specimen, collected})
     for (auto* const other : {dry, slurm, member, specimen, collected})
       if (one != other) one->excludes(other);
+  auto* const figures = add_figures_option(verb, options.figures);
+  for (auto* const one : {dry, slurm, member, specimen}) figures->excludes(one);
 }
 
 }  // namespace

@@ -11,61 +11,60 @@ namespace clathra {
 namespace {
 
 constexpr double percent = 100, mega = 1e-6;
-constexpr char strain_axis[] = "axial strain ε₁ [%]";
 
 /// A column of every run that has it against its axial strain.
-Plot plot_of(std::vector<RunResults> const& runs, std::string const& column, double factor, std::string axis) {
+Plot plot_of(std::vector<RunResults> const& runs, Variable const& what) {
   Plot plot;
   Range strains, values;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     HistoryTable const& history = runs[i].history;
-    if (!history.has(column)) continue;
-    plot.curves.push_back({run_label(runs[i]), scaled(history["eps1"], percent), scaled(history[column], factor), run_stroke(i)});
+    if (!history.has(what.column)) continue;
+    plot.curves.push_back({run_label(runs[i]), history[axial_strain.column], history[what.column], run_stroke(i)});
     strains.include(plot.curves.back().x);
     values.include(plot.curves.back().y);
   }
-  plot.x = strains.exact_axis(strain_axis);
-  plot.y = values.axis(std::move(axis));
+  plot.x = strains.exact_axis(axial_strain);
+  plot.y = values.axis(what);
   return plot;
 }
 
-std::string stress_figure(std::vector<RunResults> const& runs) {
-  Plot plot = plot_of(runs, "q_Pa", mega, "deviator stress q [MPa]");
+Piece stress_figure(std::vector<RunResults> const& runs) {
+  Plot plot = plot_of(runs, {"deviator stress q [MPa]", "q_Pa", mega});
   plot.title = "Deviator stress against axial strain";
   for (RunResults const& run : runs) {
     TestNumbers const n = test_numbers(run.history.curves());
     plot.description += fmt::format("{}: peak {:.3g} MPa at {:.3g} %, residual {:.3g} MPa. ", run_label(run), n.peak_q * mega,
                                     n.peak_eps1 * percent, n.residual_q * mega);
   }
-  return figure("Stress and strain", svg(plot) + legend(plot.curves),
+  return figure("Stress and strain", drawing(plot) + legend(plot.curves),
                 "How hard the specimen resists: the deviator stress q = σ₁ − σ₃, the difference of the vertical and the lateral "
                 "stress on the walls, while the top and bottom close in on each other.");
 }
 
-std::string volume_figure(std::vector<RunResults> const& runs) {
-  Plot plot = plot_of(runs, "eps_v", percent, "volumetric strain εᵥ [%]");
+Piece volume_figure(std::vector<RunResults> const& runs) {
+  Plot plot = plot_of(runs, {"volumetric strain εᵥ [%]", "eps_v", percent});
   if (plot.curves.empty()) return "";
   plot.title = "Volumetric strain against axial strain";
   for (Curve const& curve : plot.curves)
-    plot.description += fmt::format("{}: {:+.3g} % at the end. ", curve.name, curve.y.back());
-  return figure("Change of volume", svg(plot) + legend(plot.curves),
+    plot.description += fmt::format("{}: {:+.3g} % at the end. ", curve.name, curve.y.back() * percent);
+  return figure("Change of volume", drawing(plot) + legend(plot.curves),
                 "Compression is positive: a rising curve means that the specimen gets denser, a falling one that it dilates. "
                 "Below zero it takes more room than before the test. Strains are natural (logarithmic) ones.");
 }
 
-std::string intact_figure(std::vector<RunResults> const& runs) {
+Piece intact_figure(std::vector<RunResults> const& runs) {
   if (std::none_of(runs.begin(), runs.end(), [](RunResults const& run) { return run.has_bonds(); }))
     return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
-  Plot plot = plot_of(runs, "bonds_intact_pct", 1, "intact bonds [% of those installed]");
+  Plot plot = plot_of(runs, {"intact bonds [% of those installed]", "bonds_intact_pct"});
   std::erase_if(plot.curves, [&](Curve const& curve) {
     return std::none_of(runs.begin(), runs.end(),
                         [&](RunResults const& run) { return run.has_bonds() && run_label(run) == curve.name; });
   });
   if (plot.curves.empty()) return "";
   plot.title = "Share of intact bonds against axial strain";
-  plot.y = {plot.y.title, 0, percent};
+  plot.y = {plot.y.what, 0, percent};
   for (Curve const& curve : plot.curves) plot.description += fmt::format("{}: {:.3g} % at the end. ", curve.name, curve.y.back());
-  return figure("Intact bonds", svg(plot) + legend(plot.curves),
+  return figure("Intact bonds", drawing(plot) + legend(plot.curves),
                 "Bonds of hydrate between grains that still hold, as a share of those that were installed. A broken bond "
                 "does not heal.");
 }
@@ -81,7 +80,7 @@ bool has_modes(HistoryTable const& history) {
 std::vector<Curve> mode_curves(HistoryTable const& history) {
   std::vector<Curve> curves;
   for (BreakModeNames const& m : break_modes) {
-    Curve curve{"", scaled(history["eps1"], percent), {}, mode_stroke(m.mode)};
+    Curve curve{"", history[axial_strain.column], {}, mode_stroke(m.mode)};
     for (std::size_t i = 0; i < history.rows(); ++i) {
       double all = history["bonds_intact"][i];
       for (BreakModeNames const& other : break_modes) all += history[other.broken][i];
@@ -94,22 +93,22 @@ std::vector<Curve> mode_curves(HistoryTable const& history) {
 }
 
 /// A figure for each run with bonds, on the same axes.
-std::string mode_figures(std::vector<RunResults> const& runs) {
+Piece mode_figures(std::vector<RunResults> const& runs) {
   Range strains, shares;
   for (RunResults const& run : runs)
     for (Curve const& curve : has_modes(run.history) ? mode_curves(run.history) : std::vector<Curve>())
       strains.include(curve.x), shares.include(curve.y);
-  std::string figures;
+  Piece figures;
   for (RunResults const& run : runs) {
     if (!run.has_bonds() || !has_modes(run.history)) continue;
     Plot plot;
     plot.title = "Broken bonds by mode against axial strain, " + run_label(run);
     plot.curves = mode_curves(run.history);
     for (Curve const& curve : plot.curves) plot.description += curve.name + ". ";
-    plot.x = strains.exact_axis(strain_axis);
-    plot.y = shares.axis("broken bonds [% of all]");
+    plot.x = strains.exact_axis(axial_strain);
+    plot.y = shares.axis({"broken bonds [% of all]", "broken_pct"});
     figures += figure(
-        "What broke the bonds: " + run_label(run), svg(plot) + legend(plot.curves),
+        "What broke the bonds: " + run_label(run), drawing(plot) + legend(plot.curves),
         "A bond breaks in tension or compression when the normal force reaches its strength, else by shear force and bending "
         "moment together; it then counts as broken in shear or in rolling, whichever had the larger part. Those that broke in "
         "the consolidation count as well.");
@@ -136,13 +135,13 @@ std::vector<Account> const& accounts() {
   return all;
 }
 
-std::string energy_figure(RunResults const& run) {
+Piece energy_figure(RunResults const& run) {
   HistoryTable const& history = run.history;
   Plot plot;
   Range values;
-  std::vector<double> const strain = scaled(history["eps1"], percent);
+  std::vector<double> const strain = history[axial_strain.column];
   std::vector<double> top(history.rows(), 0.0);
-  std::string entries;
+  Piece entries;
   for (Account const& account : accounts()) {
     Area area{account.name, strain, top, top, account.colour};
     for (char const* const column : account.columns)
@@ -150,20 +149,20 @@ std::string energy_figure(RunResults const& run) {
     top = area.high;
     values.include(area.high);
     plot.description += fmt::format("{}: {:.3g} J per metre at the end. ", account.name, area.high.back() - area.low.back());
-    entries = patch_entry(account.colour, account.name) + entries;
+    entries = patch_entry(account.colour, account.name) + std::move(entries);
     plot.areas.push_back(std::move(area));
   }
   plot.curves.push_back({"work of the walls", strain, history["boundary_work_J_per_m"], {colours::black, "6 4", 1.6}});
   values.include(plot.curves[0].y);
   Range strains;
   strains.include(strain);
-  plot.x = strains.exact_axis(strain_axis);
-  plot.y = values.axis("energy [J per metre]");
+  plot.x = strains.exact_axis(axial_strain);
+  plot.y = values.axis({"energy [J per metre]", "energy_J_per_m"});
   plot.title = "Energy balance, " + run_label(run);
   double const work = history["boundary_work_J_per_m"].back(), residual = history["residual_J_per_m"].back();
   return figure(
       "Where the work went: " + run_label(run),
-      svg(plot) + legend(line_entry(plot.curves[0].stroke, plot.curves[0].name) + entries),
+      drawing(plot) + legend(line_entry(plot.curves[0].stroke, plot.curves[0].name) + std::move(entries)),
       fmt::format("The work of the walls since the shear began (dashed) and what became of it, on top of each other. Each "
                   "part is counted by itself; at the end they miss the work by {:.2g} %. Per metre of thickness out of "
                   "the plane.",
@@ -189,12 +188,12 @@ std::string run_label(RunResults const& run) {
   return label;
 }
 
-std::string curve_figures(std::vector<RunResults> const& runs) {
+Piece curve_figures(std::vector<RunResults> const& runs) {
   return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs);
 }
 
-std::string energy_figures(std::vector<RunResults> const& runs) {
-  std::string figures;
+Piece energy_figures(std::vector<RunResults> const& runs) {
+  Piece figures;
   for (RunResults const& run : runs)
     if (has_ledger(run)) figures += energy_figure(run);
   return figures;

@@ -9,7 +9,8 @@
 namespace clathra {
 namespace {
 
-constexpr double percent = 100, milli = 1e3;
+constexpr double percent = 100;
+constexpr Variable diameter{"diameter [mm], logarithmic", "diameter_m", 1e3};
 
 /// An axis over the diameters of all curves, with some room at both ends.
 Axis diameter_axis(std::vector<Curve> const& curves) {
@@ -18,7 +19,7 @@ Axis diameter_axis(std::vector<Curve> const& curves) {
     low = std::min(low, curve.x.front());
     high = std::max(high, curve.x.back());
   }
-  return {"diameter [mm], logarithmic", low / 1.25, high * 1.25, true};
+  return {diameter, low * diameter.factor / 1.25, high * diameter.factor * 1.25, true};
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ Curve grading_curve(std::vector<float> const& radii, std::string const& name, St
   std::size_t const stride = std::max<std::size_t>(1, sorted.size() / 500);
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     if (i % stride == 0 || i + 1 == sorted.size()) {
-      curve.x.push_back(2 * double(sorted[i]) * milli);
+      curve.x.push_back(2 * double(sorted[i]));
       curve.y.push_back((i + 1 == sorted.size() ? 1 : finer / total) * percent);
     }
     finer += double(sorted[i]) * double(sorted[i]);
@@ -50,21 +51,21 @@ std::optional<Curve> target_curve(RunResults const& run) {
   Curve curve{"asked for", {}, {}, {colours::black, "2 3", 3}};
   constexpr int points = 100;
   for (int i = 0; i <= points; ++i) {
-    curve.x.push_back(grading.smallest() * std::pow(grading.largest() / grading.smallest(), double(i) / points) * milli);
-    curve.y.push_back(grading.finer_than(curve.x.back() / milli) * percent);
+    curve.x.push_back(grading.smallest() * std::pow(grading.largest() / grading.smallest(), double(i) / points));
+    curve.y.push_back(grading.finer_than(curve.x.back()) * percent);
   }
   return curve;
 }
 
-std::string grading_figure(std::string const& title, std::vector<Curve> const& curves) {
+Piece grading_figure(std::string const& title, std::vector<Curve> const& curves) {
   Plot plot;
   plot.title = title;
   plot.description = "Percent of the mass in finer grains against the diameter.";
   plot.x = diameter_axis(curves);
-  plot.y = {"finer by mass [%]", 0, percent};
+  plot.y = {{"finer by mass [%]", "finer_by_mass_pct"}, 0, percent};
   plot.curves = curves;
   return figure(
-      plot.title, svg(plot) + legend(curves),
+      plot.title, drawing(plot) + legend(curves),
       "The share of the mass that is in particles finer than a diameter, as a sieve analysis would give it. In two dimensions "
       "mass goes with the area of a particle.");
 }

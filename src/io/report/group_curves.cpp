@@ -44,18 +44,16 @@ Axis axis_of(ShownBand const& what, Range const& values) {
 
 Area area_of(GroupCurves const& group, ShownBand const& what) {
   SeedBand const& band = group.bands[what.column];
-  return {
-      group.name, scaled(band.eps1, percent), scaled(band.low, what.factor), scaled(band.high, what.factor), group.stroke.colour,
-      0.22};
+  return {group.name, band.eps1, band.low, band.high, group.stroke.colour, 0.22};
 }
 
 Curve mean_of(GroupCurves const& group, ShownBand const& what) {
   SeedBand const& band = group.bands[what.column];
-  return {group.name, scaled(band.eps1, percent), scaled(band.mean, what.factor), group.stroke};
+  return {group.name, band.eps1, band.mean, group.stroke};
 }
 
 /// The means of all groups with their bands in one figure.
-std::string overlay(std::vector<GroupCurves> const& groups, ShownBand const& what, std::vector<Curve> const& more) {
+Piece overlay(std::vector<GroupCurves> const& groups, ShownBand const& what, std::vector<Curve> const& more) {
   Plot plot;
   Range strains, values;
   for (GroupCurves const& group : groups) {
@@ -65,7 +63,7 @@ std::string overlay(std::vector<GroupCurves> const& groups, ShownBand const& wha
     strains.include(plot.curves.back().x);
     values.include(plot.areas.back().low);
     values.include(plot.areas.back().high);
-    plot.description += fmt::format("{}: {:.3g} at the end. ", group.name, plot.curves.back().y.back());
+    plot.description += fmt::format("{}: {:.3g} at the end. ", group.name, plot.curves.back().y.back() * what.axis.factor);
   }
   if (plot.curves.empty()) return "";
   for (Curve const& curve : more) {
@@ -74,9 +72,9 @@ std::string overlay(std::vector<GroupCurves> const& groups, ShownBand const& wha
     plot.curves.push_back(curve);
   }
   plot.title = std::string(what.heading) + ", mean over the seeds";
-  plot.x = strains.exact_axis(strain_axis);
+  plot.x = strains.exact_axis(axial_strain);
   plot.y = axis_of(what, values);
-  return figure(what.heading, svg(plot) + legend(plot.curves),
+  return figure(what.heading, drawing(plot) + legend(plot.curves),
                 std::string(what.caption) + " Lines: mean over the seeds; bands: its 95 % confidence interval at each strain.");
 }
 
@@ -90,14 +88,14 @@ std::string with_interval(std::vector<double> const& values, double factor) {
 }
 
 /// A number of the envelopes against the saturation, with its interval as a vertical line.
-std::string strength_figure(std::vector<GroupNumbers> const& materials, char const* number, std::string const& heading,
-                            std::string const& axis, double factor, std::vector<Curve> const& more) {
+Piece strength_figure(std::vector<GroupNumbers> const& materials, std::string const& heading, Variable const& number,
+                      std::vector<Curve> const& more) {
   Plot plot;
   Range saturations, values;
   std::vector<std::pair<double, MeanInterval>> points;
   for (GroupNumbers const& material : materials) {
     std::string const* const setting = value_in(material.settings, saturation_key);
-    auto const found = material.values.find(number);
+    auto const found = material.values.find(number.column);
     if (!setting || found == material.values.end()) continue;
     double const value = std::atof(setting->c_str());
     points.emplace_back(setting->find('%') == std::string::npos ? value * percent : value, mean_interval(found->second));
@@ -109,12 +107,11 @@ std::string strength_figure(std::vector<GroupNumbers> const& materials, char con
   Curve means{"mean over the seeds", {}, {}, {colours::vermilion, ""}, true};
   for (auto const& [saturation, m] : points) {
     means.x.push_back(saturation);
-    means.y.push_back(m.mean * factor);
-    plot.curves.push_back(
-        {"95 % interval", {saturation, saturation}, {m.low() * factor, m.high() * factor}, {colours::dark, "", 2}});
+    means.y.push_back(m.mean);
+    plot.curves.push_back({"95 % interval", {saturation, saturation}, {m.low(), m.high()}, {colours::dark, "", 2}});
     values.include(plot.curves.back().y);
-    plot.description +=
-        fmt::format("{:g} % hydrate: {:.3g} ± {:.2g}. ", saturation, m.mean * factor, m.half_width.value_or(0) * factor);
+    plot.description += fmt::format("{:g} % hydrate: {:.3g} ± {:.2g}. ", saturation, m.mean * number.factor,
+                                    m.half_width.value_or(0) * number.factor);
   }
   saturations.include(means.x);
   values.include(means.y);
@@ -125,9 +122,9 @@ std::string strength_figure(std::vector<GroupNumbers> const& materials, char con
     plot.curves.push_back(curve);
   }
   plot.title = heading + " against hydrate saturation";
-  plot.x = saturations.axis("hydrate saturation [%]");
-  plot.y = values.axis(axis);
-  return figure(plot.title, svg(plot),
+  plot.x = saturations.axis(hydrate_saturation);
+  plot.y = values.axis(number);
+  return figure(plot.title, drawing(plot),
                 "One envelope for each seed, fitted to its tests at all confining stresses. Points: mean over the seeds; "
                 "vertical lines: its 95 % confidence interval.");
 }

@@ -10,27 +10,34 @@
 
 namespace clathra {
 
-inline constexpr char strain_axis[] = "axial strain ε₁ [%]";
-
 /// What is shown of a band.
 struct ShownBand {
   std::size_t column;  ///< in band_columns
-  char const *heading, *axis, *caption;
-  double factor;
+  char const* heading;
+  Variable axis;
+  char const* caption;
 };
 inline constexpr ShownBand shown_bands[] = {
-    {0, "Stress and strain", "deviator stress q [MPa]", "Deviator stress on the walls.", 1e-6},
-    {1, "Change of volume", "volumetric strain εᵥ [%]", "Compression is positive; a falling curve dilates.", 100},
-    {2, "Intact bonds", "intact bonds [% of those installed]", "Bonds that still hold, as a share of those installed.", 1},
-    {3, "Contacts", "mechanical coordination number", "Contacts of a particle, without those that carry nothing (Thornton 2000).",
-     1},
-    {4, "Broken in tension", "bonds broken in tension", "Those of the consolidation included.", 1},
-    {5, "Broken in compression", "bonds broken in compression", "Those of the consolidation included.", 1},
-    {6, "Broken in shear", "bonds broken in shear", "Those of the consolidation included.", 1},
-    {7, "Broken in rolling", "bonds broken in rolling", "Those of the consolidation included.", 1}};
+    {0, "Stress and strain", {"deviator stress q [MPa]", band_columns[0], 1e-6}, "Deviator stress on the walls."},
+    {1,
+     "Change of volume",
+     {"volumetric strain εᵥ [%]", band_columns[1], 100},
+     "Compression is positive; a falling curve dilates."},
+    {2,
+     "Intact bonds",
+     {"intact bonds [% of those installed]", band_columns[2]},
+     "Bonds that still hold, as a share of those installed."},
+    {3,
+     "Contacts",
+     {"mechanical coordination number", band_columns[3]},
+     "Contacts of a particle, without those that carry nothing (Thornton 2000)."},
+    {4, "Broken in tension", {"bonds broken in tension", band_columns[4]}, "Those of the consolidation included."},
+    {5, "Broken in compression", {"bonds broken in compression", band_columns[5]}, "Those of the consolidation included."},
+    {6, "Broken in shear", {"bonds broken in shear", band_columns[6]}, "Those of the consolidation included."},
+    {7, "Broken in rolling", {"bonds broken in rolling", band_columns[7]}, "Those of the consolidation included."}};
 
 /// The paper's measure of intact bonds, which its own page shows.
-inline constexpr ShownBand paper_intact_band{8, "Intact bonds", "bonded [% of all contacts]", "", 1};
+inline constexpr ShownBand paper_intact_band{8, "Intact bonds", {"bonded [% of all contacts]", band_columns[8]}, ""};
 
 /// A group with the curves of its finished members.
 struct GroupCurves {
@@ -51,16 +58,16 @@ Axis axis_of(ShownBand const& what, Range const& values);
 Area area_of(GroupCurves const& group, ShownBand const& what);
 Curve mean_of(GroupCurves const& group, ShownBand const& what);
 
-/// The means of groups with their bands in one figure; empty where there is nothing. HTML.
+/// The means of groups with their bands in one figure; empty where there is nothing.
 /// @param more  further curves, such as points of a laboratory
-std::string overlay(std::vector<GroupCurves> const& groups, ShownBand const& what, std::vector<Curve> const& more = {});
+Piece overlay(std::vector<GroupCurves> const& groups, ShownBand const& what, std::vector<Curve> const& more = {});
 
 /// "3.04 ± 0.12": as many digits as the interval leaves sure.
 std::string with_interval(std::vector<double> const& values, double factor);
 
-/// A number of the envelopes against the saturation, with its interval as a vertical line; empty where the materials do not
-/// differ in saturation. HTML.
-std::string strength_figure(std::vector<GroupNumbers> const& materials, char const* number, std::string const& heading,
-                            std::string const& axis, double factor, std::vector<Curve> const& more = {});
+/// A number of the envelopes, named by its column, against the saturation, with its interval as a vertical line; empty where the
+/// materials do not differ in saturation.
+Piece strength_figure(std::vector<GroupNumbers> const& materials, std::string const& heading, Variable const& number,
+                      std::vector<Curve> const& more = {});
 
 }  // namespace clathra

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "domain/measurement/principal_axes.hpp"
 #include "domain/measurement/strain_field.hpp"
@@ -28,37 +29,42 @@ struct Shown {
   std::vector<Snapshot> snapshots;
   std::size_t peak = 0;  ///< the one nearest to the peak
   MapView view;
+  std::vector<std::filesystem::path> files;
 
   Snapshot const& first() const { return snapshots.front(); }
   Snapshot const& last() const { return snapshots.back(); }
+  std::filesystem::path const& file_of(Snapshot const& s) const { return files[static_cast<std::size_t>(&s - snapshots.data())]; }
 };
 
 /// The grains in the middle, at the start and at the end.
-std::string detail_pictures(Shown const& shown) {
+Piece detail_pictures(Shown const& shown) {
   constexpr double detail_grains = 13, pixels_per_grain = 55;
   std::vector<Snapshot const*> ends{&shown.first()};
   if (shown.snapshots.size() > 1) ends.push_back(&shown.last());
-  std::string pictures;
+  Piece pictures;
   for (Snapshot const* const at : ends) {
     MapView const view = detail_of(*at, detail_grains);
-    Picture const detail{view, mean_diameter(*at),
+    std::string const text = fmt::format("middle, {:.2g} mm wide, at {}", view.width * milli, strain_text(*at));
+    Picture const detail{view,
+                         mean_diameter(*at),
                          fmt::format("Grains and bonds in the middle at {}, {}", strain_text(*at), run_label(shown.run)),
-                         [at](MapView const& v) { return detail_map(*at, v); }, pixels_per_grain};
-    pictures +=
-        titled(drawn(detail, shown.bytes), fmt::format("middle, {:.2g} mm wide, at {}", view.width * milli, strain_text(*at)));
+                         [at](MapView const& v) { return detail_map(*at, v); },
+                         particles_behind(shown.file_of(*at), text, view),
+                         pixels_per_grain};
+    pictures += titled(drawn(detail, shown.bytes), text);
   }
   return pictures;
 }
 
-std::string specimen_figure(Shown const& shown) {
+Piece specimen_figure(Shown const& shown) {
   Snapshot const& s = shown.first();
   auto const [least, most] = std::minmax_element(s.radius.begin(), s.radius.end());
+  std::string const text = fmt::format("{:.3g} mm wide, {:.3g} mm high, at {}", (s.right - s.left) * milli,
+                                       (s.top - s.bottom) * milli, strain_text(s));
   Picture const grains{shown.view, mean_diameter(s), "Grains of the specimen by size, " + run_label(shown.run),
-                       [&](MapView const& view) { return grain_map(s, view); }};
-  std::string const whole =
-      titled(drawn(grains, shown.bytes), fmt::format("{:.3g} mm wide, {:.3g} mm high, at {}", (s.right - s.left) * milli,
-                                                     (s.top - s.bottom) * milli, strain_text(s)));
-  std::string entries = patch_entry(map_colours::grain, "grain");
+                       [&](MapView const& view) { return grain_map(s, view); },
+                       particles_behind(shown.file_of(s), text, shown.view)};
+  Piece entries = patch_entry(map_colours::grain, "grain");
   std::string caption = fmt::format(
       "The {} particles at the start of the shear, coloured by their size, and the grains in the middle of the specimen",
       grouped(static_cast<double>(s.x.size())));
@@ -67,21 +73,23 @@ std::string specimen_figure(Shown const& shown) {
     caption +=
         ". Hydrate is drawn in the width of its bond, with a line on each bond that holds and a coloured mark where one broke";
   }
-  std::string const size_bar = colour_bar("diameter", fmt::format("{:.3g} mm", 2 * milli * double(*least)),
-                                          fmt::format("{:.3g} mm", 2 * milli * double(*most)));
-  return figure("The specimen",
-                strip(whole + "<div class=\"stack\">" + detail_pictures(shown) + "</div>") + size_bar + legend(entries),
-                caption + ".", true);
+  Piece const size_bar = colour_bar("diameter", fmt::format("{:.3g} mm", 2 * milli * double(*least)),
+                                    fmt::format("{:.3g} mm", 2 * milli * double(*most)));
+  return figure(
+      "The specimen",
+      strip(titled(drawn(grains, shown.bytes), text) + stack(detail_pictures(shown))) + size_bar + legend(std::move(entries)),
+      caption + ".", true);
 }
 
-std::string bond_figure(Shown const& shown) {
+Piece bond_figure(Shown const& shown) {
   if (!shown.run.has_bonds()) return "";
-  std::string pictures;
+  Piece pictures;
   for (Snapshot const& s : shown.snapshots) {
     auto const broken = std::count_if(s.state.begin(), s.state.end(), [](std::uint8_t state) { return state > std::uint8_t{1}; });
     pictures += titled(drawn({shown.view, mean_diameter(s),
                               fmt::format("Intact and broken bonds at {}, {}", strain_text(s), run_label(shown.run)),
-                              [&](MapView const& view) { return bond_map(s, view); }},
+                              [&](MapView const& view) { return bond_map(s, view); },
+                              pairs_behind(shown.file_of(s), strain_text(s), ShownPairs::bonds)},
                              shown.bytes),
                        fmt::format("{}, {} broken", strain_text(s), grouped(static_cast<double>(broken))));
   }
@@ -91,46 +99,49 @@ std::string bond_figure(Shown const& shown) {
                 true);
 }
 
-std::string force_figure(Shown const& shown) {
+Piece force_figure(Shown const& shown) {
   Snapshot const& s = shown.snapshots[shown.peak];
-  std::string const image =
+  Piece image =
       drawn({view_of({&s}), mean_diameter(s), fmt::format("Normal forces at {}, {}", strain_text(s), run_label(shown.run)),
-             [&](MapView const& view) { return force_map(s, view); }},
+             [&](MapView const& view) { return force_map(s, view); },
+             pairs_behind(shown.file_of(s), strain_text(s), ShownPairs::forces)},
             shown.bytes);
-  std::string entries =
+  Piece entries =
       patch_entry(map_colours::pressing, "pressing, above the mean") + patch_entry(map_colours::weak, "pressing, below the mean");
   if (shown.run.has_bonds()) entries += patch_entry(map_colours::pulling, "pulling");
   return figure(
-      "Force chains", strip(titled(image, strain_text(s))) + legend(entries),
+      "Force chains", strip(titled(std::move(image), strain_text(s))) + legend(std::move(entries)),
       "How the load finds its way through the grains near the peak: a line from centre to centre of two grains, as wide as "
       "the normal force between them is large.");
 }
 
-std::string strain_figure(Shown const& shown) {
+Piece strain_figure(Shown const& shown) {
   Snapshot const& s = shown.last();
   std::vector<float> const values = shear_strain(s);
   double const most = upper_end(values);
   if (!(most > 0)) return "";
-  std::string const image =
+  Piece image =
       drawn({view_of({&s}), mean_diameter(s), fmt::format("Shear strain at {}, {}", strain_text(s), run_label(shown.run)),
-             [&](MapView const& view) { return value_map(s, values, most, view); }},
+             [&](MapView const& view) { return value_map(s, values, most, view); },
+             particles_behind(shown.file_of(s), strain_text(s), shown.view, "shear_strain", values)},
             shown.bytes);
   return figure(
       "Where it sheared",
-      strip(titled(image, strain_text(s))) + colour_bar("shear strain", "0 %", fmt::format("{:g} % and more", most * percent)),
+      strip(titled(std::move(image), strain_text(s))) +
+          colour_bar("shear strain", "0 %", fmt::format("{:g} % and more", most * percent)),
       fmt::format("The shear strain that each place has gone through by then: the difference of the principal natural "
                   "strains, averaged over {:g} grain diameters. Were it the same everywhere, it would be {:.3g} %; bands "
                   "stand out.",
                   strain_window, (2 * s.eps1 - s.eps_v) * percent));
 }
 
-std::string rose_figure(Shown const& shown) {
+Piece rose_figure(Shown const& shown) {
   Snapshot const& s = shown.snapshots[shown.peak];
   Rose const now = rose_of(s, ContactSet::mechanical), before = rose_of(shown.first(), ContactSet::mechanical);
   if (now.pairs == 0) return "";
   PrincipalAxes const stress = principal_stress(s);
   std::string const label = run_label(shown.run) + ", " + strain_text(s);
-  constexpr double to_degrees = 180 / 3.14159265358979323846;
+  constexpr double to_degrees = 180 / std::numbers::pi;
   return figure(
       "Directions of contacts and forces",
       strip(titled(normal_rose(now, before, label), "number of contacts") +
@@ -154,10 +165,11 @@ Shown read_shown(RunResults const& run, std::size_t bytes) {
   for (std::filesystem::path const& file : run.snapshots) steps.push_back(step_of(file));
   auto const peak_step = static_cast<std::int64_t>(run.history["step"][test_numbers(run.history.curves()).peak]);
   std::vector<std::size_t> const which = shown_snapshots(steps, peak_step);
-  Shown shown{run, bytes, {}, which.size() > 1 ? std::size_t{1} : std::size_t{0}, {}};
+  Shown shown{run, bytes, {}, which.size() > 1 ? std::size_t{1} : std::size_t{0}, {}, {}};
   if (which.size() == 2 && std::abs(steps[which[0]] - peak_step) < std::abs(steps[which[1]] - peak_step)) shown.peak = 0;
   std::vector<Snapshot const*> all;
-  for (std::size_t const i : which) shown.snapshots.push_back(read_snapshot(run.snapshots[i]));
+  for (std::size_t const i : which) shown.files.push_back(run.snapshots[i]);
+  for (std::filesystem::path const& file : shown.files) shown.snapshots.push_back(read_snapshot(file));
   for (Snapshot const& s : shown.snapshots) all.push_back(&s);
   shown.view = view_of(all);
   return shown;
@@ -177,7 +189,7 @@ std::vector<std::size_t> shown_snapshots(std::vector<std::int64_t> const& steps,
 MapFigures map_figures(RunResults const& run, Stroke const& stroke, std::size_t bytes) {
   Shown const shown = read_shown(run, bytes);
   MapFigures result;
-  result.html = specimen_figure(shown) + bond_figure(shown) + force_figure(shown) + strain_figure(shown) + rose_figure(shown);
+  result.figures = specimen_figure(shown) + bond_figure(shown) + force_figure(shown) + strain_figure(shown) + rose_figure(shown);
   result.grading = grading_curve(shown.first().radius, run_label(run), stroke);
   return result;
 }

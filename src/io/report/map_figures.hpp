@@ -12,7 +12,7 @@ namespace clathra {
 inline constexpr std::size_t pictures_per_run = 8;
 
 struct MapFigures {
-  std::string html;
+  Piece figures;
   Curve grading;  ///< of the first snapshot
 };
 

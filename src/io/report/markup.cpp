@@ -34,11 +34,7 @@ td{font-variant-numeric:tabular-nums}
 figure{margin:0;padding:.85rem .9rem;border:1px solid var(--rule);border-radius:6px;min-width:0;break-inside:avoid}
 figure.wide{grid-column:1/-1}
 figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-width:75em}
-.plot{display:block;width:100%;height:auto;max-width:680px;margin:0 auto;font:13px system-ui,"Noto Sans","DejaVu Sans",sans-serif}
-.plot text{fill:#1d2429}
-.plot .grid path{stroke:#e4e8ea;fill:none}
-.plot .frame{fill:none;stroke:#7c878e}
-.plot .curves{fill:none;stroke-linejoin:round;stroke-linecap:butt}
+.plot{display:block;width:100%;height:auto;max-width:680px;margin:0 auto}
 .legend{display:flex;flex-wrap:wrap;gap:.15rem 1.1rem;list-style:none;margin:.5rem 0 0;padding:0;font-size:.9rem}
 .legend li{display:flex;align-items:center;gap:.45rem}
 .legend svg{flex:none}
@@ -46,7 +42,7 @@ figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-w
 .bar i{display:block;height:.8rem;border-radius:2px}
 .bar span{display:flex;justify-content:space-between}
 .multiples{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,270px),1fr));gap:.8rem}
-.multiples .plot{font-size:24px;overflow:visible}.multiples+h3{margin-top:1.1rem}.multiples figure{padding:.5rem .5rem .2rem}.multiples h3{margin:0 0 .2rem}
+.multiples .plot{font-size:24px;overflow:visible}.multiples .title{display:none}.multiples+h3{margin-top:1.1rem}.multiples figure{padding:.5rem .5rem .2rem}.multiples h3{margin:0 0 .2rem}
 .words td,.words th{text-align:left}.sure td{white-space:nowrap}.scroll+.beside{margin-top:1.1rem}
 .strip{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,210px),1fr));gap:.9rem}
 .strip>div{min-width:0}
@@ -109,42 +105,94 @@ std::string dash_attribute(Stroke const& stroke) {
   return stroke.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
 }
 
-std::string line_entry(Stroke const& stroke, std::string const& name) {
-  return fmt::format(
-      "<li><svg width=\"40\" height=\"10\" aria-hidden=\"true\"><path d=\"M0 5h40\" stroke=\"{}\" "
-      "stroke-width=\"{:g}\"{}/></svg>{}"
-      "</li>",
-      hex(stroke.colour), stroke.width + 0.5, dash_attribute(stroke), escaped(name));
+namespace {
+
+constexpr double file_width = 480;  // of legends and bars in files
+
+/// An entry of a legend: a mark of this size and its name.
+Piece entry(Box const& mark, std::string const& name) {
+  Piece piece(fmt::format("<li><svg width=\"{0:g}\" height=\"{1:g}\" aria-hidden=\"true\">{2}</svg>{3}</li>", mark.width,
+                          mark.height, mark.svg, escaped(name)));
+  constexpr double middle = 10;
+  Box const lowered{mark.width, 2 * middle,
+                    fmt::format("<g transform=\"translate(0 {:g})\">{}</g>", middle - mark.height / 2, mark.svg)};
+  piece.boxes.push_back(row_of({lowered, text_box(name)}));
+  return piece;
 }
 
-std::string patch_entry(Rgb colour, std::string const& name) {
-  return fmt::format(
-      "<li><svg width=\"14\" height=\"14\" aria-hidden=\"true\"><rect width=\"14\" height=\"14\" rx=\"2\" "
-      "fill=\"{}\"/></svg>{}</li>",
-      hex(colour), escaped(name));
+/// The boxes of a piece become one, within other HTML.
+Piece joined(Piece piece, Box (*join)(std::vector<Box> const&), std::string const& before, std::string const& after) {
+  piece.html = before + piece.html + after;
+  piece.boxes = {join(piece.boxes)};
+  return piece;
 }
 
-std::string legend(std::string const& entries) { return entries.empty() ? "" : "<ul class=\"legend\">" + entries + "</ul>\n"; }
+}  // namespace
 
-std::string legend(std::vector<Curve> const& curves) {
-  std::string entries;
+Piece line_entry(Stroke const& stroke, std::string const& name) {
+  return entry({40, 10,
+                fmt::format("<path d=\"M0 5h40\" stroke=\"{}\" stroke-width=\"{:g}\"{}/>", hex(stroke.colour), stroke.width + 0.5,
+                            dash_attribute(stroke))},
+               name);
+}
+
+Piece patch_entry(Rgb colour, std::string const& name) {
+  return entry({14, 14, fmt::format("<rect width=\"14\" height=\"14\" rx=\"2\" fill=\"{}\"/>", hex(colour))}, name);
+}
+
+Piece legend(Piece entries) {
+  if (entries.empty()) return entries;
+  auto const lines = [](std::vector<Box> const& boxes) { return lines_of(boxes, file_width); };
+  return joined(std::move(entries), lines, "<ul class=\"legend\">", "</ul>\n");
+}
+
+Piece legend(std::vector<Curve> const& curves) {
+  Piece entries;
   for (Curve const& curve : curves) entries += line_entry(curve.stroke, curve.name);
-  return legend(entries);
+  return legend(std::move(entries));
 }
 
-std::string colour_bar(std::string const& title, std::string const& low, std::string const& high) {
-  return fmt::format("<div class=\"bar\">{}<i style=\"background:{}\"></i><span><b>{}</b><b>{}</b></span></div>\n",
-                     escaped(title), ramp_css(), escaped(low), escaped(high));
+Piece colour_bar(std::string const& title, std::string const& low, std::string const& high) {
+  Piece piece(fmt::format("<div class=\"bar\">{}<i style=\"background:{}\"></i><span><b>{}</b><b>{}</b></span></div>\n",
+                          escaped(title), ramp_css(), escaped(low), escaped(high)));
+  constexpr double height = 13;
+  constexpr int steps = 120;
+  std::string bar;
+  for (int i = 0; i < steps; ++i)
+    bar += fmt::format("<rect x=\"{:g}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\"/>", file_width / steps * i,
+                       file_width / steps + 0.5, height, hex(ramp((i + 0.5) / steps)));
+  Box ends = text_box(low, "start", file_width);
+  ends.svg += text_box(high, "end", file_width).svg;
+  piece.boxes.push_back(column_of({text_box(title), {file_width, height, bar}, ends}));
+  return piece;
 }
 
-std::string picture(std::string const& png, Canvas const& canvas, std::string const& alt) {
-  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", canvas.width(),
-                     canvas.height(), escaped(alt), base64(png));
+Piece picture(std::string const& png, Canvas const& canvas, std::string const& alt, DrawnData data) {
+  std::string const source = "data:image/png;base64," + base64(png);
+  Piece piece(fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", canvas.width(), canvas.height(), escaped(alt),
+                          source));
+  constexpr double width = 240;
+  double const height = width * canvas.height() / canvas.width();
+  piece.boxes.push_back(
+      {width, height, fmt::format("<image width=\"{:g}\" height=\"{:g}\" xlink:href=\"{}\"/>", width, height, source)});
+  piece.data.push_back(std::move(data));
+  return piece;
 }
 
-std::string figure(std::string const& heading, std::string const& drawing, std::string const& caption, bool wide) {
-  return fmt::format("<figure{}><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n", wide ? " class=\"wide\"" : "",
-                     escaped(heading), drawing, escaped(caption));
+Piece titled(Piece picture, std::string const& text) {
+  picture.boxes.push_back(text_box(text, "middle", picture.boxes.front().width));
+  return joined(std::move(picture), column_of, "<div>", "<p>" + escaped(text) + "</p></div>\n");
+}
+
+Piece strip(Piece contents) { return joined(std::move(contents), row_of, "<div class=\"strip\">\n", "</div>\n"); }
+
+Piece stack(Piece contents) { return joined(std::move(contents), column_of, "<div class=\"stack\">", "</div>"); }
+
+Piece figure(std::string const& heading, Piece contents, std::string const& caption, bool wide) {
+  Piece piece(fmt::format("<figure{}><h3>{}</h3>\n{}{}</figure>\n", wide ? " class=\"wide\"" : "", escaped(heading),
+                          contents.html, caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>"));
+  piece.figures.push_back({heading, caption, column_of(contents.boxes), std::move(contents.data)});
+  return piece;
 }
 
 std::string table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows) {
@@ -153,14 +201,14 @@ std::string table(std::vector<std::string> const& head, std::vector<std::vector<
   return "<div class=\"scroll words\"><table><thead>" + row("th", head) + "</thead><tbody>\n" + body + "</tbody></table></div>\n";
 }
 
-std::string side_by_side(std::string const& contents) { return "<div class=\"beside\">\n" + contents + "</div>\n"; }
+Piece side_by_side(Piece contents) { return "<div class=\"beside\">\n" + std::move(contents) + "</div>\n"; }
 
 std::string page(std::string const& title, std::string const& body) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light\">{}<title>{}</title>\n"
-      "<style>{}</style></head>\n<body>\n{}</body></html>\n",
-      page_mark, escaped(title), style, body);
+      "<style>{}{}</style></head>\n<body>\n{}</body></html>\n",
+      page_mark, escaped(title), drawing_style, style, body);
 }
 
 }  // namespace clathra

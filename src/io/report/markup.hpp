@@ -6,6 +6,7 @@
 
 #include "io/report/canvas.hpp"
 #include "io/report/colours.hpp"
+#include "io/report/figure.hpp"
 #include "io/report/plot.hpp"
 
 namespace clathra {
@@ -23,25 +24,30 @@ std::string with_minus(std::string const& number);
 std::string dash_attribute(Stroke const& stroke);
 
 /// Entries of a legend: a piece of the line, or a patch of the colour, with its name.
-std::string line_entry(Stroke const& stroke, std::string const& name);
-std::string patch_entry(Rgb colour, std::string const& name);
-std::string legend(std::string const& entries);
-std::string legend(std::vector<Curve> const& curves);
+Piece line_entry(Stroke const& stroke, std::string const& name);
+Piece patch_entry(Rgb colour, std::string const& name);
+Piece legend(Piece entries);
+Piece legend(std::vector<Curve> const& curves);
 
 /// A bar of the ramp's colours with the numbers at its ends.
-std::string colour_bar(std::string const& title, std::string const& low, std::string const& high);
+Piece colour_bar(std::string const& title, std::string const& low, std::string const& high);
 
 /// A picture as <img> with its bytes in the page.
-std::string picture(std::string const& png, Canvas const& canvas, std::string const& alt);
+Piece picture(std::string const& png, Canvas const& canvas, std::string const& alt, DrawnData data);
+
+/// A picture with a line below it; pictures in a row, and below each other in such a row.
+Piece titled(Piece picture, std::string const& text);
+Piece strip(Piece contents);
+Piece stack(Piece contents);
 
 /// A figure with a heading and a caption. @param wide  over the whole width of the page
-std::string figure(std::string const& heading, std::string const& drawing, std::string const& caption, bool wide = false);
+Piece figure(std::string const& heading, Piece contents, std::string const& caption, bool wide = false);
 
 /// A table of words and numbers, escaped; its columns begin at the left.
 std::string table(std::vector<std::string> const& head, std::vector<std::vector<std::string>> const& rows);
 
 /// Figures or pictures beside each other where there is room.
-std::string side_by_side(std::string const& contents);
+Piece side_by_side(Piece contents);
 
 /// Stands in the head of each page.
 inline constexpr std::string_view page_mark = "<meta name=\"generator\" content=\"clathra\">";

@@ -46,15 +46,14 @@ std::vector<Curve> laboratory_curves(Reproduction const& r, TestFigure const& fi
     int const saturation = static_cast<int>(series.saturation + 0.5),
               confining = static_cast<int>(series.confining_stress * mega + 0.5);
     if (std::find(figure.cells.begin(), figure.cells.end(), paper_cell(saturation, confining)) == figure.cells.end()) continue;
-    curves.push_back(
-        {series.name, scaled(series.x, percent), scaled(series.y, figure.what.factor), {colours::black, "1 4"}, true});
+    curves.push_back({series.name, series.x, series.y, {colours::black, "1 4"}, true});
   }
   return curves;
 }
 
 std::string heading_of(TestFigure const& figure) { return "Figure " + figure.number + ": " + figure.what.heading; }
 
-std::string drawn(Reproduction const& r, std::vector<GroupCurves> const& curves, TestFigure const& wanted) {
+Piece drawn(Reproduction const& r, std::vector<GroupCurves> const& curves, TestFigure const& wanted) {
   ShownBand what = wanted.what;
   std::string const heading = heading_of(wanted), caption = beside_words(wanted.words, "");
   what.heading = heading.c_str();
@@ -85,8 +84,8 @@ std::vector<std::string> cells_over_thickness(Reproduction const& r) {
 }
 
 /// Strength over the normal force of a bond without gap between grains of d50.
-std::string strength_curves(Reproduction const& r, std::string const& title, std::string const& axis,
-                            std::function<double(BondCard const&)> const& strength) {
+Piece strength_curves(Reproduction const& r, std::string const& title, Variable const& axis,
+                      std::function<double(BondCard const&)> const& strength) {
   constexpr int points = 200;
   Plot plot;
   Range forces, strengths;
@@ -106,9 +105,9 @@ std::string strength_curves(Reproduction const& r, std::string const& title, std
     plot.curves.push_back(std::move(curve));
   }
   plot.title = title;
-  plot.x = forces.axis("normal force of the bond [N/m]");
+  plot.x = forces.axis({"normal force of the bond [N/m]", "normal_force_N_per_m"});
   plot.y = strengths.axis(axis);
-  return figure(title, svg(plot) + legend(plot.curves),
+  return figure(title, drawing(plot) + legend(plot.curves),
                 beside_words("in the laboratory strength first rises with the normal force, then falls to nothing.",
                              "a bond across no gap between two grains of d50, by the law of these tests."));
 }
@@ -119,7 +118,7 @@ std::string beside_words(std::string const& words, std::string const& ours) {
   return "The paper: " + words + (ours.empty() ? "" : " Here: " + ours);
 }
 
-std::string critical_thickness_figure() {
+Piece critical_thickness_figure() {
   Plot plot;
   Curve law{"Eq. 3", {}, {}, run_stroke(0)};
   for (int i = 0; i <= 500; ++i) {
@@ -129,20 +128,21 @@ std::string critical_thickness_figure() {
   Curve const images{"three images", {30, 50, 86.3}, {8.13 / 200, 15.6 / 200, 30.7 / 320}, {colours::vermilion, "1 6"}, true};
   plot.title = "Figure 6: Critical thickness";
   plot.description = "Critical thickness over d50 against saturation.";
-  plot.x = {"saturation [%]", 0, 100};
-  plot.y = {"h_max / d50", 0, 0.12};
+  plot.x = {{"saturation [%]", "saturation_pct"}, 0, 100};
+  plot.y = {{"h_max / d50", "critical_thickness_over_d50"}, 0, 0.12};
   plot.curves = {law, images};
-  return figure(plot.title, svg(plot) + legend(plot.curves),
+  return figure(plot.title, drawing(plot) + legend(plot.curves),
                 beside_words("it rises with saturation up to a constant value, from none at 20 %.", "Eq. 3 as printed."));
 }
 
-std::string envelope_figure(Reproduction const& r) {
-  return strength_curves(r, "Figure 8b: Shear strength of a bond", "R_s [N/m]", [](BondCard const& c) { return c.R_s; }) +
-         strength_curves(r, "Figure 8c: Rolling strength of a bond", "R_r [N m/m]",
+Piece envelope_figure(Reproduction const& r) {
+  return strength_curves(r, "Figure 8b: Shear strength of a bond", {"R_s [N/m]", "R_s_N_per_m"},
+                         [](BondCard const& c) { return c.R_s; }) +
+         strength_curves(r, "Figure 8c: Rolling strength of a bond", {"R_r [N m/m]", "R_r_Nm_per_m"},
                          [](BondCard const& c) { return c.R_r_per_length * c.moment_length; });
 }
 
-std::string test_curve_figures(Reproduction const& r, std::vector<GroupCurves> const& curves) {
+Piece test_curve_figures(Reproduction const& r, std::vector<GroupCurves> const& curves) {
   std::vector<TestFigure> wanted{
       {"11", "peak q rises with saturation, and softening becomes more obvious; at 1 MPa the peak is at about 2 %.", stress_band,
        cells_over_saturation(r.design, 1)}};
@@ -160,35 +160,35 @@ std::string test_curve_figures(Reproduction const& r, std::vector<GroupCurves> c
     wanted.push_back({"17a", "the peak rises with the critical thickness, ever less; residual q stays.", stress_band, cells});
     wanted.push_back({"17b", "dilation rises with the critical thickness.", volume_band, cells});
   }
-  std::string figures;
+  Piece figures;
   for (TestFigure const& one : wanted) figures += drawn(r, curves, one);
   return figures;
 }
 
-std::string strength_part(Reproduction const& r) {
+Piece strength_part(Reproduction const& r) {
   std::vector<RunResults> first;
   for (std::size_t i = 0; i < r.members.size(); ++i) {
     std::string const& cell = r.study.groups[r.members[i].group].name;
     if (r.members[i].state == MemberState::finished && r.members[i].seed == r.study.seeds.front() && !cell.starts_with("h"))
       first.push_back(read_run(r.folders[i]));
   }
-  auto const points = [&](char const* which, double factor) {
+  auto const points = [&](char const* which) {
     std::vector<Curve> curves;
     if (r.data)
       for (LaboratorySeries const& s : r.data->series)
-        if (s.figure == which) curves.push_back({s.name, s.x, scaled(s.y, factor), {colours::black, "1 4"}, true});
+        if (s.figure == which) curves.push_back({s.name, s.x, s.y, {colours::black, "1 4"}, true});
     return curves;
   };
   std::vector<GroupNumbers> materials = envelopes_by_material(r.study, r.members);
   std::erase_if(materials, [](GroupNumbers const& m) { return m.name.starts_with("h"); });
   return strength_figures(first) +
-         strength_figure(materials, "peak_cohesion_Pa", "Figure 14: Cohesion", "cohesion c [MPa]", mega, points("c", mega)) +
-         strength_figure(materials, "peak_friction_angle_deg", "Figure 14: Friction angle", "friction angle φ [°]", 1,
-                         points("phi", 1));
+         strength_figure(materials, "Figure 14: Cohesion", {"cohesion c [MPa]", "peak_cohesion_Pa", mega}, points("c")) +
+         strength_figure(materials, "Figure 14: Friction angle", {"friction angle φ [°]", "peak_friction_angle_deg"},
+                         points("phi"));
 }
 
-std::string one_test_figures(Reproduction const& r) {
-  std::string figures;
+Piece one_test_figures(Reproduction const& r) {
+  Piece figures;
   std::vector<GroupCurves> curves = curves_of_groups(r.study, r.members, r.folders);
   for (TestFigure const& one :
        {TestFigure{"18a",

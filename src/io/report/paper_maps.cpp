@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "domain/measurement/fabric.hpp"
 #include "domain/measurement/shear_band.hpp"
@@ -17,13 +18,15 @@
 namespace clathra {
 namespace {
 
-constexpr double percent = 100, degrees = 180 / 3.14159265358979323846;
+constexpr double percent = 100, degrees = 180 / std::numbers::pi;
 constexpr std::size_t picture_bytes = 220'000;
 
 /// The snapshots of the test at the strains that the paper shows.
 struct Looked {
   Snapshot start;
   std::vector<Snapshot> at;  ///< 2.54, 3.38, 6.71, 15.04 %
+  std::filesystem::path start_file;
+  std::vector<std::filesystem::path> files;  ///< of `at`
 };
 
 std::optional<Looked> looked_at(Reproduction const& r) {
@@ -35,39 +38,46 @@ std::optional<Looked> looked_at(Reproduction const& r) {
       constexpr double near = 5e-4;
       bool const shown = std::any_of(std::begin(paper_strains), std::end(paper_strains),
                                      [&](double strain) { return std::abs(snapshot.eps1 - strain) < near; });
-      if (snapshot.eps1 == 0)
+      if (snapshot.eps1 == 0) {
         looked.start = std::move(snapshot);
-      else if (shown)
+        looked.start_file = file;
+      } else if (shown) {
         looked.at.push_back(std::move(snapshot));
+        looked.files.push_back(file);
+      }
     }
     if (!looked.start.x.empty() && !looked.at.empty()) return looked;
   }
   return {};
 }
 
-std::string grading_of(Looked const& looked) {
+Piece grading_of(Looked const& looked) {
   return grading_figure("Figure 9: Grading", {grading_curve(looked.start.radius, "our particles", run_stroke(0))});
 }
 
-std::string specimen_of(Looked const& looked) {
+Piece specimen_of(Looked const& looked) {
   Snapshot const& s = looked.start;
-  std::string const image = drawn({view_of({&s}), mean_diameter(s), "Grains of the specimen by size",
-                                   [&](MapView const& view) { return grain_map(s, view); }},
-                                  picture_bytes);
+  Piece image = drawn(
+      {view_of({&s}), mean_diameter(s), "Grains of the specimen by size", [&](MapView const& view) { return grain_map(s, view); },
+       particles_behind(looked.start_file, strain_text(s), view_of({&s}))},
+      picture_bytes);
   return figure(
-      "Figure 10: Specimen", strip(image),
+      "Figure 10: Specimen", strip(std::move(image)),
       beside_words("20,000 particles, 26.5 mm by 53 mm.",
                    fmt::format("{} particles, {:.3g} mm by {:.3g} mm under 3 MPa.", grouped(static_cast<double>(s.x.size())),
                                1e3 * (s.right - s.left), 1e3 * (s.top - s.bottom))));
 }
 
-std::string bonds_of(Looked const& looked) {
-  std::string pictures;
-  for (Snapshot const& s : looked.at)
+Piece bonds_of(Looked const& looked) {
+  Piece pictures;
+  for (std::size_t i = 0; i < looked.at.size(); ++i) {
+    Snapshot const& s = looked.at[i];
     pictures += titled(drawn({view_of({&s}), mean_diameter(s), "Intact and broken bonds at " + strain_text(s),
-                              [&](MapView const& view) { return bond_map(s, view); }},
+                              [&](MapView const& view) { return bond_map(s, view); },
+                              pairs_behind(looked.files[i], strain_text(s), ShownPairs::bonds)},
                              picture_bytes),
                        strain_text(s));
+  }
   return figure("Figure 18b: Bonds", strip(pictures) + legend(patch_entry(colours::grey, "intact bond") + mode_entries()),
                 beside_words("a shear band develops in which most bonds break as the strain grows.", ""), true);
 }
@@ -101,14 +111,16 @@ ShownField averaged_field(Looked const& looked) {
 }
 
 /// The field at all strains in the colours of the last one.
-std::string field_strip(Looked const& looked, ShownField const& field) {
+Piece field_strip(Looked const& looked, ShownField const& field) {
   double const most = upper_end(field.at_discs.back());
   if (!(most > 0)) return "";
-  std::string pictures;
+  Piece pictures;
   for (std::size_t i = 0; i < looked.at.size(); ++i) {
     Snapshot const& s = looked.at[i];
     pictures += titled(drawn({view_of({&s}), mean_diameter(s), "Shear strain " + field.name + " at " + strain_text(s),
-                              [&](MapView const& view) { return value_map(s, field.at_discs[i], most, view); }},
+                              [&](MapView const& view) { return value_map(s, field.at_discs[i], most, view); },
+                              particles_behind(looked.files[i], field.name + " at " + strain_text(s), view_of({&s}),
+                                               "shear_strain", field.at_discs[i])},
                              picture_bytes),
                        strain_text(s));
   }
@@ -138,9 +150,9 @@ std::string onset_text(ShownField const& field) {
   return field.name + (onset ? fmt::format(" from ε₁ = {:.2g} % on", *onset * percent) : " none");
 }
 
-std::string strains_of(Looked const& looked) {
+Piece strains_of(Looked const& looked) {
   std::vector<ShownField> const fields{grain_field(looked), averaged_field(looked)};
-  std::string pictures;
+  Piece pictures;
   for (ShownField const& field : fields) pictures += field_strip(looked, field);
   if (pictures.empty()) return "";
   return figure(
@@ -179,9 +191,9 @@ std::string fabric_table(Looked const& looked) {
   return table({"pairs", "ε₁", "number", "a", "F₁ − F₂", "θₐ"}, rows);
 }
 
-std::string roses_of(Looked const& looked) {
+Piece roses_of(Looked const& looked) {
   Rose const before = rose_of(looked.start, ContactSet::touching);
-  std::string roses;
+  Piece roses;
   for (Snapshot const* const s : fabric_snapshots(looked))
     roses += titled(normal_rose(rose_of(*s, ContactSet::touching), before, strain_text(*s)), strain_text(*s));
   return figure(
@@ -194,7 +206,7 @@ std::string roses_of(Looked const& looked) {
 
 }  // namespace
 
-std::string picture_figures(Reproduction const& r) {
+Piece picture_figures(Reproduction const& r) {
   std::optional<Looked> const looked = looked_at(r);
   if (!looked) return "";
   return side_by_side(grading_of(*looked) + specimen_of(*looked)) + bonds_of(*looked) + strains_of(*looked) + roses_of(*looked);

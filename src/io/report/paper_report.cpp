@@ -69,9 +69,9 @@ std::string facts(Scorecard const& card) {
 
 }  // namespace
 
-void write_paper_report(Reproduction const& r, std::filesystem::path const& html) {
+std::vector<Figure> write_paper_report(Reproduction const& r, std::filesystem::path const& html) {
   std::vector<GroupCurves> const curves = curves_of_groups(r.study, r.members, r.folders);
-  std::string body = "<h1>" + escaped(r.card.title) + "</h1>\n" + facts(r.card);
+  Piece body = "<h1>" + escaped(r.card.title) + "</h1>\n" + facts(r.card);
   body +=
       "<h2>Scorecard</h2>\n<p>" + escaped(tally(r.card.claims)) +
       ". Pass and fail: the 95 % interval of the mean over the seeds, differences paired by specimen, lies inside, outside the "
@@ -83,7 +83,8 @@ void write_paper_report(Reproduction const& r, std::filesystem::path const& html
   body += "<h2>Strength (Figures 13 and 14)</h2>\n" + side_by_side(strength_part(r));
   body += "<h2>55 % at 3 MPa</h2>\n" + side_by_side(one_test_figures(r)) + picture_figures(r);
   if (r.data) body += "<p class=\"soft\">Black points: " + escaped(r.data->source) + ".</p>\n";
-  replace_text_file(html, page(r.card.title, body));
+  replace_text_file(html, page(r.card.title, body.html));
+  return std::move(body.figures);
 }
 
 }  // namespace clathra

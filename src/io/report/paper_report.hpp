@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "domain/scene/scene.hpp"
+#include "io/report/figure.hpp"
 #include "io/results/laboratory_data.hpp"
 #include "io/results/paper_claims.hpp"
 #include "io/results/scorecard.hpp"
@@ -24,7 +25,8 @@ struct Reproduction {
   std::optional<LaboratoryData> data;
 };
 
-/// Writes the page, which needs nothing but itself. Figures of which there are no tests are left out. @throws FileProblem
-void write_paper_report(Reproduction const& reproduction, std::filesystem::path const& html);
+/// Writes the page, which needs nothing but itself. Figures of which there are no tests are left out. @return the others  @throws
+/// FileProblem
+std::vector<Figure> write_paper_report(Reproduction const& reproduction, std::filesystem::path const& html);
 
 }  // namespace clathra

@@ -23,8 +23,10 @@ struct Scale {
     if (axis.logarithmic) return std::log(value / axis.from) / std::log(axis.to / axis.from);
     return (value - axis.from) / (axis.to - axis.from);
   }
-  double x(double value) const { return frame.left + frame.width * part(plot.x, value); }
-  double y(double value) const { return frame.top + frame.height * (1 - part(plot.y, value)); }
+  double shown_x(double value) const { return frame.left + frame.width * part(plot.x, value); }
+  double shown_y(double value) const { return frame.top + frame.height * (1 - part(plot.y, value)); }
+  double x(double value) const { return shown_x(value * plot.x.what.factor); }
+  double y(double value) const { return shown_y(value * plot.y.what.factor); }
 };
 
 /// Indices of at most most_points points: the first and last, and from each stretch between them its lowest and highest.
@@ -116,22 +118,34 @@ std::string axes(Scale const& scale) {
   auto const& [left, top, width, height] = scale.frame;
   std::string grid, labels;
   for (double const mark : axis_ticks(scale.plot.x, 6)) {
-    grid += fmt::format("<path d=\"M{0:.2f} {1:.2f}v{2:.2f}\"/>", scale.x(mark), top, height);
+    grid += fmt::format("<path d=\"M{0:.2f} {1:.2f}v{2:.2f}\"/>", scale.shown_x(mark), top, height);
     if (scale.plot.x.logarithmic && !is_labelled(mark)) continue;
-    labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{:.4g}</text>", scale.x(mark),
+    labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{:.4g}</text>", scale.shown_x(mark),
                           top + height + 17, mark);
   }
   for (double const mark : axis_ticks(scale.plot.y, height > 200 ? 6 : 4)) {
-    grid += fmt::format("<path d=\"M{0:.2f} {1:.2f}h{2:.2f}\"/>", left, scale.y(mark), width);
-    labels +=
-        fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"end\">{:.4g}</text>", left - 6, scale.y(mark) + 4.5, mark);
+    grid += fmt::format("<path d=\"M{0:.2f} {1:.2f}h{2:.2f}\"/>", left, scale.shown_y(mark), width);
+    labels += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"end\">{:.4g}</text>", left - 6,
+                          scale.shown_y(mark) + 4.5, mark);
   }
   return fmt::format(
       "<g class=\"grid\">{}</g><rect class=\"frame\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>"
-      "<g>{}<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>"
-      "<text transform=\"translate(16 {:.2f}) rotate(-90)\" text-anchor=\"middle\">{}</text></g>\n",
-      grid, left, top, width, height, labels, left + width / 2, top + height + 40, escaped(scale.plot.x.title), top + height / 2,
-      escaped(scale.plot.y.title));
+      "<g>{}<text class=\"title\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>"
+      "<text class=\"title\" transform=\"translate(16 {:.2f}) rotate(-90)\" text-anchor=\"middle\">{}</text></g>\n",
+      grid, left, top, width, height, labels, left + width / 2, top + height + 40, escaped(scale.plot.x.what.title),
+      top + height / 2, escaped(scale.plot.y.what.title));
+}
+
+/// A row a point: the curves, then the edges of the areas.
+DrawnData data_of(Plot const& plot) {
+  std::vector<DataColumns> series;
+  for (Curve const& curve : plot.curves) series.push_back({curve.name, {curve.x, curve.y}});
+  for (Area const& area : plot.areas) {
+    series.push_back({area.name + ", lower edge", {area.x, area.low}});
+    series.push_back({area.name + ", upper edge", {area.x, area.high}});
+  }
+  return {fmt::format("series,{},{}", plot.x.what.column, plot.y.what.column),
+          [series = std::move(series)] { return data_rows(series); }};
 }
 
 }  // namespace
@@ -146,14 +160,18 @@ void Range::include(std::vector<double> const& values) {
   for (double const value : values) include(value);
 }
 
-Axis Range::axis(std::string title) const {
-  double const span = high_ > low_ ? high_ - low_ : 1, step = tick_step(low_, low_ + span, 6);
+Axis Range::axis(Variable const& what) const {
+  auto const [ignored, from, to, logarithmic] = exact_axis(what);
+  double const span = to - from, step = tick_step(from, to, 6);
   // A curve that starts a hair below zero needs no empty strip there.
-  double const low = low_ < 0 && low_ > -0.01 * span ? 0 : low_;
-  return {std::move(title), std::floor(low / step + 1e-9) * step, std::ceil((low_ + span) / step - 1e-9) * step};
+  double const low = from < 0 && from > -0.01 * span ? 0 : from;
+  return {what, std::floor(low / step + 1e-9) * step, std::ceil(to / step - 1e-9) * step};
 }
 
-Axis Range::exact_axis(std::string title) const { return {std::move(title), low_, high_ > low_ ? high_ : low_ + 1}; }
+Axis Range::exact_axis(Variable const& what) const {
+  double const low = low_ * what.factor, high = high_ * what.factor;
+  return {what, low, high > low ? high : low + 1};
+}
 
 double tick_step(double from, double to, int count) {
   double const rough = (to - from) / count, decade = std::pow(10, std::floor(std::log10(rough)));
@@ -178,22 +196,16 @@ double height_for_equal_scales(Axis const& x, Axis const& y) {
   return width * (y.to - y.from) / (x.to - x.from) + top_margin + bottom_margin;
 }
 
-std::string svg(Plot const& plot) {
+Piece drawing(Plot const& plot) {
   Scale const scale{plot};
   auto const& [left, top, width, height] = scale.frame;
   std::string drawn;
   for (Area const& area : plot.areas) drawn += polygon(scale, area);
   for (Curve const& curve : plot.curves) drawn += polylines(scale, curve);
-  return fmt::format(
-      "<svg class=\"plot\" viewBox=\"0 0 {:g} {:.0f}\" role=\"img\"><title>{}</title><desc>{}</desc>\n{}"
-      "<g class=\"curves\" data-x=\"{} {}\" data-y=\"{} {}\" data-frame=\"{} {} {} {}\">\n{}</g></svg>\n",
-      drawing_width, plot.height, escaped(plot.title), escaped(plot.description), axes(scale), plot.x.from, plot.x.to,
-      plot.y.from, plot.y.to, left, top, width, height, drawn);
-}
-
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
+  Box const box{drawing_width, plot.height,
+                fmt::format("{}<g class=\"curves\" data-x=\"{} {}\" data-y=\"{} {}\" data-frame=\"{} {} {} {}\">\n{}</g>",
+                            axes(scale), plot.x.from, plot.x.to, plot.y.from, plot.y.to, left, top, width, height, drawn)};
+  return drawing(box, "plot", plot.title, plot.description, data_of(plot));
 }
 
 }  // namespace clathra

@@ -24,14 +24,14 @@ std::string title_of(std::vector<RunResults> const& runs) {
 }
 
 /// A part of the page with its heading, or nothing where it is empty.
-std::string part(std::string const& heading, std::string const& contents) {
-  return contents.empty() ? "" : "<h2>" + escaped(heading) + "</h2>\n" + contents;
+Piece part(std::string const& heading, Piece contents) {
+  return contents.empty() ? "" : "<h2>" + escaped(heading) + "</h2>\n" + std::move(contents);
 }
 
-std::string everything_but_pictures(std::vector<RunResults> const& runs) {
-  std::string text = part("Summary", summary_table(runs)) + part("Curves", side_by_side(curve_figures(runs)));
-  if (std::string const strength = strength_figures(runs); !strength.empty()) text += part("Strength", side_by_side(strength));
-  if (std::string const energy = energy_figures(runs); !energy.empty()) text += part("Energy", side_by_side(energy));
+Piece everything_but_pictures(std::vector<RunResults> const& runs) {
+  Piece text = part("Summary", summary_table(runs)) + part("Curves", side_by_side(curve_figures(runs)));
+  if (Piece strength = strength_figures(runs); !strength.empty()) text += part("Strength", side_by_side(std::move(strength)));
+  if (Piece energy = energy_figures(runs); !energy.empty()) text += part("Energy", side_by_side(std::move(energy)));
   return text;
 }
 
@@ -50,7 +50,7 @@ std::string note_on_missing_pictures(std::vector<RunResults> const& runs, std::v
 }
 
 /// @param room  bytes that the pictures may take in the page
-std::string pictures(std::vector<RunResults> const& runs, std::size_t room) {
+Piece pictures(std::vector<RunResults> const& runs, std::size_t room) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < runs.size() && shown.size() < most_runs_with_pictures; ++i)
     if (!runs[i].snapshots.empty()) shown.push_back(i);
@@ -58,26 +58,27 @@ std::string pictures(std::vector<RunResults> const& runs, std::size_t room) {
   if (shown.empty()) return part("Pictures", note);
   std::size_t const each = room / (shown.size() * pictures_per_run) * 3 / 4;  // four characters for three bytes
   std::vector<Curve> gradings;
-  std::string text;
+  Piece text;
   for (std::size_t const i : shown) {
     MapFigures figures = map_figures(runs[i], run_stroke(i), each);
-    text += part(runs.size() > 1 ? "Pictures of " + run_label(runs[i]) : "Pictures", side_by_side(figures.html));
+    text += part(runs.size() > 1 ? "Pictures of " + run_label(runs[i]) : "Pictures", side_by_side(std::move(figures.figures)));
     gradings.push_back(std::move(figures.grading));
   }
   if (std::optional<Curve> target = target_curve(runs[shown.front()])) gradings.push_back(std::move(*target));
-  return text + part("Grading", side_by_side(grading_figure("Grading curve", gradings))) + note;
+  return std::move(text) + part("Grading", side_by_side(grading_figure("Grading curve", gradings))) + note;
 }
 
 }  // namespace
 
-void write_report(std::vector<std::filesystem::path> const& run_folders, std::filesystem::path const& html) {
+std::vector<Figure> write_report(std::vector<std::filesystem::path> const& run_folders, std::filesystem::path const& html) {
   std::vector<RunResults> const runs = read_runs(run_folders);
-  std::string body = "<h1>" + escaped(title_of(runs)) + "</h1>\n<p class=\"lead\">" + escaped(summary_sentence(runs)) + "</p>\n";
+  Piece body = "<h1>" + escaped(title_of(runs)) + "</h1>\n<p class=\"lead\">" + escaped(summary_sentence(runs)) + "</p>\n";
   body += warning_list(runs) + note_on_missing_columns(runs) + everything_but_pictures(runs);
   constexpr std::size_t least_room = 1'000'000, text_of_pictures = 100'000;
-  std::size_t const taken = body.size() + text_of_pictures * runs.size();
+  std::size_t const taken = body.html.size() + text_of_pictures * runs.size();
   body += pictures(runs, taken + least_room < largest_page ? largest_page - taken : least_room);
-  replace_text_file(html, page(title_of(runs), body));
+  replace_text_file(html, page(title_of(runs), body.html));
+  return std::move(body.figures);
 }
 
 }  // namespace clathra

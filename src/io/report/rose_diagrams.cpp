@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "io/report/markup.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr double half_turn = 3.14159265358979323846, to_degrees = 180 / half_turn;
+constexpr double half_turn = std::numbers::pi, to_degrees = 180 / half_turn;
 constexpr double size = 340, middle = size / 2, largest = 128;  // of a diagram
 constexpr double bin_angle = half_turn / Rose::bins;
 
@@ -50,6 +51,13 @@ std::string cosine_curve(double anisotropy, double direction, double unit) {
   return points;
 }
 
+/// Of the bins.
+std::vector<double> middles() {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < Rose::bins; ++i) angles.push_back((static_cast<double>(i) + 0.5) * bin_angle);
+  return angles;
+}
+
 std::string rings(double most, double unit) {
   double const step = tick_step(0, most, 3);
   std::string drawn = fmt::format("<path d=\"M{0} {1}v{2}M{3} {0}h{2}\" stroke=\"#c9d0d4\"/>", middle, middle - largest - 6,
@@ -64,29 +72,33 @@ std::string rings(double most, double unit) {
                      middle, size - 2, middle - 6);
 }
 
-std::string diagram(Values const& now, Values const& before, double anisotropy, double direction, std::string const& title) {
+Piece diagram(Values const& now, Values const& before, double anisotropy, double direction, std::string const& title) {
   double most = 1 + anisotropy;
   for (std::size_t i = 0; i < Rose::bins; ++i) most = std::max({most, now[i], before[i]});
   double const unit = largest / most;
-  return fmt::format(
-      "<svg class=\"plot rose\" viewBox=\"0 0 {0} {0}\" role=\"img\"><title>{1}</title><desc>Anisotropy {2:.2f}, largest at "
-      "{3:.0f} "
-      "degrees from the horizontal.</desc><path d=\"{4}\" fill=\"{5}\" fill-opacity=\"0.75\" stroke=\"#fff\" "
-      "stroke-width=\"0.7\"/>"
-      "<g fill=\"none\">{6}<polygon points=\"{7}\" stroke=\"{8}\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"/>"
-      "<polygon points=\"{9}\" stroke=\"{10}\" stroke-width=\"2\"/></g></svg>\n",
-      size, escaped(title), anisotropy, direction * to_degrees, petals(now, unit), hex(colours::sky), rings(most, unit),
-      outline(before, unit), hex(colours::dark), cosine_curve(anisotropy, direction, unit), hex(colours::vermilion));
+  Box const box{
+      size, size,
+      fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.75\" stroke=\"#fff\" stroke-width=\"0.7\"/>"
+                  "<g fill=\"none\">{}<polygon points=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"/>"
+                  "<polygon points=\"{}\" stroke=\"{}\" stroke-width=\"2\"/></g>",
+                  petals(now, unit), hex(colours::sky), rings(most, unit), outline(before, unit), hex(colours::dark),
+                  cosine_curve(anisotropy, direction, unit), hex(colours::vermilion))};
+  return drawing(
+      box, "plot rose", title,
+      fmt::format("Anisotropy {:.2f}, largest at {:.0f} degrees from the horizontal.", anisotropy, direction * to_degrees),
+      {"series,direction_rad,over_the_mean,over_the_mean_at_the_start", [=] {
+         return data_rows({{title, {middles(), {now.begin(), now.end()}, {before.begin(), before.end()}}}});
+       }});
 }
 
 }  // namespace
 
-std::string normal_rose(Rose const& now, Rose const& before, std::string const& label) {
+Piece normal_rose(Rose const& now, Rose const& before, std::string const& label) {
   return diagram(now.normals, before.normals, now.fabric.anisotropy(), now.fabric.direction,
                  "Directions of contact normals, " + label);
 }
 
-std::string force_rose(Rose const& now, Rose const& before, std::string const& label) {
+Piece force_rose(Rose const& now, Rose const& before, std::string const& label) {
   return diagram(now.forces, before.forces, now.force_anisotropy, now.force_direction,
                  "Mean normal force by direction, " + label);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "io/report/curves.hpp"
@@ -15,7 +16,7 @@
 namespace clathra {
 namespace {
 
-constexpr double mega = 1e-6, half_turn = 3.14159265358979323846;
+constexpr double mega = 1e-6, degrees = 180 / std::numbers::pi;
 
 constexpr char saturation_key[] = "hydrate.saturation";
 
@@ -32,23 +33,23 @@ std::vector<std::string> names_of(std::vector<RunResults> const& runs, std::vect
   return names;
 }
 
-/// The upper half of a Mohr circle [MPa].
+/// The upper half of a Mohr circle.
 Curve circle(FailureStress const& at, std::string name, Stroke const& stroke) {
   constexpr int segments = 72;
   Curve curve{std::move(name), {}, {}, stroke};
-  double const centre = (at.sigma1 + at.sigma3) / 2 * mega, radius = (at.sigma1 - at.sigma3) / 2 * mega;
+  double const centre = (at.sigma1 + at.sigma3) / 2, radius = (at.sigma1 - at.sigma3) / 2;
   for (int i = 0; i <= segments; ++i) {
-    double const angle = half_turn * i / segments;
+    double const angle = std::numbers::pi * i / segments;
     curve.x.push_back(centre - radius * std::cos(angle));
     curve.y.push_back(radius * std::sin(angle));
   }
   return curve;
 }
 
-/// An envelope is drawn a little beyond the middle of the largest circle [MPa].
+/// An envelope is drawn a little beyond the middle of the largest circle [Pa].
 double end_of_line(std::vector<SeedTest> const& tests) {
   double end = 0;
-  for (SeedTest const& t : tests) end = std::max(end, (0.7 * t.at.sigma1 + 0.3 * t.at.sigma3) * mega);
+  for (SeedTest const& t : tests) end = std::max(end, 0.7 * t.at.sigma1 + 0.3 * t.at.sigma3);
   return end;
 }
 
@@ -56,7 +57,6 @@ double end_of_line(std::vector<SeedTest> const& tests) {
 std::string envelope_numbers(PairedStrength const& strength) {
   Envelope const& fit = *strength.envelope;
   auto const error = [](double value, char const* format) { return " ± " + fmt::format(fmt::runtime(format), value); };
-  constexpr double degrees = 180 / half_turn;
   std::string cohesion = with_minus(fmt::format("{:.3g}", fit.cohesion * mega)),
               angle = fmt::format("{:.1f}", fit.friction_angle * degrees);
   if (strength.cohesion) {
@@ -100,29 +100,29 @@ std::string envelope_text(PairedStrength const& strength, TestStresses const& te
   return why.empty() ? "They have no common Mohr-Coulomb envelope." : "c and φ are not given: t" + why;
 }
 
-std::string mohr_figure(std::vector<Curve> circles, TestStresses const& tests, PairedStrength const& strength,
-                        std::string const& heading, std::string const& which) {
+Piece mohr_figure(std::vector<Curve> circles, TestStresses const& tests, PairedStrength const& strength,
+                  std::string const& heading, std::string const& which) {
   Plot plot;
   Range sigma, tau;
   for (FailureStress const& test : tests.all) {
-    sigma.include(test.sigma1 * mega);
-    tau.include((test.sigma1 - test.sigma3) / 2 * mega * 1.12);
+    sigma.include(test.sigma1);
+    tau.include((test.sigma1 - test.sigma3) / 2 * 1.12);
   }
   plot.title = heading + ", " + which;
   plot.curves = std::move(circles);
-  plot.x = sigma.axis("normal stress σ [MPa]");
+  plot.x = sigma.axis({"normal stress σ [MPa]", "sigma_Pa", mega});
   if (std::optional<Envelope> const& fit = strength.envelope) {
-    double const slope = std::tan(fit->friction_angle), cohesion = fit->cohesion * mega;
+    double const slope = std::tan(fit->friction_angle), cohesion = fit->cohesion;
     double const from = std::max(0.0, -cohesion / slope), to = end_of_line(tests.reached);
     plot.curves.push_back({"envelope", {from, to}, {cohesion + slope * from, cohesion + slope * to}, {colours::black, "", 1.8}});
     tau.include(plot.curves.back().y);
   }
   std::string const caption = "Mohr circles of the stresses " + which + ". " + envelope_text(strength, tests);
-  plot.y = tau.axis("shear stress τ [MPa]");
+  plot.y = tau.axis({"shear stress τ [MPa]", "tau_Pa", mega});
   plot.y.from = 0;
   plot.height = height_for_equal_scales(plot.x, plot.y);
   plot.description = caption;
-  return figure(plot.title, svg(plot) + legend(plot.curves), caption);
+  return figure(plot.title, drawing(plot) + legend(plot.curves), caption);
 }
 
 /// The Mohr circles of the tests of a group.
@@ -136,8 +136,7 @@ std::vector<Curve> circles_of(TestStresses const& tests, StrengthGroup const& gr
 }
 
 /// The circles of a group. Where others have the same saturation the heading says what it differs in from them.
-std::string circle_figures(StrengthGroup const& strength, std::vector<StrengthGroup> const& all,
-                           std::vector<RunResults> const& runs) {
+Piece circle_figures(StrengthGroup const& strength, std::vector<StrengthGroup> const& all, std::vector<RunResults> const& runs) {
   double const saturation = strength.saturation;
   std::vector<SceneValues> same;
   for (StrengthGroup const& other : all)
@@ -184,8 +183,8 @@ std::vector<Series> series_of(std::vector<StrengthGroup> const& groups) {
 }
 
 /// One number of the envelopes against the saturation, at the peak and in the residual state.
-std::string saturation_figure(std::vector<Series> const& all, std::string const& heading, std::string const& axis,
-                              double (*number)(Envelope const&)) {
+Piece saturation_figure(std::vector<Series> const& all, std::string const& heading, Variable const& axis,
+                        double (*number)(Envelope const&)) {
   Plot plot;
   plot.title = heading + " against hydrate saturation";
   Range saturations, values;
@@ -204,26 +203,27 @@ std::string saturation_figure(std::vector<Series> const& all, std::string const&
       if (!envelope) continue;
       curve.x.push_back(point->saturation);
       curve.y.push_back(number(*envelope));
-      plot.description += fmt::format("{} % hydrate, {}: {:.3g}. ", curve.x.back(), curve.name, curve.y.back());
+      plot.description += fmt::format("{} % hydrate, {}: {:.3g}. ", curve.x.back(), curve.name, curve.y.back() * axis.factor);
     }
     saturations.include(curve.x);
     values.include(curve.y);
     plot.curves.push_back(std::move(curve));
   }
-  plot.x = saturations.axis("hydrate saturation [%]");
+  plot.x = saturations.axis(hydrate_saturation);
   plot.y = values.axis(axis);
   return figure(
-      plot.title, svg(plot) + legend(plot.curves),
+      plot.title, drawing(plot) + legend(plot.curves),
       "From the Mohr-Coulomb envelopes above, one for each saturation. A line joins materials that differ in nothing but "
       "the saturation.");
 }
 
-std::string strength_against_saturation(std::vector<StrengthGroup> const& groups) {
+Piece strength_against_saturation(std::vector<StrengthGroup> const& groups) {
   std::vector<Series> const all = series_of(groups);
   if (all.empty()) return "";
-  return saturation_figure(all, "Cohesion", "cohesion c [MPa]", [](Envelope const& e) { return e.cohesion * mega; }) +
-         saturation_figure(all, "Friction angle", "friction angle φ [°]",
-                           [](Envelope const& e) { return e.friction_angle * 180 / half_turn; });
+  return saturation_figure(all, "Cohesion", {"cohesion c [MPa]", "cohesion_Pa", mega},
+                           [](Envelope const& e) { return e.cohesion; }) +
+         saturation_figure(all, "Friction angle", {"friction angle φ [°]", "friction_angle_deg"},
+                           [](Envelope const& e) { return e.friction_angle * degrees; });
 }
 
 /// Says why runs of one saturation at several confining stresses are not all in one figure.
@@ -252,14 +252,14 @@ std::string note_on_unlike_runs(std::vector<RunResults> const& runs, std::vector
 
 }  // namespace
 
-std::string strength_figures(std::vector<RunResults> const& runs) {
+Piece strength_figures(std::vector<RunResults> const& runs) {
   std::vector<StrengthGroup> const groups = strength_groups(runs);
   std::vector<StrengthGroup> drawn;
   for (StrengthGroup const& group : groups)
     if (group.at_several_stresses()) drawn.push_back(group);
-  std::string figures;
+  Piece figures;
   for (StrengthGroup const& strength : drawn) figures += circle_figures(strength, drawn, runs);
-  return figures + strength_against_saturation(drawn) + note_on_unlike_runs(runs, groups);
+  return std::move(figures) + strength_against_saturation(drawn) + note_on_unlike_runs(runs, groups);
 }
 
 }  // namespace clathra

@@ -24,32 +24,35 @@ constexpr char saturation_key[] = "hydrate.saturation";
 constexpr std::size_t multiplied = 3;  // of the shown bands are also shown group by group
 
 /// One group in a small figure: each seed thin, their mean and its band.
-std::string small_figure(GroupCurves const& group, ShownBand const& what, Axis const& x, Axis const& y) {
+Piece small_figure(GroupCurves const& group, ShownBand const& what, Axis const& x, Axis const& y) {
   Plot plot;
   SeedBand const& band = group.bands[what.column];
   plot.title = group.name + ": " + what.heading;
-  plot.x = {"", x.from, x.to};  // said once above all
-  plot.y = {"", y.from, y.to};
+  plot.x = x;
+  plot.y = y;
   plot.areas.push_back(area_of(group, what));
-  for (std::size_t i = 0; i < std::min(band.seeds.size(), most_seeds_drawn); ++i)
+  std::size_t const drawn = std::min(band.seeds.size(), most_seeds_drawn);
+  for (std::size_t i = 0; i < drawn; ++i)
     plot.curves.push_back(
-        {group.name, scaled(band.eps1, percent), scaled(band.seeds[i], what.factor), {Rgb{140, 140, 140}, "", 1.2}});
+        {fmt::format("{}, seed {} of {}", group.name, i + 1, drawn), band.eps1, band.seeds[i], {Rgb{140, 140, 140}, "", 1.2}});
   plot.curves.push_back(mean_of(group, what));
   plot.curves.back().stroke.dash.clear();
-  return fmt::format("<figure><h3>{}</h3>\n{}</figure>\n", escaped(group.name), svg(plot));
+  Piece piece = figure(group.name, drawing(plot), "");
+  piece.figures.back().heading = plot.title;
+  return piece;
 }
 
 /// All groups beside each other on the same axes.
-std::string small_multiples(std::vector<GroupCurves> const& groups, ShownBand const& what) {
+Piece small_multiples(std::vector<GroupCurves> const& groups, ShownBand const& what) {
   Range strains, values;
   for (GroupCurves const& group : groups)
     for (std::vector<double> const& seed : group.bands[what.column].seeds)
-      strains.include(scaled(group.bands[what.column].eps1, percent)), values.include(scaled(seed, what.factor));
-  Axis const x = strains.exact_axis(strain_axis), y = axis_of(what, values);
-  std::string figures;
+      strains.include(group.bands[what.column].eps1), values.include(seed);
+  Axis const x = strains.exact_axis(axial_strain), y = axis_of(what, values);
+  Piece figures;
   for (std::size_t i = 0; i < std::min(groups.size(), most_small_figures); ++i)
     if (says_something(groups[i], what)) figures += small_figure(groups[i], what, x, y);
-  return figures.empty() ? "" : "<div class=\"multiples\">\n" + figures + "</div>\n";
+  return figures.empty() ? "" : "<div class=\"multiples\">\n" + std::move(figures) + "</div>\n";
 }
 
 struct Column {
@@ -81,18 +84,18 @@ std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> c
          "</tbody></table></div>\n";
 }
 
-std::string strength_part(std::vector<GroupNumbers> const& materials) {
+Piece strength_part(std::vector<GroupNumbers> const& materials) {
   if (materials.empty()) return "";
-  std::string text = "<h2>Strength</h2>\n" + table(materials,
-                                                   {{"peak_cohesion_Pa", "c at the peak", "MPa", mega},
-                                                    {"peak_friction_angle_deg", "φ at the peak", "°", 1},
-                                                    {"peak_r_squared", "R²", "", 1},
-                                                    {"peak_curvature_per_Pa", "curvature", "1/MPa", 1e6},
-                                                    {"residual_cohesion_Pa", "residual c", "MPa", mega},
-                                                    {"residual_friction_angle_deg", "residual φ", "°", 1}},
-                                                   "material");
-  return text + side_by_side(strength_figure(materials, "peak_cohesion_Pa", "Cohesion", "cohesion c [MPa]", mega) +
-                             strength_figure(materials, "peak_friction_angle_deg", "Friction angle", "friction angle φ [°]", 1));
+  Piece text = "<h2>Strength</h2>\n" + table(materials,
+                                             {{"peak_cohesion_Pa", "c at the peak", "MPa", mega},
+                                              {"peak_friction_angle_deg", "φ at the peak", "°", 1},
+                                              {"peak_r_squared", "R²", "", 1},
+                                              {"peak_curvature_per_Pa", "curvature", "1/MPa", 1e6},
+                                              {"residual_cohesion_Pa", "residual c", "MPa", mega},
+                                              {"residual_friction_angle_deg", "residual φ", "°", 1}},
+                                             "material");
+  return text + side_by_side(strength_figure(materials, "Cohesion", {"cohesion c [MPa]", "peak_cohesion_Pa", mega}) +
+                             strength_figure(materials, "Friction angle", {"friction angle φ [°]", "peak_friction_angle_deg"}));
 }
 
 /// The keys that have several values, in words.
@@ -164,34 +167,35 @@ std::vector<Column> result_columns() {
 
 }  // namespace
 
-void write_study_report(Study const& study, std::vector<MemberResult> const& members,
-                        std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html) {
+std::vector<Figure> write_study_report(Study const& study, std::vector<MemberResult> const& members,
+                                       std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html) {
   std::vector<GroupNumbers> const groups = numbers_by_group(study, members);
   std::vector<GroupCurves> const curves = curves_of_groups(study, members, folders);
   auto const finished =
       std::count_if(members.begin(), members.end(), [](MemberResult const& m) { return m.state == MemberState::finished; });
   std::string const title = "Study " + study.file.stem().string();
-  std::string body = "<h1>" + escaped(title) + "</h1>\n";
+  Piece body = "<h1>" + escaped(title) + "</h1>\n";
   body += fmt::format(
       "<p class=\"lead\">{} biaxial tests of {} groups, which differ in {}. Numbers are means over the seeds ± half of their 95 "
       "% "
       "confidence interval (Student t).</p>\n",
       finished, groups.size(), escaped(varied_keys(study)));
   body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group");
-  std::string overlays, multiples;
+  Piece overlays, multiples;
   for (ShownBand const& what : shown_bands) overlays += overlay(curves, what);
-  body += "<h2>Curves</h2>\n" + side_by_side(overlays) + strength_part(envelopes_by_material(study, members));
+  body += "<h2>Curves</h2>\n" + side_by_side(std::move(overlays)) + strength_part(envelopes_by_material(study, members));
   for (ShownBand const& what : std::span(shown_bands).first(multiplied))
-    if (std::string const small = curves.size() > 1 ? small_multiples(curves, what) : ""; !small.empty())
-      multiples += fmt::format("<h3>{} over {}</h3>\n", what.axis, strain_axis) + small;
+    if (Piece small = curves.size() > 1 ? small_multiples(curves, what) : ""; !small.empty())
+      multiples += fmt::format("<h3>{} over {}</h3>\n", what.axis.title, axial_strain.title) + std::move(small);
   if (!multiples.empty())
     body += fmt::format(
                 "<h2>Each group</h2>\n<p class=\"soft\">Grey: single seeds, {} at most; colour: the mean of all and its "
                 "interval.{}</p>\n",
                 most_seeds_drawn,
                 curves.size() > most_small_figures ? fmt::format(" Shown are the first {} groups.", most_small_figures) : "") +
-            multiples;
-  replace_text_file(html, page(title, body));
+            std::move(multiples);
+  replace_text_file(html, page(title, body.html));
+  return std::move(body.figures);
 }
 
 }  // namespace clathra

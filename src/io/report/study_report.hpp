@@ -3,13 +3,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "io/report/figure.hpp"
 #include "io/results/study_results.hpp"
 
 namespace clathra {
 
-/// Writes the page, which needs nothing but itself. Members that are not finished or failed are named.
+/// Writes the page, which needs nothing but itself. Members that are not finished or failed are named. @return its figures
 /// @param folders  of the members' runs  @throws FileProblem
-void write_study_report(Study const& study, std::vector<MemberResult> const& members,
-                        std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html);
+std::vector<Figure> write_study_report(Study const& study, std::vector<MemberResult> const& members,
+                                       std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html);
 
 }  // namespace clathra

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "io/formats/csv_text.hpp"
 #include "io/formats/digest.hpp"
 #include "io/results/run_record.hpp"
 #include "io/results/run_results.hpp"
@@ -16,14 +17,6 @@ namespace {
 
 constexpr char stress_key[] = "test.confining_stress";
 constexpr char const* state_names[] = {"waiting", "finished", "failed", "refused"};
-
-/// A cell, quoted where it has to be.
-std::string cell(std::string const& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (char const c : text) quoted += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string number_cell(std::map<std::string, double> const& numbers, std::string const& name) {
   auto const found = numbers.find(name);
@@ -83,11 +76,11 @@ class Table {
   void add(MemberResult const& member) {
     StudyGroup const& group = study_.groups[member.group];
     begin("member", group.name, group_label(study_, group), group.settings);
-    text_ += fmt::format(",{},,{},{},{}", member.seed, state_names[static_cast<int>(member.state)], cell(member.message),
-                         cell(joined(member.warnings)));
+    text_ += fmt::format(",{},,{},{},{}", member.seed, state_names[static_cast<int>(member.state)], csv_cell(member.message),
+                         csv_cell(joined(member.warnings)));
     numbers(member.numbers);
     bool const finished = member.state == MemberState::finished;
-    for (std::string const& text : {member.program, member.specimen_digest, member.state_hash}) add(cell(text));
+    for (std::string const& text : {member.program, member.specimen_digest, member.state_hash}) add(csv_cell(text));
     text_ += finished ? fmt::format(",{},{}\n", member.wall_seconds, member.disc_steps_per_second) : ",,\n";
   }
 
@@ -128,10 +121,10 @@ class Table {
   }
 
   void begin(char const* row, std::string const& group, std::string const& label, std::vector<Setting> const& settings) {
-    text_ += fmt::format("{},{},{}", row, cell(group), cell(label));
+    text_ += fmt::format("{},{},{}", row, csv_cell(group), csv_cell(label));
     for (std::string const& key : study_.keys) {
       std::string const* const value = value_in(settings, key);
-      add(value ? cell(si_text({key, *value})) : "");
+      add(value ? csv_cell(si_text({key, *value})) : "");
     }
   }
 
