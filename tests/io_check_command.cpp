@@ -125,6 +125,7 @@ TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {
   EXPECT_FALSE(fs::exists(folder / "out")) << "refused before anything is written";
   CommandResult const ignored = clathra("check", soft + " --ignore-guards");
   EXPECT_EQ(ignored.code, 0) << ignored.output;
+  EXPECT_TRUE(holds(ignored.output, ": guards ignored, ")) << ignored.output;
   EXPECT_TRUE(holds(ignored.output, "warning: guard ignored: " + text)) << ignored.output;
   EXPECT_EQ(clathra("check", "--set test.confining_stress='15 MPa'").code, 0);
 }
@@ -139,6 +140,7 @@ TEST_F(CheckCommand, RefusesASpecimenNarrowerThanThreeGrains) {
   }
   CommandResult const ignored = clathra("check", narrow + " --ignore-guards");
   EXPECT_EQ(ignored.code, 0) << ignored.output;
+  EXPECT_TRUE(holds(ignored.output, ": guards ignored, ")) << ignored.output;
   EXPECT_TRUE(holds(ignored.output, "warning: guard ignored: " + text)) << ignored.output;
   EXPECT_EQ(clathra("check", "--set specimen.width='0.9 mm'").code, 0);
   EXPECT_TRUE(holds(clathra("check", "--set specimen.height='0.6 mm'").output, "the specimen is 0.6 mm high"));

@@ -71,10 +71,14 @@ TEST_F(ScriptOutput, OfCheckIsTheForecastAsJson) {
   EXPECT_GT(valid["shear_seconds"].get<double>(), 0);
   EXPECT_TRUE(valid["refusals"].empty());
   EXPECT_TRUE(valid["error_of_peak_q"].is_null()) << "1 % strain was not measured";
+  EXPECT_NE(valid["error_of_peak_q_not_measured"].get<std::string>(), "");
   CommandResult const refused = quiet_errors("check --json '" + scene() + "' --set test.inertial_number=0.5");
   EXPECT_EQ(refused.code, 77);
   EXPECT_EQ(Json::parse(refused.output)["verdict"], "refused");
   EXPECT_FALSE(Json::parse(refused.output)["refusals"].empty());
+  CommandResult const ignored = quiet_errors("check --json '" + scene() + "' --set test.inertial_number=0.5 --ignore-guards");
+  EXPECT_EQ(ignored.code, 0);
+  EXPECT_EQ(Json::parse(ignored.output)["verdict"], "guards ignored");
   CommandResult const wrong = quiet_errors("check --json '" + scene() + "' --set grains.kn=1 --set test.axial_strain=15");
   EXPECT_EQ(wrong.code, 65);
   Json const problems = Json::parse(wrong.output)["problems"];

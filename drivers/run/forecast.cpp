@@ -90,7 +90,7 @@ std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& f
   std::vector<std::string> warnings = input.warnings;
   warnings.insert(warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
   if (input.scene.run.ignore_guards)
-    for (std::string const& refusal : forecast.refusals) warnings.push_back("guard ignored: " + refusal);
+    for (std::string const& refusal : forecast.refusals) warnings.push_back(guard_ignored + refusal);
   return warnings;
 }
 
@@ -147,8 +147,11 @@ nlohmann::ordered_json forecast_json(Scene const& scene, Forecast const& forecas
                                  {"shear_seconds", n.at("disc_steps") / speed.disc_steps_per_second},
                                  {"refusals", forecast.refusals}};
   json["error_of_peak_q"] = nullptr;
-  if (expected.peak_q) json["error_of_peak_q"] = {{"mean", expected.peak_q->error}, {"half_width", expected.peak_q->half_width}};
-  json["error_of_peak_q_measured_on"] = expected.range;
+  if (expected.peak_q)
+    json["error_of_peak_q"] = {
+        {"mean", expected.peak_q->error}, {"half_width", expected.peak_q->half_width}, {"measured_on", expected.range}};
+  else
+    json["error_of_peak_q_not_measured"] = expected.range;
   return json;
 }
 

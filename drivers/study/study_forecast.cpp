@@ -23,7 +23,9 @@ StudyForecast study_forecast(StudyPlan const& plan, int parallel, int threads) {
   for (StudyTask const& task : plan.specimens) specimens += task.disc_steps;
   Scene scene = member_scene(plan.study, plan.study.groups.back(), plan.study.seeds.front()).scene;
   scene.run.threads = threads;
-  MachineSpeed const speed = machine_speed(scene, 1, true);
+  auto const fewest = std::min_element(plan.runs.begin(), plan.runs.end(),
+                                       [](StudyTask const& a, StudyTask const& b) { return a.particles < b.particles; });
+  MachineSpeed const speed = machine_speed(scene, fewest == plan.runs.end() ? 0 : fewest->particles, 1, true);
   forecast.disc_steps_per_second = speed.disc_steps_per_second * parallel;
   forecast.speed_origin = speed.origin;
   forecast.generation_seconds = specimens / (generation_speedup * forecast.disc_steps_per_second);

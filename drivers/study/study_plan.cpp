@@ -172,6 +172,7 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   task.result = plan.study.folder / "members" / task.name;
   task.log = plan.study.folder / "logs" / (task.name + ".log");
   Forecast const cost = forecast_of(plan, scene);
+  task.particles = cost.numbers.at("particles");
   task.disc_steps = cost.numbers.at("disc_steps");
   task.memory = cost.numbers.at("memory_bytes");
   task.disk = cost.numbers.at("disk_bytes");

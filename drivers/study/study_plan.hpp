@@ -14,14 +14,14 @@ namespace clathra {
 
 /// One call of the program.
 struct StudyTask {
-  std::string name;                     ///< of the member, or of the specimen's file
-  std::vector<std::string> arguments;   ///< "run", "scene.toml", "--set", ...
-  std::filesystem::path result;         ///< folder of the run, or the specimen's file
-  std::filesystem::path log;            ///< where its messages go
-  double disc_steps = 0;                ///< predicted
-  double memory = 0, disk = 0;          ///< predicted [bytes]
-  std::vector<std::string> refusals;    ///< of its guards; none where guards are ignored
-  std::optional<std::size_t> specimen;  ///< place of the task that makes what this one reads
+  std::string name;                      ///< of the member, or of the specimen's file
+  std::vector<std::string> arguments;    ///< "run", "scene.toml", "--set", ...
+  std::filesystem::path result;          ///< folder of the run, or the specimen's file
+  std::filesystem::path log;             ///< where its messages go
+  double particles = 0, disc_steps = 0;  ///< predicted
+  double memory = 0, disk = 0;           ///< predicted [bytes]
+  std::vector<std::string> refusals;     ///< of its guards; none where guards are ignored
+  std::optional<std::size_t> specimen;   ///< place of the task that makes what this one reads
 };
 
 /// Members by group and seed, and the tasks of each.

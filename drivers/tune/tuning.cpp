@@ -75,7 +75,7 @@ double Tuning::speed_of(Precision precision) const {
   Scene scene = plan_.base.scene;
   scene.run.threads = 1;
   scene.run.precision = precision;
-  return machine_speed(scene, 1, true).disc_steps_per_second;
+  return machine_speed(scene, static_cast<double>(plan_.discs), 1, true).disc_steps_per_second;
 }
 
 void Tuning::add(RunRequest const& request) {

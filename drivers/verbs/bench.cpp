@@ -125,7 +125,7 @@ void add_bench(CLI::App& program, Verb& chosen) {
           ->capture_default_str();
   CLI::Option const* const discs =
       verb->add_option("--particles", options->setup.discs, "number of particles, about; the largest of a card")
-          ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))
+          ->check(CLI::Range(std::int64_t{100}, std::int64_t{100000000}))
           ->capture_default_str();
   verb->add_option("--threads", options->threads, "threads")->check(CLI::Range(1, 4096))->type_name("N");
   verb->add_option("--seconds", options->seconds, "time to measure")->check(CLI::Range(0.01, 3600.0))->capture_default_str();

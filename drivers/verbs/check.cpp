@@ -1,6 +1,7 @@
 /// `clathra check`: is a scene right, and what does it cost?
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -23,8 +24,12 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::string verdict_of(Scene const& scene, Forecast const& result) {
-  return result.refusals.empty() || scene.run.ignore_guards ? "valid" : "refused";
+/// Of a scene that can be read.
+std::string verdict_of(Scene const& scene, Forecast const& result, std::vector<std::string> const& warnings) {
+  if (!result.refusals.empty() && !scene.run.ignore_guards) return "refused";
+  bool const ignored =
+      std::any_of(warnings.begin(), warnings.end(), [](std::string const& text) { return text.starts_with(guard_ignored); });
+  return ignored ? "guards ignored" : "valid";
 }
 
 std::string count_text(std::size_t warnings) {
@@ -52,10 +57,10 @@ ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
   bool const reads = scene.specimen.is_read();
   Forecast const result = forecast(scene, reads ? design_of(read_for_test(input)) : design_sample(scene), options.ranks);
   require_enough_discs(options.ranks, static_cast<std::int64_t>(result.numbers.at("particles")));
-  MachineSpeed const speed =
-      options.rate > 0 ? MachineSpeed{options.rate, "as given"} : machine_speed(scene, options.ranks, true);
-  std::string const verdict = verdict_of(scene, result);
+  MachineSpeed const speed = options.rate > 0 ? MachineSpeed{options.rate, "as given"}
+                                              : machine_speed(scene, result.numbers.at("particles"), options.ranks, true);
   std::vector<std::string> const warnings = warnings_of(input, result);
+  std::string const verdict = verdict_of(scene, result, warnings);
   ExitCode printed = ExitCode::done;
   if (options.json) {
     nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", verdict}};
@@ -64,8 +69,8 @@ ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
     printed = print_json(json_text(json));
   } else {
     printed = print_result(fmt::format("{}: {}{}\n{}{}", options.scene.file, verdict,
-                                       verdict == "valid" ? count_text(warnings.size()) : "", forecast_text(scene, result, speed),
-                                       warnings_text(input, result)));
+                                       verdict == "refused" ? "" : count_text(warnings.size()),
+                                       forecast_text(scene, result, speed), warnings_text(input, result)));
     if (is_quiet())
       for (std::string const& warning : warnings) print_error("warning: " + warning);
   }

@@ -140,7 +140,7 @@ def _call(verb, what, output, progress, options):
 
 
 def check(scene: Scene, **options: Any) -> dict:
-    """What `clathra check --json` says of a scene: its verdict ("valid", "refused", "invalid"), problems or forecast (SI units) and
+    """What `clathra check --json` says of a scene: its verdict ("valid", "guards ignored", "refused", "invalid"), problems or forecast (SI units) and
     warnings. Raises ClathraError where it says nothing, as of a file that is not there."""
     with _file_of(scene) as file:
         done = subprocess.run([program(), "check", file, "--json", *_options(options)], capture_output=True, text=True, errors="replace")

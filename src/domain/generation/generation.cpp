@@ -98,7 +98,7 @@ GeneratedSpecimen make_specimen(Scene const& scene, ProgressCallback const& prog
   r["d50_wanted_m"] = design.grading.d50();
   r["grading_distance"] = grading_distance(design.grading, packed.specimen.radius, ranks);
   r["generation_friction"] = packed.friction;
-  r["generation_shape_factor"] = packed.shape_factor;
+  r["generation_rolling_width_factor"] = packed.shape_factor;
   r["stress_x_Pa"] = packed.stress_x;
   r["stress_y_Pa"] = packed.stress_y;
   r["unbalanced"] = packed.unbalanced;
