@@ -136,7 +136,7 @@ std::string run_text(nlohmann::json const& record) {
     if (stages.contains(stage)) text += stage_text(stage, stages.at(stage));
   for (auto const& [stage, seconds] : record.at("wall_seconds").items())
     text += fmt::format("{:<18} {} s\n", "time of " + stage, number_text(seconds));
-  text += fmt::format("{:<18} {:.4g} M\n", "disc-steps/s", record.at("disc_steps_per_second").get<double>() * 1e-6);
+  text += fmt::format("{:<18} {:.4g} M\n", "particle-steps/s", record.at("disc_steps_per_second").get<double>() * 1e-6);
   for (auto const& warning : record.at("warnings")) text += "warning: " + warning.get<std::string>() + "\n";
   if (record.contains("state_hash")) text += fmt::format("{:<18} {}\n", "state hash", record.at("state_hash").get<std::string>());
   return text;
