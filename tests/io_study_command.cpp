@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "command.hpp"
@@ -147,7 +148,7 @@ TEST_F(StudyCommand, HasOnePrecedenceAndSaysWhatItSets) {
            {"test.confining_stress=3MPa", "'test.confining_stress' is what the groups of "},
            {"grains.friction=wet", "'grains.friction' needs a"}}) {
     CommandResult const refused = study(two, "--set " + set);
-    EXPECT_EQ(refused.code, 65) << refused.output;
+    EXPECT_EQ(refused.code, 64) << refused.output;
     EXPECT_NE(refused.output.find(why), std::string::npos) << refused.output;
   }
 }
@@ -239,10 +240,12 @@ TEST_F(StudyCommand, AddsSeedsUntilANumberIsKnown) {
   EXPECT_EQ(cells("mean", "n").front(), "6") << "five are enough, a sixth confirms it";
   CommandResult const few = study("seeds = 3\nmax_seeds = 3\n", "--precision-target peak_q_Pa=0.0001%");
   EXPECT_NE(few.output.find("with 3 seeds, not to 0.0001 %"), std::string::npos) << few.output;
-  CommandResult const wrong = study("", "--precision-target peek_q_Pa=1%");
-  EXPECT_EQ(wrong.code, 65);
-  EXPECT_NE(wrong.output.find("no member has a number 'peek_q_Pa'; did you mean 'peak_q_Pa'?"), std::string::npos)
-      << wrong.output;
+  CommandResult const wrong = study("", "--precision-target peek_q=1%");
+  EXPECT_EQ(wrong.code, 64);
+  EXPECT_TRUE(says(wrong, "--precision-target: error: names no number of a test: 'peek_q'; did you mean 'peak_q'?; there are "));
+  CommandResult const in_file = study("precision_target = \"peek_q=1%\"\n");
+  EXPECT_EQ(in_file.code, 65);
+  EXPECT_TRUE(says(in_file, "many.toml:2:"));
 }
 
 TEST_F(StudyCommand, SaysWhatItCostsAndDoesNothing) {
@@ -250,6 +253,10 @@ TEST_F(StudyCommand, SaysWhatItCostsAndDoesNothing) {
   EXPECT_EQ(result.code, 0) << result.output;
   EXPECT_NE(result.output.find("many.toml: 2 groups of 2 seeds\n"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("  members            4, "), std::string::npos) << result.output;
+  EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  shear +[0-9]+ s at "))) << result.output;
+  CommandResult const nothing = study(two, "--dry-run --quiet");
+  EXPECT_EQ(nothing.code, 64) << "it does nothing but print";
+  EXPECT_TRUE(says(nothing, "--dry-run excludes --quiet"));
   EXPECT_FALSE(fs::exists(out));
 }
 
@@ -279,7 +286,7 @@ TEST_F(StudyCommand, ByHandIsOneThatIsGoneOnWithAndStaysOutOfOthersFolders) {
   std::ofstream(out / "study.csv") << "my precious table";
   for (char const* const part : {"--collect", "--member 1", "--specimen 1", "--slurm array.sh", ""}) {
     CommandResult const result = study(two, part);
-    EXPECT_EQ(result.code, 77) << result.output;
+    EXPECT_EQ(result.code, 73) << result.output;
     EXPECT_EQ(csv(), "my precious table") << part;
   }
   fs::remove_all(out);
@@ -320,7 +327,7 @@ TEST_F(StudyCommand, SaysWhereAMistakeIs) {
        {"--precision-target peak_q_Pa", "--precision-target peak_q_Pa=0", "--precision-target peak_q_Pa=200%",
         "--launcher \"'open\"", "--max-walltime 0s", "--member 0"}) {
     CommandResult const result = study("", option);
-    EXPECT_TRUE(result.code == 64 || result.code == 65) << result.output;
+    EXPECT_EQ(result.code, 64) << result.output;
     EXPECT_NE(result.output.find(option.substr(0, option.find(' '))), std::string::npos) << result.output;
   }
   CommandResult const loose = study("seeds = 1\n", "--set specimen.void_ratio=0.9");
@@ -334,7 +341,7 @@ TEST_F(StudyCommand, RefusesGroupsThatAreTheSameAndAScenesFaultsOnce) {
   EXPECT_EQ(same.code, 65);
   EXPECT_NE(same.output.find("the groups a and b are the same scene"), std::string::npos) << same.output;
   CommandResult const wrong = study("[matrix]\ntest.confining_stress = [\"1 MPa\", \"2 MPa\"]\n", "--set grains.fricton=1");
-  EXPECT_EQ(wrong.code, 65);
+  EXPECT_EQ(wrong.code, 64);
   std::string const text = "unknown key 'grains.fricton'";
   EXPECT_EQ(wrong.output.find(text), wrong.output.rfind(text)) << wrong.output;
 }

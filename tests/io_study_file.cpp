@@ -205,9 +205,14 @@ TEST(StudyFiles, OfTheExamplesAreRight) {
 TEST(StudyGoal, IsANumberAndAWidth) {
   EXPECT_EQ(study_goal("peak_q_Pa=2%").width, 0.02);
   EXPECT_EQ(study_goal("peak_q_Pa=2%").number, "peak_q_Pa");
+  EXPECT_EQ(study_goal("peak_q=2%").number, "peak_q_Pa");
+  EXPECT_EQ(study_goal("peak_friction_angle=2%").number, "peak_friction_angle_deg");
+  EXPECT_THROW(number_of_name("peak_friction_angle", NumbersOf::tests), std::invalid_argument) << "one test has no envelope";
+  for (std::string const& name : number_names(NumbersOf::tests))
+    EXPECT_TRUE(number_of_name(name, NumbersOf::tests).starts_with(name));
   EXPECT_EQ(study_goal("peak_eps1= 0.05").width, 0.05);
   for (char const* const wrong :
-       {"peak_q_Pa", "=2%", "peak_q_Pa=", "peak_q_Pa=2 MPa", "peak_q_Pa=0", "peak_q_Pa=-1%", "peak_q_Pa=100%"})
+       {"peak_q_Pa", "=2%", "peak_q_Pa=", "peak_q_Pa=2 MPa", "peak_q_Pa=0", "peak_q_Pa=-1%", "peak_q_Pa=100%", "peek_q=2%"})
     EXPECT_THROW(study_goal(wrong), std::invalid_argument) << wrong;
 }
 

@@ -40,6 +40,12 @@ foreach(line "-rwxr-xr-x root/root [^\n]*/usr/bin/clathra\n" "-rw-r--r-- root/ro
   endif()
 endforeach()
 
+execute_process(COMMAND ${DPKG_DEB} --extract ${package} ${FOLDER}/root COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${FOLDER}/root/usr/bin/clathra --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+if(NOT help MATCHES "docs/NAME.md: [^\n]*/root/usr/share/doc/clathra\n" OR NOT EXISTS ${FOLDER}/root/usr/share/doc/clathra/output.md)
+  message(SEND_ERROR "the help does not say where the pages are:\n${help}")
+endif()
+
 execute_process(COMMAND ${DPKG_DEB} --field ${package} Package Depends OUTPUT_VARIABLE fields COMMAND_ERROR_IS_FATAL ANY)
 if(NOT fields MATCHES "Package: clathra\n" OR NOT fields MATCHES "Depends: [^\n]*libc6 [^\n]*libhdf5")
   message(SEND_ERROR "name or dependencies of the package are wrong:\n${fields}")

@@ -124,9 +124,9 @@ class Package(unittest.TestCase):
         wrong = clathra.check({"specimen": {"particles": 300}, "grains": {"friktion": 0.4}, "test": {"axial_strain": 15}})
         self.assertEqual((wrong["verdict"], len(wrong["problems"])), ("invalid", 2))
         self.assertIn("did you mean 'friction'?", wrong["problems"][0]["text"])
-        with self.assertRaises(clathra.ClathraError) as caught:
-            clathra.check("nowhere.toml")
-        self.assertEqual(caught.exception.code, 66)
+        missing = clathra.check("nowhere.toml")
+        self.assertEqual((missing["verdict"], missing["exit_code"]), ("invalid", 66))
+        self.assertEqual((missing["problems"][0]["file"], missing["problems"][0]["severity"]), ("nowhere.toml", "missing file"))
 
     def test_the_package_has_the_version_of_the_program(self):
         package = (pathlib.Path(clathra.__file__).parent.parent / "pyproject.toml").read_text()

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr double assumed_rate = 15e6;  // disc-steps a second and thread, the floor that the program is held to
+constexpr double assumed_rate = 15e6;  // particle-steps a second and thread, the floor that the program is held to
 constexpr std::size_t largest_cache = 1 << 20;
 
 /// Empty where there is no place for it.

@@ -38,7 +38,7 @@ RateNumbers rate_of(StageRecord const& n) {
 std::string expected_error_text(Scene const& scene, StageRecord const& numbers) {
   ExpectedError const expected = expected_error(scene, rate_of(numbers));
   if (!expected.peak_q) return "not measured: " + expected.range;
-  return fmt::format("{:+.1f} +- {:.1f} % against slow shear in double precision ({})", 100 * expected.peak_q->error,
+  return fmt::format("{:+.1f} ± {:.1f} % against slow shear in double precision ({})", 100 * expected.peak_q->error,
                      100 * expected.peak_q->half_width, expected.range);
 }
 
@@ -126,10 +126,10 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
                     fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning(scene)));
   text += table_row("wave stress W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("platen_wave_stress"), wave_limit));
   text += table_row("error of peak q", expected_error_text(scene, n));
-  text += table_row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
+  text += table_row("steps", fmt::format("{} ({} particle-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
   double const generation = generation_seconds(n, speed);
   if (generation > 0) text += table_row("generation", fmt::format("about {}", duration_text(generation)));
-  text += table_row("shear", fmt::format("{} at {} disc-steps/s ({})", hours(n.at("disc_steps")),
+  text += table_row("shear", fmt::format("{} at {} particle-steps/s ({})", hours(n.at("disc_steps")),
                                          short_count(speed.disc_steps_per_second), speed.origin));
   double const literal = scene.test.axial_strain / (paper_rate * n.at("time_step_s"));
   text += table_row("at 5 %/min", fmt::format("{} steps, {}", short_count(literal), hours(literal * n.at("particles"))));

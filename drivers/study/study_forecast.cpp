@@ -41,7 +41,7 @@ std::string study_forecast_text(StudyPlan const& plan, StudyForecast const& fore
                                            forecast.threads, forecast.threads == 1 ? "" : "s"));
   text += table_row("specimens", sharing_text(plan));
   text += table_row("generation", duration_text(forecast.generation_seconds));
-  text += table_row("shear", fmt::format("{} at {} disc-steps/s ({})", duration_text(forecast.shear_seconds),
+  text += table_row("shear", fmt::format("{} at {} particle-steps/s ({})", duration_text(forecast.shear_seconds),
                                          short_count(forecast.disc_steps_per_second), forecast.speed_origin));
   text += table_row("memory", fmt::format("{:.3g} GB", forecast.memory_bytes * 1e-9));
   text += table_row("disk", fmt::format("{:.3g} GB", forecast.disk_bytes * 1e-9));

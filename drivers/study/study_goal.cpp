@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
-
-#include "domain/measurement/test_numbers.hpp"
-#include "io/scene/schema.hpp"
-#include "kernels/break_mode.hpp"
+#include <cmath>
 
 namespace clathra {
 namespace {
@@ -40,28 +36,6 @@ std::string line_of(GroupNumbers const& group, std::vector<std::string> const& p
 }
 
 }  // namespace
-
-std::vector<std::string> known_numbers() {
-  TestNumbers every;
-  every.secant_modulus = every.dilation_angle = 0;
-  std::vector<std::string> names;
-  for (auto const& entry : record_of(every)) names.push_back(entry.first);
-  for (BreakModeNames const& mode : break_modes) names.emplace_back(mode.broken);
-  return names;
-}
-
-void require_known_number(StudyGoal const& goal) {
-  std::vector<std::string> names = known_numbers();
-  for (char const* const state : {"peak", "residual"})
-    for (char const* const number : {"_cohesion_Pa", "_friction_angle_deg"}) names.push_back(std::string(state) + number);
-  if (std::find(names.begin(), names.end(), goal.number) != names.end()) return;
-  std::vector<std::string_view> const views(names.begin(), names.end());
-  std::string all;
-  for (std::string const& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw SceneProblems({{"--precision-target", 0, 0,
-                        fmt::format("no member has a number '{}'{}; there are {}", goal.number.substr(0, 60),
-                                    name_suggestion(goal.number, views), all)}});
-}
 
 std::map<std::string, GoalSearch::Searched> GoalSearch::collect(StudyPlan const& plan) const {
   std::map<std::string, Searched> found;

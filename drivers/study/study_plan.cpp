@@ -274,7 +274,7 @@ void find_finished(StudyPlan& plan, std::size_t member) {
     EarlierRun const earlier = earlier_run(task.result, scene, input_digests(scene));
     // An extended test has rows at the places of the shorter one: other numbers than one that was asked for at once.
     if (earlier == EarlierRun::to_be_extended)
-      throw FileProblem(ExitCode::refused, task.result,
+      throw FileProblem(ExitCode::cannot_create, task.result,
                         "holds a finished run to a smaller test.axial_strain; a study does not extend it: name another folder "
                         "(--output), or remove this one");
     if (earlier == EarlierRun::finished) read_member(plan.members[member], task.result);

@@ -77,7 +77,7 @@ class StudyRun {
   std::set<std::string> tried_again_;
   std::vector<bool> slot_taken_;
   std::vector<int> cores_;
-  double work_ = 0, done_ = 0, done_before_ = 0;         ///< predicted disc-steps
+  double work_ = 0, done_ = 0, done_before_ = 0;         ///< predicted particle-steps
   double first_begin_ = 0, begin_ = 0, last_shown_ = 0;  ///< [s]
   bool stopping_ = false;
 };

@@ -8,6 +8,7 @@
 
 #include "io/results/run_record.hpp"
 #include "machine/threads.hpp"
+#include "terminal/json_text.hpp"
 #include "terminal/print.hpp"
 #include "throughput/throughput_card.hpp"
 #include "verbs/verbs.hpp"
@@ -58,7 +59,7 @@ std::string text_of(nlohmann::ordered_json const& c) {
   auto const number = [&](char const* key) { return c.at(key).get<double>(); };
   return fmt::format(
       "{} particles, {}, {} precision, {} threads, {} lanes, {}\n"
-      "disc-steps        {:.4g} million a second\n"
+      "particle-steps    {:.4g} million a second\n"
       "contact steps     {:.4g} million a second (pairs that touch or are bonded)\n"
       "memory            {:.0f} bytes a particle\n"
       "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a particle and step at "
@@ -91,7 +92,7 @@ ExitCode card(BenchOptions const& options) {
   if (!options.json) return code;
   nlohmann::ordered_json result = json_of(options);
   result["rows"] = rows;
-  return print_result(result.dump(2) + "\n");
+  return print_json(json_text(result));
 }
 
 ExitCode bench(BenchOptions options) {
@@ -107,7 +108,7 @@ ExitCode bench(BenchOptions options) {
   result["lanes"] = options.setup.precision == Precision::full ? lane_count : lane_count_of<float>;
   result["arithmetic_limit_flops_per_s"] = arithmetic;
   result["flop_share"] = arithmetic > 0 ? result.at("flops_per_s").get<double>() / arithmetic : 0;
-  return print_result(options.json ? result.dump(2) + "\n" : text_of(result));
+  return options.json ? print_json(json_text(result)) : print_result(text_of(result));
 }
 
 }  // namespace

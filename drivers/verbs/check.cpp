@@ -36,23 +36,8 @@ std::string count_text(std::size_t warnings) {
   return warnings == 0 ? "" : fmt::format(", {} warning{}", warnings, warnings == 1 ? "" : "s");
 }
 
-nlohmann::ordered_json problem_json(Problem const& problem) {
-  constexpr char const* severities[] = {"error", "missing file", "refusal"};
-  return {{"file", problem.file},
-          {"line", problem.line},
-          {"column", problem.column},
-          {"severity", severities[static_cast<int>(problem.severity)]},
-          {"text", problem.text}};
-}
-
-/// What is wrong with a scene that cannot be read, as JSON; the messages go to stderr as ever.
-void print_problems(CheckOptions const& options, SceneProblems const& problems) {
-  nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", "invalid"}, {"problems", nlohmann::json::array()}};
-  for (Problem const& problem : problems.problems) json["problems"].push_back(problem_json(problem));
-  print_json(json_text(json));
-}
-
-ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
+ExitCode check(CheckOptions const& options) {
+  LoadedScene input = options.scene.load();
   Scene const& scene = input.scene;
   bool const reads = scene.specimen.is_read();
   Forecast const result = forecast(scene, reads ? design_of(read_for_test(input)) : design_sample(scene), options.ranks);
@@ -78,22 +63,13 @@ ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
   return printed;
 }
 
-ExitCode check(CheckOptions const& options) {
-  try {
-    return check_loaded(options, options.scene.load());
-  } catch (SceneProblems const& problems) {
-    if (options.json) print_problems(options, problems);
-    throw;
-  }
-}
-
 }  // namespace
 
 void add_check(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<CheckOptions>();
   CLI::App* const verb = program.add_subcommand("check", "Check a scene and say what its run will cost");
   options->scene.add_to(*verb);
-  verb->add_option("--disc-steps-per-second", options->rate, "speed to assume (default: as measured on this machine, once)")
+  verb->add_option("--particle-steps-per-second", options->rate, "speed to assume (default: as measured on this machine, once)")
       ->check(CLI::PositiveNumber);
   verb->add_option("--ranks", options->ranks, "ranks that will share the run on this machine (mpirun -n N)")
       ->check(CLI::Range(1, 1000000));

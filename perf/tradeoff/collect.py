@@ -1,7 +1,7 @@
 """Adds the finished members of the studies in a folder to one table, which is made where there is none: collect.py FOLDER DATA.csv
 
 One row a test: the part (study file) it belongs to, what it was run with (settings that differ from base.toml make its factor and level), what came out, and its cost in
-disc-steps, which other load on the machine does not change. The inertial number is that of the test, which a bound of W may have lowered, to two digits.
+particle-steps, which other load on the machine does not change. The inertial number is that of the test, which a bound of W may have lowered, to two digits.
 """
 import csv
 import json

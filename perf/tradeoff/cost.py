@@ -1,4 +1,4 @@
-"""Nanoseconds a disc-step of the shear by material and precision, the least of the tests of a study: cost.py STUDY COST.csv"""
+"""Nanoseconds a particle-step of the shear by material and precision, the least of the tests of a study: cost.py STUDY COST.csv"""
 import csv
 import json
 import sys

@@ -84,7 +84,7 @@ std::vector<Quantity> cost_quantities() {
        [](Run r, Numbers) { return shown(r.number("/scene/run/rotational_inertia_factor"), "{:.3g}"); }},
       {"steps", "", [](Run r, Numbers) { return count(r.history["step"].back()); }},
       {"wall time of the shear", "s", [](Run r, Numbers) { return shown(r.number("/wall_seconds/shear"), "{:.4g}"); }},
-      {"disc-steps a second", "million",
+      {"particle-steps a second", "million",
        [](Run r, Numbers) { return shown(r.number("/disc_steps_per_second"), "{:.3g}", mega); }},
       {"seed", "", [](Run r, Numbers) { return shown(r.number("/seed"), "{:.0f}"); }},
       {"program", "",

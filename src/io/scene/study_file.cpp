@@ -158,7 +158,7 @@ class StudyReader {
 
   void read_goal(TomlNode const& node) {
     auto const* const text = node.as<std::string>();
-    if (!text) return report(node, "'precision_target' needs a text like \"peak_q_Pa=2%\"");
+    if (!text) return report(node, "'precision_target' needs a text like \"peak_q=2%\"");
     try {
       study_.precision_target = study_goal(*text);
     } catch (std::invalid_argument const& problem) {
@@ -364,21 +364,6 @@ class StudyReader {
 Study parse_study(std::string const& text, std::filesystem::path const& path) { return StudyReader(path).read(text); }
 
 Study load_study(std::filesystem::path const& path) { return parse_study(read_text_file(path, largest_scene_file + 1), path); }
-
-StudyGoal study_goal(std::string const& text) {
-  auto const equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw std::invalid_argument("needs the form NUMBER=WIDTH, as in peak_q_Pa=2%");
-  std::string const width = text.substr(std::min(text.size(), text.find_first_not_of(' ', equals + 1)));
-  auto const parts = parts_of(width);
-  std::string unit = parts ? parts->second : "";
-  std::erase(unit, ' ');
-  if (!parts || (unit != "%" && !unit.empty()))
-    throw std::invalid_argument(fmt::format("needs a width like 2%, got '{}'", width));
-  StudyGoal const goal{text.substr(0, equals), parts->first * (unit == "%" ? 0.01 : 1)};
-  if (!(goal.width > 0 && goal.width < 1))
-    throw std::invalid_argument(fmt::format("needs a width between 0 and 100 %, got '{}'", width));
-  return goal;
-}
 
 std::string const* value_in(std::vector<Setting> const& settings, std::string_view key) {
   auto const found = std::find_if(settings.begin(), settings.end(), [&](Setting const& setting) { return setting.first == key; });
