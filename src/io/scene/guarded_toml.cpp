@@ -114,7 +114,8 @@ std::optional<TomlTable> parse_guarded(std::string const& text, std::string cons
   } catch (toml::parse_error const& error) {
     auto const at = error.source().begin;
     int const line = static_cast<int>(at.line);
-    std::string const twice = twice_text(guarded.text, line);
+    std::string const twice =
+        error.description().find("redefine") == std::string_view::npos ? "" : twice_text(guarded.text, line);
     problems.push_back({file, line, twice.empty() ? static_cast<int>(at.column) : 1,
                         twice.empty() ? syntax_text(error.description(), line_of(text, line)) : twice});
     return {};
