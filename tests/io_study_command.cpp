@@ -81,8 +81,17 @@ TEST_F(StudyCommand, NamesAMemberThatFailsAndGoesOnWithTheOthers) {
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished", "finished"}));
   EXPECT_NE(cells("member", "message")[0].find(" without friction: looser than the 0.1 that was asked for"), std::string::npos)
       << csv();
-  EXPECT_NE(result.output.find("failed    void-ratio0.1-seed1: "), std::string::npos) << result.output;
-  EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("Members that are missing"), std::string::npos);
+  EXPECT_NE(result.output.find("failed    the specimen of specimen.void_ratio = 0.1, seed 1: refused: "), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("needed by void-ratio0.1-seed1\n"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("specimens 3, each for 1 member: 2 made, 1 could not be made\n"), std::string::npos)
+      << result.output;
+  std::string const why = " without friction: looser than";
+  EXPECT_EQ(result.output.find(why), result.output.rfind(why)) << "said once\n" << result.output;
+  std::string const page = read_text_file(out / "study.html", 1 << 24);
+  EXPECT_NE(page.find("Members that are missing"), std::string::npos);
+  for (std::string const& text : {result.output, page})
+    EXPECT_FALSE(std::regex_search(text, std::regex("[0-9a-f]{10}-seed"))) << "the name of a file is no name for people";
 }
 
 TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
@@ -102,6 +111,8 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"refused", "finished", "finished", "refused"}));
   EXPECT_NE(cells("member", "message")[0].find("inertial number"), std::string::npos) << csv();
   EXPECT_NE(skipped.output.find("2 finished, 2 refused by guards and left out"), std::string::npos) << skipped.output;
+  EXPECT_NE(skipped.output.find("specimens 1, each for 2 members\n"), std::string::npos) << skipped.output;
+  EXPECT_EQ(skipped.output.find("/4 members"), std::string::npos) << skipped.output;
   EXPECT_EQ(study(four, "--collect --skip-refused").code, 0);
   EXPECT_EQ(cells("member", "state")[3], "refused");
   CommandResult const ignored =
@@ -117,9 +128,18 @@ TEST_F(StudyCommand, SkipsGroupsWhoseSceneIsRefused) {
   for (char const* const part :
        {"the group particles20 would be refused: specimen.particles=20: the specimen is ", "1 of 2 groups would be refused"})
     EXPECT_NE(asked.output.find(part), std::string::npos) << part << "\n" << asked.output;
+  CommandResult const forecast = study(sizes, "--skip-refused --dry-run");
+  EXPECT_EQ(forecast.code, 0) << forecast.output;
+  EXPECT_TRUE(std::regex_search(forecast.output, std::regex("  members +1, .*; 1 refused by guards and left out\n")))
+      << forecast.output;
   CommandResult const skipped = study(sizes, "--skip-refused");
   EXPECT_EQ(skipped.code, 0) << skipped.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"refused", "finished"}));
+  for (CommandResult const& result : {forecast, skipped})
+    EXPECT_TRUE(std::regex_search(result.output, std::regex("specimens +1, each for 1 member\n"))) << result.output;
+  std::size_t files = 0;
+  for (auto const& file : fs::directory_iterator(out / "specimens")) files += file.path().extension() == ".h5" ? 1 : 0;
+  EXPECT_EQ(files, 1u);
   EXPECT_EQ(study("seeds = 1\n[matrix]\nspecimen.particles = [5, 100]\n", "--skip-refused").code, 65) << "a mistake is none";
 }
 
@@ -242,7 +262,7 @@ TEST_F(StudyCommand, AddsSeedsUntilANumberIsKnown) {
   EXPECT_NE(few.output.find("with 3 seeds, not to 0.0001 %"), std::string::npos) << few.output;
   CommandResult const wrong = study("", "--precision-target peek_q=1%");
   EXPECT_EQ(wrong.code, 64);
-  EXPECT_TRUE(says(wrong, "--precision-target: error: names no number of a test: 'peek_q'; did you mean 'peak_q'?; there are "));
+  EXPECT_TRUE(says(wrong, "--precision-target: error: names no number of a test: 'peek_q'; did you mean 'peak_q'?\n"));
   CommandResult const in_file = study("precision_target = \"peek_q=1%\"\n");
   EXPECT_EQ(in_file.code, 65);
   EXPECT_TRUE(says(in_file, "many.toml:2:"));
@@ -340,6 +360,11 @@ TEST_F(StudyCommand, RefusesGroupsThatAreTheSameAndAScenesFaultsOnce) {
   CommandResult const same = study("[groups.a]\ngrains.friction = 0.5\n[groups.b]\ntest.confining_stress = \"1 MPa\"\n");
   EXPECT_EQ(same.code, 65);
   EXPECT_NE(same.output.find("the groups a and b are the same scene"), std::string::npos) << same.output;
+  CommandResult const refused = study("[matrix]\ntest.inertial_number = [0.5]\ngrains.friction = [0.4, 0.5]\n");
+  EXPECT_NE(
+      refused.output.find("the groups inertial-number0.5_friction0.4 and inertial-number0.5_friction0.5 would be refused: "),
+      std::string::npos)
+      << refused.output;
   CommandResult const wrong = study("[matrix]\ntest.confining_stress = [\"1 MPa\", \"2 MPa\"]\n", "--set grains.fricton=1");
   EXPECT_EQ(wrong.code, 64);
   std::string const text = "unknown key 'grains.fricton'";

@@ -107,10 +107,11 @@ ExitCode study(StudyOptions const& options) {
   if (options.member > 0 || options.specimen > 0)
     return run_alone(plan, jobs_of(options), options.specimen > 0, options.specimen > 0 ? options.specimen : options.member);
   if (options.collect) return collect(plan, options);
+  if (options.skip_refused) heed_guards(plan, true);
   StudyLimits const limits = limits_of(options, plan);
   if (options.dry_run)
     if (ExitCode const printed = print_forecast(plan, limits, options.json); printed != ExitCode::done) return printed;
-  heed_guards(plan, options.skip_refused);
+  if (!options.skip_refused) heed_guards(plan, false);
   if (options.dry_run) return ExitCode::done;
   if (!options.slurm.empty()) return write_script(plan, jobs_of(options));
   return run_all(plan, limits);

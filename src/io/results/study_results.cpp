@@ -157,6 +157,12 @@ class Table {
 
 }  // namespace
 
+std::size_t GroupNumbers::without_peak() const {
+  auto const passed = values.find("peak_passed");
+  if (passed == values.end()) return 0;
+  return static_cast<std::size_t>(std::count(passed->second.begin(), passed->second.end(), 0.0));
+}
+
 void read_member(MemberResult& member, std::filesystem::path const& run_folder) {
   RunResults const run = read_run(run_folder);
   std::filesystem::path const history = run_folder / "history.csv";

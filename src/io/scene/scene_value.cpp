@@ -32,9 +32,9 @@ std::string limit_text(Key const& key, double value) {
 void check_range(Key const& key, double value, bool bare) {
   if (value == 0 && !key.zero.empty()) return;
   if (value >= key.least && value <= key.most) return;
-  std::string text = fmt::format("must lie between {} and {}, got {}", limit_text(key, key.least), limit_text(key, key.most),
+  std::string text = fmt::format("must lie between {} and {}{}, got {}", limit_text(key, key.least), limit_text(key, key.most),
+                                 key.takes_zero && key.least > 0 ? fmt::format(", or be 0 ({})", key.zero) : "",
                                  is_quantity(key) ? format_quantity(value, key.dimension) : format_number(value));
-  if (key.takes_zero && key.least > 0) text += fmt::format(" (0: {})", key.zero);
   if (is_quantity(key) && key.dimension == Dimension::ratio) {
     if (!bare) text += fmt::format(", which is {} %; {} % is the most", short_number(100 * value), short_number(100 * key.most));
     bool const is_share = key.most <= 1 && (key.least == 0 || key.least >= 1e-6);

@@ -46,8 +46,9 @@ std::string number_of_name(std::string_view name, NumbersOf of) {
   std::vector<std::string> const names = number_names(of);
   std::vector<std::string_view> const views(names.begin(), names.end());
   name = name.substr(0, 60);
-  throw std::invalid_argument(
-      fmt::format("names no number of a test: '{}'{}; there are {}", name, name_suggestion(name, views), fmt::join(names, ", ")));
+  std::string hint = name_suggestion(name, views);
+  if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(names, ", "));
+  throw std::invalid_argument(fmt::format("names no number of a test: '{}'{}", name, hint));
 }
 
 double goal_width(std::string_view text) {
