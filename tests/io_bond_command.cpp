@@ -281,13 +281,13 @@ TEST(BenchCommand, PrintsACardOfThisMachine) {
         run_clathra(std::string("bench --case ") + what + " --particles 2000 --threads 1 --seconds 0.05 --json 2>/dev/null");
     ASSERT_EQ(result.code, 0) << result.output;
     auto const card = nlohmann::json::parse(result.output);
-    double const discs = card["disc_steps_per_second"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
+    double const discs = card["particle_steps_per_second"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
     EXPECT_GT(discs, 1e5);
     EXPECT_GT(contacts / discs, 1.2);  // pairs a disc: 1.5 to 2.2 here
     EXPECT_LT(contacts / discs, 3);
-    EXPECT_GT(card["bytes_per_disc"], card["bytes_moved_per_disc_and_step"].get<double>() / 2);
-    EXPECT_GT(card["search_bytes_per_disc"], 36);  // its candidates alone
-    EXPECT_LT(card["search_bytes_per_disc"], 0.6 * card["bytes_per_disc"].get<double>());
+    EXPECT_GT(card["bytes_per_particle"], card["bytes_moved_per_particle_and_step"].get<double>() / 2);
+    EXPECT_GT(card["search_bytes_per_particle"], 36);  // its candidates alone
+    EXPECT_LT(card["search_bytes_per_particle"], 0.6 * card["bytes_per_particle"].get<double>());
     EXPECT_GT(card["bandwidth_share"], 0);
     EXPECT_LT(card["rebuild_share"], 1);
     EXPECT_EQ(card["threads"], 1);
@@ -305,13 +305,13 @@ TEST(BenchCommand, PrintsATableOfSizesInBothPrecisions) {
     double const discs = n < 2 ? 2000 : 4000;
     EXPECT_EQ(rows[n]["precision"], n % 2 == 0 ? "double" : "mixed");
     EXPECT_NEAR(rows[n]["particles"], discs, 0.1 * discs);
-    double const speed = rows[n]["disc_steps_per_second"], step = rows[n]["seconds_per_step"];
+    double const speed = rows[n]["particle_steps_per_second"], step = rows[n]["seconds_per_step"];
     EXPECT_NEAR(speed * step, rows[n]["particles"], 1);
     EXPECT_GE(rows[n]["launches_per_step"], for_gpu ? 0.1 : 3);  // drift, contacts, walls; there a graph of sixteen steps is one
     EXPECT_LT(rows[n]["launches_per_step"], 20);
     EXPECT_GT(rows[n]["bandwidth_share"], 0);
   }
-  EXPECT_LT(rows[1]["bytes_per_disc"], rows[0]["bytes_per_disc"]);
+  EXPECT_LT(rows[1]["bytes_per_particle"], rows[0]["bytes_per_particle"]);
   EXPECT_EQ(run_clathra("bench --card --precision mixed").code, 64);
   EXPECT_EQ(run_clathra("bench --card --particles 1000").code, 64);
 }

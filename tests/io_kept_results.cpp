@@ -233,7 +233,7 @@ TEST_F(KeptResults, OfARunThatWasResumedSayHowItsSpecimenWasMade) {
   EXPECT_GT(whole["wall_seconds"]["shear"], first["wall_seconds"]["shear"]);
   fs::remove_all(out);
   ASSERT_EQ(run(longer).code, 0);
-  EXPECT_EQ(whole["disc_steps"], record()["disc_steps"]) << "of the whole shear";
+  EXPECT_EQ(whole["particle_steps"], record()["particle_steps"]) << "of the whole shear";
 }
 
 TEST_F(KeptResults, ASpecimenFileIsReplacedOnlyWhenAsked) {

@@ -68,7 +68,7 @@ TEST_F(StudyCommand, LeavesATableWithARowForEachMemberAndStatisticsOfEachGroup) 
   }
   auto const rows = csv_rows(csv());
   for (auto const& row : rows) EXPECT_EQ(row.size(), rows[0].size());
-  EXPECT_EQ(rows[0].back(), "disc_steps_per_second");
+  EXPECT_EQ(rows[0].back(), "particle_steps_per_second");
   EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("<polygon data-name=\"1MPa\""), std::string::npos) << "a band";
   std::string const before = csv();
   EXPECT_EQ(study(two).code, 0);
@@ -219,7 +219,7 @@ TEST_F(StudyCommand, NamesAMemberWithABadNumberAndGoesOnWithTheOthers) {
   for (auto const& [number, bad] :
        std::vector<std::pair<std::string, std::string>>{{"\"peak_q_Pa\": ", "\"high\", \"was\": "},
                                                         {"\"shear\": ", "[1], \"was\": "},
-                                                        {"\"disc_steps_per_second\": ", "{}, \"was\": "}}) {
+                                                        {"\"particle_steps_per_second\": ", "{}, \"was\": "}}) {
     std::string text = whole;
     std::ofstream(record) << text.insert(text.rfind(number) + number.size(), bad);
     CommandResult const result = study(two);

@@ -84,7 +84,7 @@ TEST_F(Terminal, GetsNoControlCharacterOfASceneOrAName) {
 TEST_F(Terminal, GetsNoControlCharacterOfARecord) {
   scene(
       R"({"exit": {"reason": "finished", "code": 0}, "program": {"version": "\u001b[31m1", "git_hash": "a", "backend": "b",
-         "threads": 1}, "stages": {}, "wall_seconds": {}, "disc_steps_per_second": 1, "warnings": ["a\u001b[2Jb"]})",
+         "threads": 1}, "stages": {}, "wall_seconds": {}, "particle_steps_per_second": 1, "warnings": ["a\u001b[2Jb"]})",
       "run.json");
   expect_escaped("info " + (folder / "run.json").string(), "warning: a\\x1b[2Jb", 0);
 }

@@ -75,7 +75,7 @@ double measured(int threads, bool bonded, std::string const& precision, int part
   std::string const json = output_of_own_program({"bench", "--json", "--case", bonded ? "bonded" : "rolling", "--particles",
                                                   fmt::format("{}", particles), "--seconds", "0.7", "--precision", precision,
                                                   "--threads", fmt::format("{}", threads)});
-  return Json::parse(json).at("disc_steps_per_second").get<double>();
+  return Json::parse(json).at("particle_steps_per_second").get<double>();
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ std::string run_text(nlohmann::json const& record) {
     if (stages.contains(stage)) text += stage_text(stage, stages.at(stage));
   for (auto const& [stage, seconds] : record.at("wall_seconds").items())
     text += fmt::format("{:<18} {} s\n", "time of " + stage, number_text(seconds));
-  if (double const rate = record.at("disc_steps_per_second"); rate > 0)
+  if (double const rate = record.at("particle_steps_per_second"); rate > 0)
     text += fmt::format("{:<18} {:.4g} M\n", "particle-steps/s", rate * 1e-6);
   for (auto const& warning : record.at("warnings")) text += "warning: " + warning.get<std::string>() + "\n";
   if (record.contains("state_hash")) text += fmt::format("{:<18} {}\n", "state hash", record.at("state_hash").get<std::string>());

@@ -43,7 +43,7 @@ std::string expected_error_text(Scene const& scene, StageRecord const& numbers) 
 }
 
 double generation_seconds(StageRecord const& n, MachineSpeed const& speed) {
-  return n.at("generation_disc_steps") / (generation_speedup * speed.disc_steps_per_second);
+  return n.at("generation_particle_steps") / (generation_speedup * speed.disc_steps_per_second);
 }
 
 /// Of the file system that the results would go to, or nothing where it cannot be asked.
@@ -126,10 +126,11 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
                     fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning(scene)));
   text += table_row("wave stress W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("platen_wave_stress"), wave_limit));
   text += table_row("error of peak q", expected_error_text(scene, n));
-  text += table_row("steps", fmt::format("{} ({} particle-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
+  text +=
+      table_row("steps", fmt::format("{} ({} particle-steps)", short_count(n.at("steps")), short_count(n.at("particle_steps"))));
   double const generation = generation_seconds(n, speed);
   if (generation > 0) text += table_row("generation", fmt::format("about {}", duration_text(generation)));
-  text += table_row("shear", fmt::format("{} at {} particle-steps/s ({})", hours(n.at("disc_steps")),
+  text += table_row("shear", fmt::format("{} at {} particle-steps/s ({})", hours(n.at("particle_steps")),
                                          short_count(speed.disc_steps_per_second), speed.origin));
   double const literal = scene.test.axial_strain / (paper_rate * n.at("time_step_s"));
   text += table_row("at 5 %/min", fmt::format("{} steps, {}", short_count(literal), hours(literal * n.at("particles"))));
@@ -142,9 +143,9 @@ nlohmann::ordered_json forecast_json(Scene const& scene, Forecast const& forecas
   StageRecord const& n = forecast.numbers;
   ExpectedError const expected = expected_error(scene, rate_of(n));
   nlohmann::ordered_json json = {{"forecast", n},
-                                 {"disc_steps_per_second", speed.disc_steps_per_second},
+                                 {"particle_steps_per_second", speed.disc_steps_per_second},
                                  {"generation_seconds", generation_seconds(n, speed)},
-                                 {"shear_seconds", n.at("disc_steps") / speed.disc_steps_per_second},
+                                 {"shear_seconds", n.at("particle_steps") / speed.disc_steps_per_second},
                                  {"refusals", forecast.refusals}};
   json["error_of_peak_q"] = nullptr;
   if (expected.peak_q)

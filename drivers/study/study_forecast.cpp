@@ -61,7 +61,7 @@ nlohmann::ordered_json study_forecast_json(StudyPlan const& plan, StudyForecast 
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     members.push_back({{"name", plan.runs[i].name},
                        {"left_out", is_refused(plan.members[i])},
-                       {"disc_steps", plan.runs[i].disc_steps},
+                       {"particle_steps", plan.runs[i].disc_steps},
                        {"memory_bytes", plan.runs[i].memory},
                        {"disk_bytes", plan.runs[i].disk},
                        {"refusals", plan.runs[i].refusals}});
@@ -71,7 +71,7 @@ nlohmann::ordered_json study_forecast_json(StudyPlan const& plan, StudyForecast 
           {"specimens", plan.specimens.size()},
           {"parallel", forecast.parallel},
           {"threads", forecast.threads},
-          {"disc_steps_per_second", forecast.disc_steps_per_second},
+          {"particle_steps_per_second", forecast.disc_steps_per_second},
           {"generation_seconds", forecast.generation_seconds},
           {"shear_seconds", forecast.shear_seconds},
           {"memory_bytes", forecast.memory_bytes},

@@ -92,7 +92,7 @@ std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::
       making.push_back(text);
   task.arguments = with_set({"generate", plan.study.scene.string(), "-o", task.result.string()}, making);
   StageRecord const cost = predict(scene);
-  task.disc_steps = cost.at("generation_disc_steps");
+  task.disc_steps = cost.at("generation_particle_steps");
   task.memory = cost.at("memory_bytes");
   plan.specimens.push_back(std::move(task));
   return plan.specimens.size() - 1;
@@ -208,7 +208,7 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   task.log = plan.study.folder / "logs" / (task.name + ".log");
   Forecast const cost = forecast_of(plan, scene);
   task.particles = cost.numbers.at("particles");
-  task.disc_steps = cost.numbers.at("disc_steps");
+  task.disc_steps = cost.numbers.at("particle_steps");
   task.memory = cost.numbers.at("memory_bytes");
   task.disk = cost.numbers.at("disk_bytes");
   task.refusals = plan.refused[of.name];

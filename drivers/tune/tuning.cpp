@@ -131,7 +131,7 @@ double Tuning::seconds_of(std::size_t trial) const {
 
 double Tuning::disc_steps_of(std::size_t trial) const {
   Study const& study = plan_.study.study;
-  return predict(member_scene(study, study.groups[trial], 1).scene).at("disc_steps");
+  return predict(member_scene(study, study.groups[trial], 1).scene).at("particle_steps");
 }
 
 double Tuning::seconds_of(RunRequest const& request) const {

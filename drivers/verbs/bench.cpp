@@ -30,12 +30,12 @@ nlohmann::ordered_json json_of(ThroughputRow const& row) {
   Throughput const& t = row.measured;
   return {{"precision", precision_names[static_cast<int>(row.precision)]},
           {"particles", row.discs},
-          {"disc_steps_per_second", t.disc_steps_per_second},
+          {"particle_steps_per_second", t.disc_steps_per_second},
           {"contact_steps_per_s", t.contact_steps_per_s},
           {"seconds_per_step", 1e-6 * row.microseconds_per_step()},
-          {"bytes_per_disc", t.bytes_per_disc},
-          {"search_bytes_per_disc", t.search_bytes_per_disc},
-          {"bytes_moved_per_disc_and_step", t.moved_per_step},
+          {"bytes_per_particle", t.bytes_per_disc},
+          {"search_bytes_per_particle", t.search_bytes_per_disc},
+          {"bytes_moved_per_particle_and_step", t.moved_per_step},
           {"bandwidth_bytes_per_s", row.bandwidth},
           {"bandwidth_share", row.bandwidth_share()},
           {"flops_per_s", t.flops_per_s},
@@ -68,9 +68,9 @@ std::string text_of(nlohmann::ordered_json const& c) {
       "arithmetic        {:.3g} % of the {:.3g} GFLOP/s that products and sums reach\n"
       "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
       c.at("particles").dump(), c.at("case").get<std::string>(), c.at("precision").get<std::string>(), c.at("threads").dump(),
-      c.at("lanes").dump(), c.at("backend").get<std::string>(), number("disc_steps_per_second") * 1e-6,
-      number("contact_steps_per_s") * 1e-6, number("bytes_per_disc"), number("bandwidth_share") * 100,
-      number("bandwidth_bytes_per_s") * 1e-9, number("bytes_moved_per_disc_and_step"), number("flop_share") * 100,
+      c.at("lanes").dump(), c.at("backend").get<std::string>(), number("particle_steps_per_second") * 1e-6,
+      number("contact_steps_per_s") * 1e-6, number("bytes_per_particle"), number("bandwidth_share") * 100,
+      number("bandwidth_bytes_per_s") * 1e-9, number("bytes_moved_per_particle_and_step"), number("flop_share") * 100,
       number("arithmetic_limit_flops_per_s") * 1e-9, number("rebuild_share") * 100,
       number("steps") / std::max(1.0, number("rebuilds")));
 }

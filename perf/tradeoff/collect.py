@@ -74,7 +74,7 @@ def row_of(member):
     row["early_disc_steps"] = row.pop("early_steps", 0) * int(row["discs"]) or ""
     row.update({name: run["stages"]["shear"].get(name, "") for name in NUMBERS})
     row.update(part=member.parent.parent.name, saturation=run["scene"]["hydrate"]["saturation"], stress_Pa=run["scene"]["test"]["confining_stress"], seed=run["seed"],
-               inertial_number=float(f"{run['stages']['plan']['inertial_number']:.2g}"), disc_steps=run["disc_steps"],
+               inertial_number=float(f"{run['stages']['plan']['inertial_number']:.2g}"), disc_steps=run["particle_steps"],
                specimen=run["input"]["specimen_digest_xxh3_128"][:12])
     return row
 

@@ -103,7 +103,7 @@ GeneratedSpecimen make_specimen(Scene const& scene, ProgressCallback const& prog
   r["stress_y_Pa"] = packed.stress_y;
   r["unbalanced"] = packed.unbalanced;
   r["deep_overlap_share"] = packed.deep_overlap_share;
-  r["disc_steps"] = static_cast<double>(packed.disc_steps);
+  r["particle_steps"] = static_cast<double>(packed.disc_steps);
   r["width_m"] = packed.specimen.width();
   r["height_m"] = packed.specimen.height();
   generated.warnings = warnings_of(r);

@@ -85,8 +85,8 @@ Json meaning_json(RunRecord const& record) {
       {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; checkpoints read where it was resumed"},
       {"wall_seconds.shear", "steps, records and snapshots; neighbour_searches and checkpoints are parts of it"},
       {"wall_seconds", "of all sessions of a run that was resumed; one that was killed had not said how long it took"},
-      {"disc_steps", "particles times time steps, of the whole shear"},
-      {"disc_steps_per_second", "of the last session"}};
+      {"particle_steps", "particles times time steps, of the whole shear"},
+      {"particle_steps_per_second", "of the last session"}};
   for (auto const& [stage, numbers] : record.stages)
     for (auto const& [name, value] : numbers) meaning[fmt::format("stages.{}.{}", stage, name)] = meaning_of(stage, name);
   return meaning;
@@ -159,8 +159,8 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   if (!record.layer_void_ratios.empty()) json["layer_void_ratios"] = record.layer_void_ratios;
   json["wall_seconds"] = record.wall_seconds;
   json["meaning"] = meaning_json(record);
-  json["disc_steps"] = record.disc_steps;
-  json["disc_steps_per_second"] = record.disc_steps_per_second;
+  json["particle_steps"] = record.disc_steps;
+  json["particle_steps_per_second"] = record.disc_steps_per_second;
   json["warnings"] = record.warnings;
   if (record.state_hash) json["state_hash"] = hash_text(*record.state_hash);
   if (!record.result_digests.empty()) json["result_digests_xxh3_128"] = record.result_digests;

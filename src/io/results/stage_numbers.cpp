@@ -98,7 +98,7 @@ constexpr StageNumber numbers[] = {
 };
 // clang-format on
 
-constexpr std::string_view steps_name = "disc_steps", to_peak = "_to_peak";
+constexpr std::string_view steps_name = "particle_steps", to_peak = "_to_peak";
 
 }  // namespace
 

@@ -178,7 +178,7 @@ void read_member(MemberResult& member, std::filesystem::path const& run_folder) 
   nlohmann::json const seconds = section_of(run.record, {"wall_seconds"}, run_folder);
   double wall_seconds = 0;
   for (char const* const stage : {"prepare", "shear", "generate"}) wall_seconds += number_at(seconds, stage, run_folder);
-  member.disc_steps_per_second = number_at(run.record, "disc_steps_per_second", run_folder);
+  member.disc_steps_per_second = number_at(run.record, "particle_steps_per_second", run_folder);
   member.wall_seconds = wall_seconds;
   member.numbers = std::move(numbers);
   TestNumbers const n = test_numbers(run.history.curves());
