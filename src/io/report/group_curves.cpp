@@ -38,7 +38,7 @@ bool says_something(GroupCurves const& group, ShownBand const& what) {
 
 /// Shares end at 100 %.
 Axis axis_of(ShownBand const& what, Range const& values) {
-  bool const share = std::string_view(band_columns[what.column]).ends_with("_pct");
+  bool const share = std::string_view(curve_columns[what.column]).ends_with("_pct");
   return share ? Axis{what.axis, 0, percent} : values.axis(what.axis);
 }
 

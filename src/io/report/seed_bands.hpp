@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/results/run_results.hpp"
+
 namespace clathra {
 
 /// A column of history.csv against axial strain, at the same strains for all seeds.
@@ -13,12 +15,7 @@ struct SeedBand {
   std::vector<double> mean, low, high;     ///< over the seeds at each strain; 95 % interval of the mean, which for one seed is it
 };
 
-/// Columns that a study's page shows.
-inline constexpr char const* band_columns[] = {
-    "q_Pa",         "eps_v",          "bonds_intact_pct",   "mechanical_coordination", "broken_tension", "broken_compression",
-    "broken_shear", "broken_rolling", "bonded_contacts_pct"};
-
-/// One band for each of band_columns; empty where a run has no such column. Between records curves are straight.
+/// One band for each of curve_columns; empty where a run has no such column. Between records curves are straight.
 /// @throws FileProblem
 std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_folders);
 
