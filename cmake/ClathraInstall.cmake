@@ -17,7 +17,8 @@ if(CLATHRA_IO)
 endif()
 
 install(
-  DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/share/paraview ${PROJECT_SOURCE_DIR}/share/python
+  DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/share/papers ${PROJECT_SOURCE_DIR}/share/paraview
+            ${PROJECT_SOURCE_DIR}/share/python
   DESTINATION ${CMAKE_INSTALL_DATADIR}/clathra
   COMPONENT program
   PATTERN __pycache__ EXCLUDE
@@ -31,7 +32,7 @@ install(
   PATTERN "*.py"
   PATTERN py.typed)
 install(
-  FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff
+  FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CITATION.cff
   DESTINATION ${clathra_docs_folder}
   COMPONENT program)
 install(

@@ -163,7 +163,7 @@ TEST_F(FigureFiles, ReplaceOnlyThoseOfAnEarlierCall) {
   put(figures / "01-mine.svg", "mine");
   fs::remove(folder / "b" / "report.html");
   CommandResult const refused = report(b);
-  EXPECT_EQ(refused.code, 77) << refused.output;
+  EXPECT_EQ(refused.code, 73) << refused.output;
   EXPECT_TRUE(says(refused, "is not empty and not of an earlier `clathra report --figures`"));
   EXPECT_EQ(text_of("01-mine.svg"), "mine");
   EXPECT_FALSE(fs::exists(folder / "b" / "report.html")) << "it is known before anything is written";

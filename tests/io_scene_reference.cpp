@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "command.hpp"
+#include "file_content.hpp"
 #include "io/results/run_record.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reference.hpp"
@@ -24,16 +25,9 @@ std::string content_of(fs::path const& path) {
   return text.str();
 }
 
-std::vector<fs::path> example_files() {
-  std::vector<fs::path> files;
-  for (auto const& entry : fs::recursive_directory_iterator(CLATHRA_EXAMPLES))
-    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "studies") files.push_back(entry.path());
-  return files;
-}
-
 TEST(SceneReference, ACommentedSceneLoadsToTheSameScene) {
-  ASSERT_GE(example_files().size(), 12u);
-  for (fs::path const& file : example_files()) {
+  ASSERT_GE(example_scenes().size(), 12u);
+  for (fs::path const& file : example_scenes()) {
     LoadedScene const original = load_scene(file);
     for (std::string const& source : {original.source, std::string()}) {
       std::string const text = commented_scene(original.scene, original.stated, "# opening\n", source);
@@ -102,9 +96,32 @@ TEST(InitCommand, WritesASceneThatIsRightAndNeverOverwrites) {
   EXPECT_EQ(run_clathra("init -o a.toml").code, 64);
   CommandResult const list = run_clathra("init");
   EXPECT_EQ(run_clathra("init --list").output, list.output);
-  for (fs::path const& example : example_files())
+  for (fs::path const& example : example_scenes())
     EXPECT_NE(list.output.find(fs::relative(example, CLATHRA_EXAMPLES).replace_extension().string()), std::string::npos)
         << example;
+}
+
+TEST(InitCommand, WritesAStudyBesideItsScene) {
+  fs::path const folder = fs::temp_directory_path() / ("clathra_init_study_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::string const study = (folder / "mine.toml").string();
+  CommandResult const written = run_clathra("init studies/saturations -o '" + study + "'");
+  EXPECT_EQ(written.code, 0) << written.output;
+  EXPECT_TRUE(says(written, "mine.toml is written; see what it costs with: clathra study "));
+  CommandResult const cost = run_clathra("study --dry-run '" + study + "'");
+  EXPECT_EQ(cost.code, 0) << cost.output;
+  EXPECT_TRUE(says(cost, "mine.toml: 6 groups of 5 seeds\n"));
+  EXPECT_NE(content_of(study).find("clathra study " + study + " --output"), std::string::npos) << "its comment names it";
+  // Neither is overwritten.
+  std::ofstream(folder / "quick.toml", std::ios::app) << "# mine\n";
+  auto const size = fs::file_size(folder / "quick.toml");
+  EXPECT_EQ(run_clathra("init studies/saturations -o '" + study + "'").code, 73);
+  CommandResult const second = run_clathra("init studies/saturations -o '" + (folder / "second.toml").string() + "'");
+  EXPECT_EQ(second.code, 0) << second.output;
+  EXPECT_TRUE(says(second, "quick.toml is there already and stays\n"));
+  EXPECT_EQ(fs::file_size(folder / "quick.toml"), size);
+  EXPECT_TRUE(says(run_clathra("init"), "studies/saturations      Three saturations at two confining stresses"));
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 #include "domain/scene/specimen_design.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/paper_report.hpp"
-#include "io/results/paper_numbers.hpp"
-#include "io/results/scorecard.hpp"
+#include "io/results/scored_claims.hpp"
 #include "machine/figure_files.hpp"
 #include "machine/own_program.hpp"
+#include "study/study_outcome.hpp"
 #include "terminal/print.hpp"
 #include "terminal/text.hpp"
 
@@ -25,11 +25,14 @@ std::map<std::string, std::string> facts_of(ReproductionOutcome const& outcome, 
   for (std::uint64_t const seed : plan.study.seeds) seeds += fmt::format("{}{}", seeds.empty() ? "" : ", ", seed);
   double cost = 0;
   for (MemberResult const& member : plan.members) cost += member.wall_seconds;
-  return {{"particles", fmt::format("{}", outcome.size.discs)},
-          {"seeds", seeds},
-          {"settings", settings.empty() ? "the defaults" : settings},
-          {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
-          {"program", "clathra " + own_version()}};
+  std::map<std::string, std::string> facts{
+      {"particles", fmt::format("{}", outcome.size.tests.particles)},
+      {"seeds", seeds},
+      {"settings", settings.empty() ? "the defaults" : settings},
+      {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
+      {"program", "clathra " + own_version()}};
+  if (!outcome.paper.citation.empty()) facts["paper"] = outcome.paper.citation;
+  return facts;
 }
 
 }  // namespace
@@ -40,8 +43,9 @@ ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, Pro
   std::size_t const last = plan.study.groups.size() - 1;
   Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front()).scene;
   double const d50 = design_sample(scene).grading.d50();
-  Scorecard const card{"Jiang et al. (2017), claim by claim", facts_of(outcome, plan),
-                       paper_claims(outcome.design, numbers_of_members(plan.study, plan.members, folders), d50)};
+  TestQuantities const numbers = quantities_of_members(plan.study, plan.members, folders, outcome.paper.strains);
+  Scorecard const card{outcome.paper.title + ", claim by claim", facts_of(outcome, plan),
+                       scored_claims(outcome.paper, numbers, d50)};
   fs::path const& out = plan.study.folder;
   replace_text_file(out / "study.csv", study_csv(plan.study, plan.members));
   replace_text_file(out / "scorecard.md", scorecard_markdown(card));
@@ -51,14 +55,12 @@ ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, Pro
   std::string drawn;
   if (finished > 0) {
     std::vector<Figure> const figures = write_paper_report(
-        {plan.study, plan.members, folders, outcome.design, card, scene, d50, outcome.data}, out / "reproduce.html");
+        {plan.study, plan.members, folders, outcome.paper, card, scene, d50, outcome.data}, out / "reproduce.html");
     if (!plan.figures.empty()) drawn = "figures   " + write_figure_files(figures, plan.figures);
   }
   line.repeat_warnings();
-  std::string text = fmt::format("tests     {} of {} finished\n", finished, plan.members.size());
-  for (std::size_t i = 0; i < plan.members.size(); ++i)
-    if (plan.members[i].state == MemberState::failed)
-      text += "failed    " + plan.runs[i].name + ": " + plan.members[i].message + "\n";
+  std::string text = fmt::format("members   {} of {} finished\n", finished, plan.members.size());
+  text += failures_text(plan);
   for (Claim const& claim : card.claims)
     text += fmt::format("{:>5}     {:<13} {}\n", "(" + claim.id + ")", name_of(claim.verdict()), claim.words);
   text += fmt::format("claims    {}\n{}results   {}\n", tally(card.claims), drawn, (out / "scorecard.md").string());

@@ -12,32 +12,32 @@ namespace clathra {
 
 /// What is shown of a band.
 struct ShownBand {
-  std::size_t column;  ///< in band_columns
+  std::size_t column;  ///< in curve_columns
   char const* heading;
   Variable axis;
   char const* caption;
 };
 inline constexpr ShownBand shown_bands[] = {
-    {0, "Stress and strain", {"deviator stress q [MPa]", band_columns[0], 1e-6}, "Deviator stress on the walls."},
+    {0, "Stress and strain", {"deviator stress q [MPa]", curve_columns[0], 1e-6}, "Deviator stress on the walls."},
     {1,
      "Change of volume",
-     {"volumetric strain εᵥ [%]", band_columns[1], 100},
+     {"volumetric strain εᵥ [%]", curve_columns[1], 100},
      "Compression is positive; a falling curve dilates."},
     {2,
      "Intact bonds",
-     {"intact bonds [% of those installed]", band_columns[2]},
+     {"intact bonds [% of those installed]", curve_columns[2]},
      "Bonds that still hold, as a share of those installed."},
     {3,
      "Contacts",
-     {"mechanical coordination number", band_columns[3]},
+     {"mechanical coordination number", curve_columns[3]},
      "Contacts of a particle, without those that carry nothing (Thornton 2000)."},
-    {4, "Broken in tension", {"bonds broken in tension", band_columns[4]}, "Those of the consolidation included."},
-    {5, "Broken in compression", {"bonds broken in compression", band_columns[5]}, "Those of the consolidation included."},
-    {6, "Broken in shear", {"bonds broken in shear", band_columns[6]}, "Those of the consolidation included."},
-    {7, "Broken in rolling", {"bonds broken in rolling", band_columns[7]}, "Those of the consolidation included."}};
+    {4, "Broken in tension", {"bonds broken in tension", curve_columns[4]}, "Those of the consolidation included."},
+    {5, "Broken in compression", {"bonds broken in compression", curve_columns[5]}, "Those of the consolidation included."},
+    {6, "Broken in shear", {"bonds broken in shear", curve_columns[6]}, "Those of the consolidation included."},
+    {7, "Broken in rolling", {"bonds broken in rolling", curve_columns[7]}, "Those of the consolidation included."}};
 
-/// The paper's measure of intact bonds, which its own page shows.
-inline constexpr ShownBand paper_intact_band{8, "Intact bonds", {"bonded [% of all contacts]", band_columns[8]}, ""};
+/// Another measure of intact bonds, which pages on papers can show.
+inline constexpr ShownBand contacts_band{8, "Intact bonds", {"bonded [% of all contacts]", curve_columns[8]}, ""};
 
 /// A group with the curves of its finished members.
 struct GroupCurves {

@@ -1,6 +1,7 @@
 #include "io/scene/study_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -15,17 +16,12 @@
 #include "io/scene/scene_guard.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/settings_reader.hpp"
 
 namespace clathra {
 namespace {
 
 constexpr char stress_key[] = "test.confining_stress";
-
-/// Keys that each member has its own value of, or that say nothing of what is tested; with what to write instead.
-constexpr std::pair<std::string_view, char const*> other_keys[] = {
-    {"run.seed", "'seeds' of the study gives the seeds, or --seeds"},
-    {"output.folder", "'folder' of the study names the folder of all members, or --output"},
-    {"run.threads", "--threads gives the threads of a member"}};
 
 /// A piece of a file's name: "26 %" -> "26pct".
 std::string slug(std::string_view text) {
@@ -36,15 +32,6 @@ std::string slug(std::string_view text) {
     if (c == '/' || c == '_') name += '-';
   }
   return name;
-}
-
-constexpr std::size_t most_letters = 200;
-
-/// Whether a text can be the name of a group and of its members' folders, which are not to be hidden.
-bool is_name(std::string_view text) {
-  return !text.starts_with('.') && std::all_of(text.begin(), text.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '+' || c == '-';
-  });
 }
 
 /// What a value is called in names: with the key where the value is a bare number or truth value.
@@ -71,35 +58,26 @@ struct Choices {
   bool named = true;  ///< they are part of the groups' names
 };
 
-class StudyReader {
+class StudyReader : private SettingsReader {
  public:
-  explicit StudyReader(std::filesystem::path const& path) : file_(path.string()) {
+  explicit StudyReader(std::filesystem::path const& path) : SettingsReader(path) {
     study_.file = path;
     study_.folder = std::filesystem::path("out") / path.stem();
   }
 
   Study read(std::string const& text) {
-    std::optional<TomlTable> const root = parse_guarded(text, file_, problems_);
+    std::optional<TomlTable> const root = parse_guarded(text, file(), problems);
     if (root) read_root(*root);
-    if (problems_.empty()) make_groups();
-    if (!problems_.empty()) throw SceneProblems(std::move(problems_));
+    if (problems.empty()) make_groups();
+    if (!problems.empty()) throw SceneProblems(std::move(problems));
     return std::move(study_);
   }
 
  private:
-  void report(TomlNode const& node, std::string text) { problems_.push_back({file_, node.line, node.column, std::move(text)}); }
-
-  /// The entries of a table in the order of the file.
-  static std::vector<TomlEntry> in_order(TomlTable const& table) {
-    std::vector<TomlEntry> entries = table.entries;
-    std::stable_sort(entries.begin(), entries.end(), [](TomlEntry const& a, TomlEntry const& b) {
-      return std::pair(a.node.line, a.node.column) < std::pair(b.node.line, b.node.column);
-    });
-    return entries;
-  }
-
   void read_root(TomlTable const& root) {
     static constexpr std::string_view names[] = {"scene", "seeds", "folder", "precision_target", "max_seeds", "matrix", "groups"};
+    std::string of_a_scene;
+    TomlNode first;
     for (auto const& [name, line, column, node] : in_order(root)) {
       if (name == "scene")
         read_path(node, study_.scene);
@@ -114,18 +92,20 @@ class StudyReader {
       else if (name == "matrix")
         read_matrix(node);
       else if (name == "groups")
-        read_groups(node);
+        named_ = read_groups(node, [](auto const&...) { return false; });
+      else if (is_section(name) && node.as<TomlTable>())
+        of_a_scene += fmt::format("{}[{}]", of_a_scene.empty() ? "" : ", ", name), first = first.line ? first : node;
+      else if (std::string const hint = name_suggestion(name, names); hint.empty())
+        report(node, fmt::format("unknown key '{}'; a study has {}", name.substr(0, 60), fmt::join(names, ", ")));
       else
-        report(
-            node,
-            fmt::format(
-                "unknown key '{}'{}; a study has scene, seeds, folder, precision_target, max_seeds, [matrix] and [groups.NAME]",
-                name.substr(0, 60),
-                is_section(name) ? "; this is a section of a scene, which a study names: scene = \"my.toml\""
-                                 : name_suggestion(name, names)));
+        report(node, fmt::format("unknown key '{}'{}", name.substr(0, 60), hint));
     }
-    if (study_.scene.empty() && problems_.empty())
-      problems_.push_back({file_, 0, 0, "'scene' is missing: the scene file that all members share"});
+    if (!of_a_scene.empty())
+      report(first, study_.scene.empty()
+                        ? fmt::format("{} belong to a scene, and this is one: clathra run {}", of_a_scene, file())
+                        : of_a_scene + " belong into the scene file, or their keys below [matrix]");
+    if (study_.scene.empty() && problems.empty())
+      problems.push_back({file(), 0, 0, "'scene' is missing: the scene file that all members share"});
     study_.seeds_stated = !study_.seeds.empty();
     if (study_.seeds.empty())
       for (int seed = 1; seed <= usual_seeds; ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
@@ -158,7 +138,7 @@ class StudyReader {
 
   void read_goal(TomlNode const& node) {
     auto const* const text = node.as<std::string>();
-    if (!text) return report(node, "'precision_target' needs a text like \"peak_q_Pa=2%\"");
+    if (!text) return report(node, "'precision_target' needs a text like \"peak_q=2%\"");
     try {
       study_.precision_target = study_goal(*text);
     } catch (std::invalid_argument const& problem) {
@@ -172,63 +152,17 @@ class StudyReader {
     study_.max_seeds = static_cast<int>(*most);
   }
 
-  static bool is_range(TomlTable const& table) { return table.find("from") || table.find("to") || table.find("count"); }
-
-  /// Calls found(key, node) for the values of a section, whose keys may be written "a.b" = or a.b =.
-  template <class Found>
-  void for_each_key(TomlNode const& section, char const* what, Found const& found) {
-    auto const* const table = section.as<TomlTable>();
-    if (!table) return report(section, fmt::format("'{}' is a section: write [{}] and keys of the scene below", what, what));
-    for (TomlEntry const& entry : in_order(*table)) {
-      auto const* const nested = entry.node.as<TomlTable>();
-      if (!nested || is_range(*nested)) {
-        found(entry.name, entry.node);
-        continue;
-      }
-      for (TomlEntry const& leaf : in_order(*nested)) found(entry.name + "." + leaf.name, leaf.node);
-    }
-  }
-
-  /// The key of a scene, where it may stand in a study.
-  Key const* known(std::string const& name, TomlNode const& node) {
-    if (char const* const instead = key_of_each_run(name))
-      return report(node, fmt::format("'{}' cannot be varied here: {}", name, instead)), nullptr;
-    Key const* const key = find_key(name);
-    if (!key) report(node, fmt::format("unknown key '{}' of a scene{}", name.substr(0, 100), key_suggestion(name)));
-    return key;
-  }
-
-  /// A single value as text, checked against its key.
-  std::optional<std::string> value_of(Key const& key, TomlNode const& node) {
-    std::string text;
-    if (auto const* const quoted = node.as<std::string>())
-      text = *quoted;
-    else if (auto const* const whole = node.as<std::int64_t>())
-      text = fmt::format("{}", *whole);
-    else if (auto const* const number = node.as<double>())
-      text = fmt::format("{}", *number);
-    else if (auto const* const truth = node.as<bool>())
-      text = *truth ? "true" : "false";
-    else
-      return report(node, fmt::format("'{}' needs one value here", key.name)), std::nullopt;
-    try {
-      Scene scratch;
-      set_stated(key, scratch, text);
-    } catch (std::invalid_argument const& problem) {
-      return report(node, fmt::format("'{}' {}", key.name, problem.what())), std::nullopt;
-    }
-    if (key.kind == Kind::path && !text.empty()) text = (study_.file.parent_path() / text).lexically_normal().string();
-    return text;
-  }
-
   void read_matrix(TomlNode const& section) {
     for_each_key(section, "matrix", [&](std::string const& name, TomlNode const& node) {
       Key const* const key = known(name, node);
       if (!key) return;
       Choices choices{name, {}};
       if (auto const* const list = node.as<TomlList>()) {
-        for (TomlNode const& item : *list)
-          if (auto value = value_of(*key, item)) choices.values.push_back(std::move(*value));
+        for (TomlNode const& item : *list) {
+          auto value = value_of(*key, item);
+          if (!value) return;  // what follows is most often wrong in the same way
+          choices.values.push_back(std::move(*value));
+        }
         if (list->empty()) report(node, fmt::format("'{}' has no value in its list", name));
       } else if (auto const* const range = node.as<TomlTable>()) {
         choices.values = range_of(*key, *range, node);
@@ -269,60 +203,17 @@ class StudyReader {
     return values;
   }
 
-  void read_groups(TomlNode const& section) {
-    auto const* const groups = section.as<TomlTable>();
-    if (!groups) return report(section, "'groups' holds sections: write [groups.NAME] and keys of the scene below");
-    for (auto const& [name, line, column, node] : in_order(*groups)) {
-      if (name.empty() || !is_name(name) || name.size() > most_letters) {
-        report(node,
-               fmt::format("'{}' is no name of a group: letters, digits and ._+- only, {} at most, none of them a dot in front",
-                           name.substr(0, most_letters), most_letters));
-        continue;
-      }
-      StudyGroup group{name, {}, ""};
-      for_each_key(node, "groups.NAME", [&](std::string const& key_name, TomlNode const& value_node) {
-        if (key_name == "material") return read_material(value_node, group);
-        if (Key const* const key = known(key_name, value_node))
-          if (auto value = value_of(*key, value_node)) group.settings.emplace_back(key_name, std::move(*value));
-      });
-      named_.push_back(std::move(group));
-    }
-    name_materials();
-  }
-
-  /// Groups whose material is not stated and that differ in nothing but the confining stress are tests of one material.
-  void name_materials() {
-    auto const without_stress = [](StudyGroup const& group) {
-      std::map<std::string, std::string> settings(group.settings.begin(), group.settings.end());
-      settings.erase(stress_key);
-      return settings;
-    };
-    std::map<std::map<std::string, std::string>, std::string> names;
-    for (StudyGroup const& group : named_) {
-      if (!group.material.empty()) continue;
-      std::string& name = names[without_stress(group)];
-      if (name.size() + group.name.size() < most_letters) name += (name.empty() ? "" : "+") + group.name;
-    }
-    for (StudyGroup& group : named_)
-      if (group.material.empty()) group.material = names.at(without_stress(group));
-  }
-
-  void read_material(TomlNode const& node, StudyGroup& group) {
-    auto const* const text = node.as<std::string>();
-    if (!text || text->empty() || text->size() > most_letters)
-      return report(node, fmt::format("'material' needs a name in quotes, {} letters at most", most_letters));
-    group.material = *text;
-  }
-
   void make_groups() {
     std::size_t count = study_.seeds.size() * std::max<std::size_t>(1, named_.size());
     for (Choices const& choices : matrix_) count = count > most_members ? count : count * choices.values.size();
     if (count > most_members)
-      return problems_.push_back({file_, 0, 0, fmt::format("the study has more than {} members", most_members)});
-    for (StudyGroup const& group : named_)
-      for (Setting const& setting : group.settings)
-        if (std::any_of(matrix_.begin(), matrix_.end(), [&](Choices const& choices) { return choices.key == setting.first; }))
-          problems_.push_back({file_, 0, 0, fmt::format("'{}' is in [matrix] and in [groups.{}]", setting.first, group.name)});
+      return problems.push_back({file(), 0, 0, fmt::format("the study has more than {} members", most_members)});
+    for (Choices const& choices : matrix_)
+      for (StudyGroup const& group : named_)
+        if (value_in(group.settings, choices.key)) {
+          problems.push_back({file(), 0, 0, fmt::format("'{}' is in [matrix] and in [groups.{}]", choices.key, group.name)});
+          break;  // the first of them says it
+        }
     std::vector<StudyGroup> groups = named_.empty() ? std::vector<StudyGroup>(1) : named_;
     for (Choices const& choices : matrix_) {
       std::vector<StudyGroup> finer;
@@ -338,8 +229,8 @@ class StudyReader {
     std::set<std::string> names;
     for (StudyGroup const& group : groups)
       if (!names.insert(group.name).second)
-        problems_.push_back(
-            {file_, 0, 0,
+        problems.push_back(
+            {file(), 0, 0,
              fmt::format("two groups have the name '{}': their values differ in blanks and signs only", group.name)});
     study_.groups = std::move(groups);
   }
@@ -352,11 +243,9 @@ class StudyReader {
     return group;
   }
 
-  std::string file_;
   Study study_;
   std::vector<StudyGroup> named_;
   std::vector<Choices> matrix_;
-  std::vector<Problem> problems_;
 };
 
 }  // namespace
@@ -364,36 +253,5 @@ class StudyReader {
 Study parse_study(std::string const& text, std::filesystem::path const& path) { return StudyReader(path).read(text); }
 
 Study load_study(std::filesystem::path const& path) { return parse_study(read_text_file(path, largest_scene_file + 1), path); }
-
-StudyGoal study_goal(std::string const& text) {
-  auto const equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw std::invalid_argument("needs the form NUMBER=WIDTH, as in peak_q_Pa=2%");
-  std::string const width = text.substr(std::min(text.size(), text.find_first_not_of(' ', equals + 1)));
-  auto const parts = parts_of(width);
-  std::string unit = parts ? parts->second : "";
-  std::erase(unit, ' ');
-  if (!parts || (unit != "%" && !unit.empty()))
-    throw std::invalid_argument(fmt::format("needs a width like 2%, got '{}'", width));
-  StudyGoal const goal{text.substr(0, equals), parts->first * (unit == "%" ? 0.01 : 1)};
-  if (!(goal.width > 0 && goal.width < 1))
-    throw std::invalid_argument(fmt::format("needs a width between 0 and 100 %, got '{}'", width));
-  return goal;
-}
-
-std::string const* value_in(std::vector<Setting> const& settings, std::string_view key) {
-  auto const found = std::find_if(settings.begin(), settings.end(), [&](Setting const& setting) { return setting.first == key; });
-  return found == settings.end() ? nullptr : &found->second;
-}
-
-void add_key(Study& study, std::string const& key) {
-  if (key != "run.ignore_guards" && std::find(study.keys.begin(), study.keys.end(), key) == study.keys.end())
-    study.keys.push_back(key);
-}
-
-char const* key_of_each_run(std::string_view name) {
-  for (auto const& [other, instead] : other_keys)
-    if (name == other) return instead;
-  return nullptr;
-}
 
 }  // namespace clathra
