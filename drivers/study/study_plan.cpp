@@ -163,7 +163,7 @@ LoadedScene StudyPlan::scene_of_run(std::size_t member) const {
 }
 
 StudyPlan plan_study(Study study) {
-  StudyPlan plan{std::move(study), {}, {}, {}, {}, {}};
+  StudyPlan plan{std::move(study), {}, {}, {}, {}, {}, {}};
   std::map<SceneTexts, std::vector<std::string>> same;
   std::vector<Problem> problems;
   std::map<std::string, std::size_t> said;  // by how many groups
