@@ -1,7 +1,7 @@
-# Turns the scenes of a folder and a paper into the source of examples() and built_in_paper():
+# Turns the scenes and studies of a folder and a paper into the source of examples() and built_in_paper():
 # cmake -DEXAMPLES=<folder> -DPAPER=<file> -DOUTPUT=<file> -P examples.cmake
 file(GLOB_RECURSE scenes RELATIVE ${EXAMPLES} ${EXAMPLES}/*.toml)
-list(FILTER scenes EXCLUDE REGEX "^(studies|papers)/") # no scenes
+list(FILTER scenes EXCLUDE REGEX "^papers/")
 list(SORT scenes)
 set(source "// Made by drivers/verbs/examples.cmake.\n#include \"verbs/examples.hpp\"\n\nnamespace clathra {\n\nstd::span<Example const> examples() {\n  static constexpr Example all[] = {\n")
 foreach(scene ${scenes})

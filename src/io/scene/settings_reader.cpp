@@ -63,13 +63,18 @@ std::vector<TomlEntry> SettingsReader::in_order(TomlTable const& table) {
 void SettingsReader::for_each_key(TomlNode const& section, char const* what, Found const& found) {
   auto const* const table = section.as<TomlTable>();
   if (!table) return report(section, fmt::format("'{}' is a section: write [{}] and keys of the scene below", what, what));
+  std::map<std::string, int> lines;
+  auto const take = [&](std::string const& name, TomlNode const& node) {
+    auto const [first, is_new] = lines.emplace(name, node.line);
+    if (is_new) return found(name, node);
+    report(node, fmt::format("'{}' is stated twice, in lines {} and {}: leave one of them out", name, first->second, node.line));
+  };
   for (TomlEntry const& entry : in_order(*table)) {
     auto const* const nested = entry.node.as<TomlTable>();
-    if (!nested || is_range(*nested)) {
-      found(entry.name, entry.node);
-      continue;
-    }
-    for (TomlEntry const& leaf : in_order(*nested)) found(entry.name + "." + leaf.name, leaf.node);
+    if (!nested || is_range(*nested))
+      take(entry.name, entry.node);
+    else
+      for (TomlEntry const& leaf : in_order(*nested)) take(entry.name + "." + leaf.name, leaf.node);
   }
 }
 
