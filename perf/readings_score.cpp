@@ -138,7 +138,8 @@ int run(int argc, char** argv) {
   for (auto const& [reading, tests] : readings) rows.push_back(row_of(paper, reading, tests));
   std::stable_sort(rows.begin(), rows.end(), [](Row const& a, Row const& b) { return a.score > b.score; });
   std::puts(
-      "reading,score,c1,c2,c3,c4,c5,c6,c7,c8,c9,c10,c11a,c11b,c12,c13,c14,c15,c16,q and strain [MPa, %] of each saturation,"
+      "reading,score,c1,c2,c3,c4,c5,c6,c7,c8,c9,c10,c11a,c11b,c12,c13,c14,c15,c16,q and strain [MPa, %] of 26 and 55 % at 1 and "
+      "3 MPa,"
       "end of contraction and q(6.71 %)/peak of 55 % at 3 MPa, phi and c of sand, 26, 55 %");
   for (Row const& row : rows) std::puts(row.text.c_str());
   return 0;

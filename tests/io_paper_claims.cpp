@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -253,21 +254,22 @@ figures = [{ kind = "curve", title = "t" }, { kind = "table", title = "t", head 
 )";
   std::string const problems = paper_problems(text);
   for (char const* const wanted :
-       {"my.toml:16:53: error: there is no group or material 'd'; there are a, a+b, b",
-        "my.toml:17:33: error: unknown quantity 'peak_q'; did you mean 'peak_q_Pa'?; there are peak_q_Pa, peak_eps1, ",
+       {"my.toml:16:54: error: there is no group or material 'd'; did you mean 'a'?; there are a, a+b, b",
+        "my.toml:17:32: error: unknown quantity 'peak_q'; there are peak_q_Pa, peak_eps1, ",
         "my.toml:18:12: error: unknown kind 'values'; did you mean 'value'?; there are value, step, rise, slope, bend, bow, ",
         "my.toml:19:3: error: a part needs a bound: 'low', 'high' or both",
-        "my.toml:20:53: error: 'peak_q_Pa' cannot be shown in '%'; its 'unit' is one of 'Pa', 'kPa', 'MPa'",
-        "my.toml:21:53: error: 'q_share' needs a 'strain', one of the paper's 'strains'",
+        "my.toml:20:52: error: 'peak_q_Pa' cannot be shown in '%'; its 'unit' is one of 'Pa', 'kPa', 'MPa'",
+        "my.toml:21:52: error: 'q_share' needs a 'strain', one of the paper's 'strains'",
         "my.toml:22:3: error: 'fabric_growth' needs a snapshot of 'a' at 2 %: state output.snapshots_at, and output.snapshots = "
         "1",
         "my.toml:23:3: error: 'peak_cohesion_Pa' is a number of a material, and 'a' is none",
         "my.toml:24:3: error: 'slope' needs a series with 'at'",
-        "my.toml:25:52: error: there is no [series.stres]; did you mean 'stress'?",
+        "my.toml:25:53: error: there is no [series.stres]; did you mean 'stress'?",
         "my.toml:25:71: error: 'what' has '{group}'; what is filled in here: {series}, {from}, {to}",
-        "my.toml:25:91: error: 'low' is above 'high': 2, 1", "my.toml:28:21: error: unknown kind 'curve'; did you mean 'curves'?",
-        "error: a cell has '{grains.frition}', which is no key of a scene; did you mean 'grains.friction'?"})
+        "my.toml:25:93: error: 'low' is above 'high': 2, 1", "my.toml:28:21: error: unknown kind 'curve'; did you mean 'curves'?",
+        "my.toml:28:99: error: a cell has '{grains.frition}', which is no key of a scene; did you mean 'grains.friction'?"})
     EXPECT_NE(problems.find(wanted), std::string::npos) << wanted << "\n" << problems;
+  EXPECT_EQ(std::count(problems.begin(), problems.end(), '\n'), 13) << "one mistake, one message\n" << problems;
 }
 
 TEST(PaperFile, WhatItIsAboutIsCheckedToo) {

@@ -143,7 +143,8 @@ TEST_F(ReproduceCommand, RefusesAPaperWithMistakes) {
       run_clathra("reproduce --paper '" + (folder / "mine.toml").string() + "' --output '" + (folder / "mine").string() + "'");
   EXPECT_EQ(result.code, 65);
   EXPECT_NE(result.output.find("mine.toml:5:24: error: 'hydrate.saturation' "), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("mine.toml:7:10: error: there is no group or material 'b'; there are a"), std::string::npos)
+  EXPECT_NE(result.output.find("mine.toml:7:10: error: there is no group or material 'b'; did you mean 'a'?; there are a"),
+            std::string::npos)
       << result.output;
   EXPECT_FALSE(fs::exists(folder / "mine")) << "nothing is written";
 }

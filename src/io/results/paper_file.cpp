@@ -189,10 +189,11 @@ class PaperReader {
     for (PaperSeries const& series : all)
       for (std::string const& name : series.groups) {
         StudyGroup const* const group = group_of(paper_, name);
+        if (!group && !is_material(paper_, name)) continue;  // which is said already
         if (of_material ? !is_material(paper_, name) : !group) {
           section.report("", fmt::format("'{}' is a number of a {}, and '{}' is none", number.quantity->name,
                                          of_material ? "material" : "group", name));
-        } else if (number.quantity->of == QuantityOf::snapshots && group) {
+        } else if (number.quantity->of == QuantityOf::snapshots) {
           std::vector<double> const at = stated_scene(paper_, *group).output.snapshots_at;
           double const wanted = number.quantity->at_strain ? number.strain : paper_.strains.empty() ? NAN : paper_.strains.back();
           if (std::none_of(at.begin(), at.end(), [&](double strain) { return is_near(strain, wanted); }))
@@ -224,7 +225,7 @@ class PaperReader {
     part.high = high.value_or(no_bound);
     if (!low && !high) section.report("", "a part needs a bound: 'low', 'high' or both");
     if (part.low > part.high) section.report("low", fmt::format("'low' is above 'high': {:g}, {:g}", part.low, part.high));
-    if (!kind) return part;
+    if (!kind) return section.pass_over(), part;
     static std::vector<std::string_view> const marks[] = {{"series", "group", "at"},
                                                           {"series", "from", "to"},
                                                           {"series", "from", "to"},
@@ -235,7 +236,7 @@ class PaperReader {
     check_marks(section, "what", part.what, marks[*kind]);
     if (part.kind == PartKind::critical_thickness) return part;
     part.series = series_of(section);
-    if (part.series.empty()) section.report("", "a part needs 'series' or 'groups'");
+    if (!section.has("series") && !section.has("groups")) section.report("", "a part needs 'series' or 'groups'");
     part.number = number_of(section);
     check_number(section, part.number, part.series);
     if (part.kind != PartKind::bend && part.kind != PartKind::bow) read_less(section, part);
@@ -280,7 +281,8 @@ class PaperReader {
     TomlSection section(reader_, node, "a figure");
     PaperFigure figure;
     auto const kind = section.choice("kind", {figure_kinds.begin(), figure_kinds.end()});
-    figure.kind = static_cast<FigureKind>(kind.value_or(0));
+    if (!kind) return section.pass_over(), figure;
+    figure.kind = static_cast<FigureKind>(*kind);
     if (figure.kind != FigureKind::mohr_circles) figure.title = section.text("title", true);
     if (figure.kind == FigureKind::table) {
       figure.rows.push_back(section.texts("head"));
@@ -300,7 +302,7 @@ class PaperReader {
       return figure;
     }
     figure.series = series_of(section);
-    if (figure.series.empty()) section.report("", "a figure needs 'series' or 'groups'");
+    if (!section.has("series") && !section.has("groups")) section.report("", "a figure needs 'series' or 'groups'");
     if (figure.kind == FigureKind::curves) {
       figure.column = section.choice("column", {std::begin(curve_columns), std::end(curve_columns)}).value_or(0);
       figure.only_complete = section.flag("only_complete");

@@ -26,6 +26,9 @@ class TomlSection {
   /// Says where the section begins. @param name  of the key at fault, empty for all of it
   void report(std::string_view name, std::string text);
 
+  /// Nothing more is said of this section: what it should hold is not known.
+  void pass_over() { table_ = nullptr; }
+
   std::string text(std::string_view name, bool needed = false);
   std::vector<std::string> texts(std::string_view name);
   std::optional<double> number(std::string_view name);
