@@ -122,7 +122,8 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
   verb.add_option("--set", options.overrides, "override a key of the scene in all tests: may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  verb.add_option("--data", options.data, "points of your own laboratory to be drawn into the figures (CSV; docs/reproduce.md)")
+  verb.add_option("--data", options.data,
+                  "points of your own laboratory to be drawn into the figures (CSV; docs/howto/reproduce-a-paper.md)")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   verb.add_flag("--screening", options.screening, "only 26 and 55 % at 1 and 3 MPa with their sands, to compare presets");

@@ -46,7 +46,7 @@ constexpr PresetKey reference[] = {
 constexpr PresetKey draft[] = {
   {"test.inertial_number", "1e-3"}, {"test.max_platen_wave_stress", "0.5"}, {"run.precision", "mixed"}, {"run.time_step_safety", ""}, {"run.rotational_inertia_factor", "3"}, {"run.mass_scaled_fraction", "0"}};
 constexpr Preset all_run_presets[] = {
-  {"standard", "the usual choice: moments of inertia times 3, numbers in 32 bits; peak of q 0.5 +- 0.6 % off `reference` (docs/accuracy.md)", standard},
+  {"standard", "the usual choice: moments of inertia times 3, numbers in 32 bits; peak of q 0.5 +- 0.6 % off `reference` (docs/explanation/accuracy.md)", standard},
   {"reference", "for comparisons: true moments of inertia, half the time step, a twentieth of the usual rate, less for tall specimens, numbers in 64 bits", reference},
   {"draft", "a first look: five times the usual rate; the peak of q is 2 to 6 % too high", draft},
 };
