@@ -31,7 +31,7 @@ def claims(card):
             if line.startswith("| ") and not line.startswith("| number "):
                 what, mean, unit, claimed, _, found = [cell.strip() for cell in line[1:-1].split("|")]
                 if found != "pass":
-                    lines.append(item(f"{found}: {what}, {mean} {unit}".rstrip() + f"; claimed: {claimed}", "  "))
+                    lines.append(item(f"{found}: {what}, {mean} {unit}".rstrip() + f"; claimed: {claimed}", "    "))
     return "\n".join(lines)
 
 
