@@ -2,8 +2,8 @@
 # ClathraInstall.cmake.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME clathra)
-set(CPACK_PACKAGE_VENDOR "The Clathra developers")
-set(CPACK_PACKAGE_CONTACT "The Clathra developers <clathra@localhost>")
+set(CPACK_PACKAGE_VENDOR "Clathra developers")
+set(CPACK_PACKAGE_CONTACT "Clathra developers") # no address: what to report and how is in CONTRIBUTING.md
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "Clathra makes specimens of sand from discs, bonds them with methane hydrate and shears them between servo walls. Its results

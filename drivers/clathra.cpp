@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -13,6 +14,7 @@
 #include "io/errors/failure.hpp"
 #include "io/scene/schema.hpp"
 #include "machine/own_program.hpp"
+#include "terminal/json_text.hpp"
 #include "terminal/print.hpp"
 #include "terminal/status.hpp"
 #include "verbs/verbs.hpp"
@@ -29,58 +31,108 @@ void secure_standard_streams() {
   ::signal(SIGXFSZ, SIG_IGN);
 }
 
-ExitCode say(ExitCode code, std::string const& text) {
-  say_failure(text);
-  print_error("clathra: " + text);
-  return code;
+/// What the command line says before it is understood.
+struct Call {
+  std::string command;
+  bool json = false;
+};
+
+Call call_of(int argc, char** argv) {
+  Call call{argc > 1 ? argv[1] : "", false};
+  for (int i = 1; i < argc; ++i) call.json |= std::string_view(argv[i]) == "--json";
+  return call;
 }
 
-ExitCode run_guarded(Verb const& verb) {
+nlohmann::ordered_json json_of(Problem const& problem) {
+  constexpr char const* severities[] = {"error", "missing file", "refusal"};
+  return {{"file", problem.file},
+          {"line", problem.line},
+          {"column", problem.column},
+          {"severity", severities[static_cast<int>(problem.severity)]},
+          {"text", problem.text}};
+}
+
+/// What went wrong, for a script, unless it has got its object already.
+void print_problems(Call const& call, ExitCode code, std::vector<Problem> const& problems) {
+  if (!call.json || has_printed_json()) return;
+  bool const of_input = code == ExitCode::usage || code == ExitCode::bad_input || code == ExitCode::file_missing;
+  nlohmann::ordered_json json = {{"command", call.command},
+                                 {"verdict", code == ExitCode::refused ? "refused"
+                                             : of_input                ? "invalid"
+                                                                       : "failed"},
+                                 {"exit_code", static_cast<int>(code)},
+                                 {"problems", nlohmann::json::array()}};
+  for (Problem const& problem : problems) json["problems"].push_back(json_of(problem));
+  (void)print_json(json_text(json));
+}
+
+ExitCode say(Call const& call, Failure const& failure) {
+  say_failure(failure.text);
+  print_error("clathra: " + failure.text);
+  print_problems(call, failure.code, failure.problems);
+  return failure.code;
+}
+
+/// What is wrong with the command line.
+ExitCode say_of_usage(Call const& call, std::string const& text) {
+  return say(call, {ExitCode::usage, text, true, {{"", 0, 0, text}}});
+}
+
+ExitCode run_guarded(Call const& call, Verb const& verb) {
   try {
     return verb();
   } catch (SceneProblems const& problems) {
     say_failure(problems.problems.front().message());
     for (Problem const& problem : problems.problems) print_error(problem.message());
+    print_problems(call, problems.code(), problems.problems);
     return problems.code();
   } catch (...) {
-    Failure const failure = failure_in_flight();
-    return say(failure.code, failure.text);
+    return say(call, failure_in_flight());
   }
 }
 
-/// For a first argument that is no verb: "there is no command 'cehck'; did you mean 'check'?", else nothing.
-std::string unknown_verb(CLI::App& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return {};
+/// Where the first argument is no command: "there is no command 'cehck'; did you mean 'check'?", or what there is; else nothing.
+std::string command_problem(CLI::App& program, std::string const& command) {
   std::vector<std::string> names;
   for (CLI::App const* verb : program.get_subcommands({})) names.push_back(verb->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
+  if (std::find(names.begin(), names.end(), command) != names.end()) return {};
+  if (command.empty() || command.front() == '-')
+    return fmt::format("a command is required{}: {}; `clathra --help` says what each does",
+                       command.empty() ? "" : " before " + command.substr(0, 60), fmt::join(names, ", "));
   std::vector<std::string_view> const views(names.begin(), names.end());
-  std::string const name = std::string(argv[1]).substr(0, 60);
+  std::string const name = command.substr(0, 60);
   return fmt::format("there is no command '{}'{}; `clathra --help` lists all", name, name_suggestion(name, views));
 }
 
 /// Help and version, which end the parsing too, go to stdout, what is wrong with the command line to stderr.
-ExitCode say_of_parser(CLI::App const& program, CLI::ParseError const& error) {
+ExitCode say_of_parser(Call const& call, CLI::App& program, CLI::ParseError const& error) {
   std::ostringstream out, problem;
   if (program.exit(error, out, problem) == 0) return print_result(out.str());
+  if (std::string const text = command_problem(program, call.command); !text.empty()) return say_of_usage(call, text);
   std::istringstream lines(problem.str());
   for (std::string line; std::getline(lines, line);) print_error(line);
+  print_problems(call, ExitCode::usage, {{"", 0, 0, error.what()}});
   return ExitCode::usage;
 }
 
 /// Verbs whose work is more than what they print.
 void add_quiet(CLI::App& program, bool& quiet) {
   for (char const* const name :
-       {"check", "run", "study", "tune", "reproduce", "generate", "export", "report", "verify", "selftest"})
-    program.get_subcommand(name)->add_flag("--quiet", quiet, "print warnings and errors only");
+       {"check", "run", "study", "tune", "reproduce", "generate", "export", "report", "verify", "selftest"}) {
+    CLI::App* const verb = program.get_subcommand(name);
+    CLI::Option* const flag = verb->add_flag("--quiet", quiet, "print warnings and errors only");
+    if (CLI::Option* const dry = verb->get_option_no_throw("--dry-run")) flag->excludes(dry);  // which does nothing but print
+  }
 }
 
 ExitCode choose_and_run(int argc, char** argv) {
+  Call const call = call_of(argc, argv);
   CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
   program.set_version_flag("--version", version_and_libraries);
   program.require_subcommand(1);
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  program.footer("Example: clathra run examples/quick.toml --output out/quick");
+  program.footer(fmt::format(
+      "Example: clathra run examples/quick.toml --output out/quick\nPages that texts call docs/NAME.md: {}", pages_folder()));
   Verb chosen;
   add_init(program, chosen);
   add_schema(program, chosen);
@@ -100,22 +152,20 @@ ExitCode choose_and_run(int argc, char** argv) {
   add_selftest(program, chosen);
   add_completion(program, chosen);
   add_manual(program, chosen);
-  for (CLI::App* const verb : program.get_subcommands([](CLI::App const* app) { return !app->get_group().empty(); }))
-    verb->group("Commands");
+  for (CLI::App* const verb : program.get_subcommands({})) verb->group("Commands");
   bool quiet = false;
   add_quiet(program, quiet);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
-    if (std::string const text = unknown_verb(program, argc, argv); !text.empty()) return say(ExitCode::usage, text);
-    return say_of_parser(program, error);
+    return say_of_parser(call, program, error);
   }
   if (quiet) be_quiet();
   std::string const verb = program.get_subcommands().front()->get_name();
   if (launched_ranks() > 1 && verb != "run" && verb != "generate")
-    return say(ExitCode::usage, fmt::format("'{}' runs on one rank, {} were started; only 'run' and 'generate' share their work",
-                                            verb, launched_ranks()));
-  return run_guarded(chosen);
+    return say_of_usage(call, fmt::format("'{}' runs on one rank, {} were started; only 'run' and 'generate' share their work",
+                                          verb, launched_ranks()));
+  return run_guarded(call, chosen);
 }
 
 /// A launcher kills all ranks as soon as one ends with an error, and only rank 0 says which: it goes first.

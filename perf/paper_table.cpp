@@ -51,7 +51,7 @@ void print_numbers(std::vector<RunResults> const& runs) {
   std::printf(
       "| run | e at the start | peak q [MPa] | at eps_1 [%%] | E50 [MPa] | residual q [MPa] | eps_v at peak [%%] | largest eps_v "
       "[%%] | "
-      "eps_v at end [%%] | intact at peak [%%] | intact at end [%%] | disc-steps | seconds |\n"
+      "eps_v at end [%%] | intact at peak [%%] | intact at end [%%] | particle-steps | seconds |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (RunResults const& run : runs) {
     HistoryTable const& h = run.history;

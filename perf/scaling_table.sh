@@ -21,7 +21,7 @@ measure() {
     awk -F, '$1 == "rolling" || $1 == "bonded" { row = $0 } $1 == "halo_trade" { halo = $3 } END { print row "," halo + 0 }' >>"$folder/$3.$1.$2"
 }
 
-echo "| case | discs | ranks x threads | M disc-steps/s | to one core | neighbour search | bytes a disc | exchange |"
+echo "| case | discs | ranks x threads | M particle-steps/s | to one core | neighbour search | bytes a disc | exchange |"
 echo "|---|---|---|---|---|---|---|---|"
 for case in "${cases[@]}"; do
   for ((n = 0; n < rounds; ++n)); do

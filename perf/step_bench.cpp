@@ -1,4 +1,4 @@
-/// Whole-step throughput on fixed packings: disc-steps per second of Simulation::step() with walls, servo and neighbour
+/// Whole-step throughput on fixed packings: particle-steps per second of Simulation::step() with walls, servo and neighbour
 /// searches.
 ///   [mpirun -n RANKS] step_bench [--discs N] [--case rolling|bonded|breaking] [--seconds S] [--repeat R] [--skin S] [--relax
 ///   STEPS]
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
                 static_cast<long long>(t.broken), t.search_bytes_per_disc);
   }
   std::sort(rates.begin(), rates.end());
-  std::printf("median %.4g disc-steps/s\n", rates[rates.size() / 2]);
+  std::printf("median %.4g particle-steps/s\n", rates[rates.size() / 2]);
   print_phases(simulation, options.seconds);
   return 0;
 }

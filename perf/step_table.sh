@@ -7,7 +7,7 @@ bench="$(dirname "${BASH_SOURCE[0]}")/../build/release/perf/step_bench"
 sizes=("$@")
 [ ${#sizes[@]} -gt 0 ] || sizes=(20000 200000 1000000 5000000)
 
-echo "| case | precision | discs | threads | M disc-steps/s | M contact-steps/s | neighbour search | bytes a disc | of the bandwidth | of the arithmetic | contact kernel | drift |"
+echo "| case | precision | discs | threads | M particle-steps/s | M contact-steps/s | neighbour search | bytes a disc | of the bandwidth | of the arithmetic | contact kernel | drift |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
 for discs in "${sizes[@]}"; do
   # A large packing takes long to come to rest and shows little of it.

@@ -15,5 +15,5 @@ import sys
 run = json.load(open(sys.argv[1]))
 wall, shear = run["wall_seconds"], run["stages"]["shear"]
 print(f"{run['program']['git_hash']}: {float(sys.argv[3]) - float(sys.argv[2]):.0f} s, of them generation {wall['generate']:.0f} s, shear {wall['shear']:.0f} s; "
-      f"{run['disc_steps']:.3g} disc-steps; peak q {shear['peak_q_Pa'] / 1e6:.3f} MPa at {100 * shear['peak_eps1']:.2f} %")
+      f"{run['particle_steps']:.3g} particle-steps; peak q {shear['peak_q_Pa'] / 1e6:.3f} MPa at {100 * shear['peak_eps1']:.2f} %")
 EOF

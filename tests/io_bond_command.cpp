@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "golden_bonds.hpp"
@@ -13,6 +17,8 @@
 
 namespace clathra {
 namespace {
+
+namespace fs = std::filesystem;
 
 nlohmann::json bond(std::string const& arguments) {
   CommandResult const result = run_clathra("bond --preset first_crack --json " + arguments);
@@ -70,9 +76,9 @@ TEST(BondCommand, PrintsExactlyTheKeysItIsKnownFor) {
           .output);
   std::string keys;
   for (auto const& [key, value] : json.items()) keys += key + " ";
-  EXPECT_EQ(
-      keys,
-      "bonded h_max common_radius gap B h0 area q_c q_t E_m R_t R_c k_mh k_bn k_bs k_bm f_s K_s f_r K_r R_s R_r_per_length ");
+  EXPECT_EQ(keys,
+            "bonded h_max_m common_radius_m gap_m B_m h0_m area_m2 q_c_Pa q_t_Pa E_m_Pa R_t_N_per_m R_c_N_per_m "
+            "k_mh_N_per_m2 k_bn_N_per_m2 k_bs_N_per_m2 k_bm_N_per_rad f_s K_s f_r K_r R_s_N_per_m R_r_per_length_N_per_m ");
   EXPECT_EQ(json["bonded"], true);
 }
 
@@ -90,26 +96,26 @@ TEST(BondCommand, AgreesWithTheEquationsEvaluatedIndependently) {
       PaperBond const paper(c.S, 0.1694e-3, c.r1 * 1e-6, c.r2 * 1e-6, c.gap * 1e-6, c.T, c.sigma_w * 1e6, c.rho * 1e3, c.F_n,
                             printed);
       constexpr double tolerance = 1e-9;
-      for (auto const& [key, wanted] : {std::pair{"h_max", paper.h_max},
-                                        {"common_radius", paper.r},
-                                        {"B", paper.B},
-                                        {"h0", paper.h0},
-                                        {"area", paper.area},
-                                        {"q_c", paper.q_c},
-                                        {"q_t", paper.q_t},
-                                        {"E_m", paper.E_m},
-                                        {"R_t", paper.R_t},
-                                        {"R_c", paper.R_c},
-                                        {"k_mh", paper.k_mh},
-                                        {"k_bn", paper.k_bn},
-                                        {"k_bs", paper.k_bn * 2 / 3},
-                                        {"k_bm", paper.k_bm},
+      for (auto const& [key, wanted] : {std::pair{"h_max_m", paper.h_max},
+                                        {"common_radius_m", paper.r},
+                                        {"B_m", paper.B},
+                                        {"h0_m", paper.h0},
+                                        {"area_m2", paper.area},
+                                        {"q_c_Pa", paper.q_c},
+                                        {"q_t_Pa", paper.q_t},
+                                        {"E_m_Pa", paper.E_m},
+                                        {"R_t_N_per_m", paper.R_t},
+                                        {"R_c_N_per_m", paper.R_c},
+                                        {"k_mh_N_per_m2", paper.k_mh},
+                                        {"k_bn_N_per_m2", paper.k_bn},
+                                        {"k_bs_N_per_m2", paper.k_bn * 2 / 3},
+                                        {"k_bm_N_per_rad", paper.k_bm},
                                         {"f_s", paper.f_s},
                                         {"K_s", paper.K_s},
                                         {"f_r", paper.f_r},
                                         {"K_r", paper.K_r},
-                                        {"R_s", paper.R_s},
-                                        {"R_r_per_length", paper.R_r}})
+                                        {"R_s_N_per_m", paper.R_s},
+                                        {"R_r_per_length_N_per_m", paper.R_r}})
         expect_close(json, key, wanted, tolerance);
     }
 }
@@ -119,20 +125,20 @@ TEST(BondCommand, ReproducesTheGoldenNumbersOfUnequalDiscs) {
   struct Golden {
     char const *key, *value;
   };
-  for (Golden const& golden : {Golden{"common_radius", "7.5e-5"},
-                               {"B", "50.55e-6"},
-                               {"h0", "6.387e-6"},
-                               {"R_t", "558.7"},
-                               {"R_c", "3799"},
-                               {"k_mh", "2.287e9"},
-                               {"k_bn", "1.408e8"},
-                               {"k_bs", "9.385e7"},
-                               {"k_bm", "0.4871"},
+  for (Golden const& golden : {Golden{"common_radius_m", "7.5e-5"},
+                               {"B_m", "50.55e-6"},
+                               {"h0_m", "6.387e-6"},
+                               {"R_t_N_per_m", "558.7"},
+                               {"R_c_N_per_m", "3799"},
+                               {"k_mh_N_per_m2", "2.287e9"},
+                               {"k_bn_N_per_m2", "1.408e8"},
+                               {"k_bs_N_per_m2", "9.385e7"},
+                               {"k_bm_N_per_rad", "0.4871"},
                                {"f_s", "1.812"},
                                {"K_s", "0.4099"},
                                {"f_r", "1.804"},
                                {"K_r", "0.8297"},
-                               {"area", "2.472e-10"}})
+                               {"area_m2", "2.472e-10"}})
     EXPECT_TRUE(agrees(json.at(golden.key).get<double>(), golden.value)) << golden.key;
 }
 
@@ -141,9 +147,10 @@ TEST(BondCommand, ReproducesTheEnvelopeTable) {
     double const S = row.saturation / 100, gap = row.share * (-0.3268 * S * S + 0.4879 * S - 0.0815) * 169.4;
     auto const expect = [&](double F_n, char const* shear, char const* rolling) {
       auto const json = bond(bond_arguments(S, 84.7, 84.7, gap, 5, 8, 0.9, F_n, true));
-      EXPECT_TRUE(agrees(json.at("R_s").get<double>(), shear)) << row.saturation << " " << row.share << " " << F_n;
+      EXPECT_TRUE(agrees(json.at("R_s_N_per_m").get<double>(), shear)) << row.saturation << " " << row.share << " " << F_n;
       if (!rolling) return;
-      EXPECT_TRUE(agrees(json.at("R_r_per_length").get<double>(), rolling)) << row.saturation << " " << row.share << " " << F_n;
+      EXPECT_TRUE(agrees(json.at("R_r_per_length_N_per_m").get<double>(), rolling))
+          << row.saturation << " " << row.share << " " << F_n;
     };
     expect(0, row.shear_0, row.rolling_0);
     expect(100, row.shear_100, nullptr);
@@ -155,25 +162,29 @@ TEST(BondCommand, ReproducesTheEnvelopeTable) {
 
 TEST(BondCommand, OutsideTheEnvelopeNothingIsLeft) {
   auto const pulled = bond("--saturation 0.41 --normal-force \"-700 N/m\"");
-  EXPECT_EQ(pulled["R_s"], 0);
-  EXPECT_EQ(pulled["R_r_per_length"], 0);
-  EXPECT_EQ(bond("--saturation 0.41 --normal-force \"5 kN/m\"")["R_s"], 0);
+  EXPECT_EQ(pulled["R_s_N_per_m"], 0);
+  EXPECT_EQ(pulled["R_r_per_length_N_per_m"], 0);
+  EXPECT_EQ(bond("--saturation 0.41 --normal-force \"5 kN/m\"")["R_s_N_per_m"], 0);
   EXPECT_EQ(bond("--saturation 0.41 --gap \"11 um\"")["bonded"], false);
   EXPECT_EQ(bond("--saturation 0.2")["bonded"], false);
-  EXPECT_EQ(bond("--saturation 0.41 --gap \"-2 um\"")["gap"], 0);
+  EXPECT_EQ(bond("--saturation 0.41 --gap \"-2 um\"")["gap_m"], 0);
 }
 
 TEST(BondCommand, RefusesNonsenseWithTheRightCode) {
   EXPECT_EQ(run_clathra("bond").code, 64);
   EXPECT_EQ(run_clathra("bond --saturation 0.41 --strength-from guessed").code, 64);
   CommandResult const length = run_clathra("bond --saturation 0.41 --pore-pressure \"8 mm\"");
-  EXPECT_EQ(length.code, 65);
-  EXPECT_NE(length.output.find("--pore-pressure needs a pressure, got a length ('8 mm'); example: \"1 MPa\""), std::string::npos)
+  EXPECT_EQ(length.code, 64);
+  EXPECT_NE(length.output.find("--pore-pressure: error: needs a pressure, got a length ('8 mm'); example: \"1 MPa\""),
+            std::string::npos)
       << length.output;
   CommandResult const percent = run_clathra("bond --saturation 41");
-  EXPECT_EQ(percent.code, 65);
-  EXPECT_NE(percent.output.find("percent"), std::string::npos) << percent.output;
-  EXPECT_EQ(run_clathra("bond --saturation 0.41 --r1 \"0 mm\"").code, 65);
+  EXPECT_EQ(percent.code, 64);
+  EXPECT_TRUE(
+      says(percent, "--saturation: error: must lie between 0 and 1, got 41; this looks like percent: write 0.41 or \"41 %\""));
+  CommandResult const radius = run_clathra("bond --saturation 0.41 --r1 \"0 mm\"");
+  EXPECT_EQ(radius.code, 64);
+  EXPECT_TRUE(says(radius, "--r1: error: must be above 0"));
 }
 
 TEST(CommandLine, EndsEveryHelpWithAnExample) {
@@ -191,16 +202,50 @@ TEST(CommandLine, BondSaysWhereItsEquationsWereNotFitted) {
 }
 
 TEST(CommandLine, HasOneCodeForEachKindOfFailure) {
-  EXPECT_EQ(run_clathra("").code, 64);
+  EXPECT_TRUE(says(run_clathra(""), "clathra: a command is required: init, schema, check, run, "));
+  EXPECT_TRUE(says(run_clathra("--quiet"), "clathra: a command is required before --quiet: init, "));
+  for (char const* const none : {"", "--quiet"}) EXPECT_EQ(run_clathra(none).code, 64);
   CommandResult const misspelt = run_clathra("rum quick.toml");
   EXPECT_EQ(misspelt.code, 64);
   EXPECT_NE(misspelt.output.find("there is no command 'rum'; did you mean 'run'?"), std::string::npos) << misspelt.output;
   EXPECT_EQ(run_clathra("check no_such.toml").code, 66);
   EXPECT_EQ(run_clathra("info no_such.h5").code, 66);
-  EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set hydrate.saturation=26").code, 65);
+  EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set hydrate.saturation=26").code, 64);
   EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set test.inertial_number=0.02").code, 77);
   EXPECT_EQ(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set test.inertial_number=0.02 --ignore-guards").code, 0);
   EXPECT_EQ(run_clathra("run '" CLATHRA_EXAMPLES "/quick.toml' --output /proc/none").code, 73);
+}
+
+/// 64 is the command line with all values in it, 65 what stands in a file.
+TEST(CommandLine, TellsItsOwnMistakesFromThoseOfFiles) {
+  std::string const scene = "'" CLATHRA_EXAMPLES "/quick.toml' ", study = "'" CLATHRA_EXAMPLES "/studies/saturations.toml' ";
+  fs::path const folder = fs::temp_directory_path() / ("clathra_codes_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "wrong.toml") << "[hydrate]\nsaturation = 26\n";
+  std::ofstream(folder / "wrong_study.toml") << "scene = \"wrong.toml\"\nseeds = 1\n";
+  std::ofstream(folder / "no_goal.toml") << "scene = \"wrong.toml\"\nprecision_target = \"peak_q=2\"\n";
+  for (std::string const& arguments : std::vector<std::string>{
+           "check " + scene + "--set test.axial_strain=15", "run " + scene + "--set grains.kn=1", "generate " + scene + "--set x",
+           "study " + study + "--dry-run --set grains.friction=wet", "study " + study + "--dry-run --precision-target peak_q=2",
+           "study " + study + "--dry-run --max-seeds 5", "tune " + scene + "--set grains.friction=-1",
+           "tune " + scene + "--tolerance 5", "tune " + scene + "--quantity nothing", "reproduce --dry-run --set grains.kn=1",
+           "bond --saturation 41", "bond --saturation 0.4 --gap '1 MPa'", "check " + scene + "--ranks 0",
+           "run " + scene + "--max-walltime soon"})
+    EXPECT_EQ(run_clathra(arguments).code, 64) << arguments;
+  auto const file = [&](char const* name) { return "'" + (folder / name).string() + "' "; };
+  for (std::string const& arguments : {"check " + file("wrong.toml"), "run " + file("wrong.toml"), "tune " + file("wrong.toml"),
+                                       "study --dry-run " + file("wrong_study.toml"), "study --dry-run " + file("no_goal.toml"),
+                                       "check " + file("wrong.toml") + "--set grains.kn=1"})
+    EXPECT_EQ(run_clathra(arguments).code, 65) << arguments;
+  EXPECT_EQ(run_clathra("reproduce --dry-run --data " + file("none.csv")).code, 66);
+  fs::remove_all(folder);
+}
+
+TEST(CommandLine, SuggestsPercentOfNumbersThatLookLikeIt) {
+  EXPECT_TRUE(says(run_clathra("tune '" CLATHRA_EXAMPLES "/quick.toml' --tolerance 5"),
+                   "--tolerance: error: must lie between 0 and 1, got 5; this looks like percent: write 0.05 or \"5 %\""));
+  EXPECT_TRUE(says(run_clathra("study '" CLATHRA_EXAMPLES "/studies/saturations.toml' --precision-target peak_q=2"),
+                   "write 0.02 or \"2 %\""));
 }
 
 TEST(CommandLine, ListsTheFormatsOfAnExport) {
@@ -236,13 +281,13 @@ TEST(BenchCommand, PrintsACardOfThisMachine) {
         run_clathra(std::string("bench --case ") + what + " --particles 2000 --threads 1 --seconds 0.05 --json 2>/dev/null");
     ASSERT_EQ(result.code, 0) << result.output;
     auto const card = nlohmann::json::parse(result.output);
-    double const discs = card["disc_steps_per_second"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
+    double const discs = card["particle_steps_per_second"].get<double>(), contacts = card["contact_steps_per_s"].get<double>();
     EXPECT_GT(discs, 1e5);
     EXPECT_GT(contacts / discs, 1.2);  // pairs a disc: 1.5 to 2.2 here
     EXPECT_LT(contacts / discs, 3);
-    EXPECT_GT(card["bytes_per_disc"], card["bytes_moved_per_disc_and_step"].get<double>() / 2);
-    EXPECT_GT(card["search_bytes_per_disc"], 36);  // its candidates alone
-    EXPECT_LT(card["search_bytes_per_disc"], 0.6 * card["bytes_per_disc"].get<double>());
+    EXPECT_GT(card["bytes_per_particle"], card["bytes_moved_per_particle_and_step"].get<double>() / 2);
+    EXPECT_GT(card["search_bytes_per_particle"], 36);  // its candidates alone
+    EXPECT_LT(card["search_bytes_per_particle"], 0.6 * card["bytes_per_particle"].get<double>());
     EXPECT_GT(card["bandwidth_share"], 0);
     EXPECT_LT(card["rebuild_share"], 1);
     EXPECT_EQ(card["threads"], 1);
@@ -260,13 +305,13 @@ TEST(BenchCommand, PrintsATableOfSizesInBothPrecisions) {
     double const discs = n < 2 ? 2000 : 4000;
     EXPECT_EQ(rows[n]["precision"], n % 2 == 0 ? "double" : "mixed");
     EXPECT_NEAR(rows[n]["particles"], discs, 0.1 * discs);
-    double const speed = rows[n]["disc_steps_per_second"], step = rows[n]["seconds_per_step"];
+    double const speed = rows[n]["particle_steps_per_second"], step = rows[n]["seconds_per_step"];
     EXPECT_NEAR(speed * step, rows[n]["particles"], 1);
     EXPECT_GE(rows[n]["launches_per_step"], for_gpu ? 0.1 : 3);  // drift, contacts, walls; there a graph of sixteen steps is one
     EXPECT_LT(rows[n]["launches_per_step"], 20);
     EXPECT_GT(rows[n]["bandwidth_share"], 0);
   }
-  EXPECT_LT(rows[1]["bytes_per_disc"], rows[0]["bytes_per_disc"]);
+  EXPECT_LT(rows[1]["bytes_per_particle"], rows[0]["bytes_per_particle"]);
   EXPECT_EQ(run_clathra("bench --card --precision mixed").code, 64);
   EXPECT_EQ(run_clathra("bench --card --particles 1000").code, 64);
 }

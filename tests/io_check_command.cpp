@@ -59,10 +59,10 @@ TEST_F(CheckCommand, WarnsOfTheSameAsTheRunItself) {
 }
 
 TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
-  CommandResult const free = clathra("check", "--disc-steps-per-second 1e6");
+  CommandResult const free = clathra("check", "--particle-steps-per-second 1e6");
   EXPECT_TRUE(holds(free.output, "inertial number I  0.0002 (quasi-static below 0.00035)\n")) << free.output;
   std::string const bounded = "--set test.max_platen_wave_stress=1e-3 --set test.inertial_number=1e-3 ";
-  CommandResult const check = clathra("check", bounded + "--disc-steps-per-second 1e6");
+  CommandResult const check = clathra("check", bounded + "--particle-steps-per-second 1e6");
   EXPECT_TRUE(holds(check.output, "(lowered from 0.001 by test.max_platen_wave_stress; quasi-static below 0.00035)\n"))
       << check.output;
   EXPECT_TRUE(holds(check.output, "wave stress W      0.001 (")) << check.output;
@@ -79,7 +79,7 @@ TEST_F(CheckCommand, SaysWhatAWaveNumberMakesOfTheRateAndTheRunKeepsIt) {
 
 TEST_F(CheckCommand, SaysWhichErrorOfThePeakToExpectOrThatItWasNotMeasured) {
   std::string const row = "  error of peak q    ",
-                    measured = "--set specimen.particles=2000 --set test.axial_strain=0.1 --disc-steps-per-second 1e6";
+                    measured = "--set specimen.particles=2000 --set test.axial_strain=0.1 --particle-steps-per-second 1e6";
   CommandResult const usual = clathra("check", measured);
   EXPECT_TRUE(holds(usual.output, row + "+") || holds(usual.output, row + "-")) << usual.output;
   EXPECT_TRUE(holds(usual.output, " % against slow shear in double precision (2000 particles at 1 MPa)\n")) << usual.output;
@@ -87,7 +87,7 @@ TEST_F(CheckCommand, SaysWhichErrorOfThePeakToExpectOrThatItWasNotMeasured) {
   EXPECT_TRUE(holds(damped.output, row + "not measured: damping.local\n")) << damped.output;
   CommandResult const fast = clathra("check", measured + " --set test.inertial_number=0.05 --ignore-guards");
   EXPECT_TRUE(holds(fast.output, row + "not measured: only up to I = ")) << fast.output;
-  CommandResult const small = clathra("check", "--disc-steps-per-second 1e6");
+  CommandResult const small = clathra("check", "--particle-steps-per-second 1e6");
   EXPECT_TRUE(holds(small.output, row + "not measured: test.axial_strain, specimen.particles\n")) << small.output;
 }
 
@@ -101,7 +101,7 @@ TEST_F(CheckCommand, WarnsOfNoKeyThatIsAsByDefault) {
 TEST_F(CheckCommand, SaysWhatTheRunLeavesOnTheDisk) {
   for (std::string const more : {"", "--set output.snapshots=0 ", "--set hydrate.saturation=0.55 --set output.records=300 "}) {
     std::string const keys = more + "--set test.axial_strain=0.03 ";
-    double const said = number_after(clathra("check", keys + "--disc-steps-per-second 1e6").output, "disk               ");
+    double const said = number_after(clathra("check", keys + "--particle-steps-per-second 1e6").output, "disk               ");
     fs::path const out = folder / "out";
     ASSERT_EQ(clathra("run", keys + "--overwrite --threads 1 --output '" + out.string() + "'").code, 0);
     double left = 0;
@@ -125,6 +125,7 @@ TEST_F(CheckCommand, RefusesGrainsTooSoftForTheirStress) {
   EXPECT_FALSE(fs::exists(folder / "out")) << "refused before anything is written";
   CommandResult const ignored = clathra("check", soft + " --ignore-guards");
   EXPECT_EQ(ignored.code, 0) << ignored.output;
+  EXPECT_TRUE(holds(ignored.output, ": guards ignored, ")) << ignored.output;
   EXPECT_TRUE(holds(ignored.output, "warning: guard ignored: " + text)) << ignored.output;
   EXPECT_EQ(clathra("check", "--set test.confining_stress='15 MPa'").code, 0);
 }
@@ -139,6 +140,7 @@ TEST_F(CheckCommand, RefusesASpecimenNarrowerThanThreeGrains) {
   }
   CommandResult const ignored = clathra("check", narrow + " --ignore-guards");
   EXPECT_EQ(ignored.code, 0) << ignored.output;
+  EXPECT_TRUE(holds(ignored.output, ": guards ignored, ")) << ignored.output;
   EXPECT_TRUE(holds(ignored.output, "warning: guard ignored: " + text)) << ignored.output;
   EXPECT_EQ(clathra("check", "--set specimen.width='0.9 mm'").code, 0);
   EXPECT_TRUE(holds(clathra("check", "--set specimen.height='0.6 mm'").output, "the specimen is 0.6 mm high"));

@@ -144,6 +144,9 @@ TEST_F(EveryKey, RunsAwayFromItsDefaultAndMovesTheSpecimenOrLeavesItsBits) {
     double const strain = run["stages"]["shear"]["end_eps1"], wanted = run["scene"]["test"]["axial_strain"];
     EXPECT_NEAR(strain, wanted, 0.01 * wanted) << test.key;
     EXPECT_GT(run["stages"]["shear"]["peak_q_Pa"].get<double>(), 1e5) << test.key;
+    for (auto const& [stage, numbers] : run["stages"].items())
+      for (auto const& [name, value] : numbers.items())
+        EXPECT_NE(run["meaning"].value("stages." + stage + "." + name, ""), "") << stage << " " << name;
     // What was stated is what is recorded, and what the resolved scene says; only the folder is that of --output.
     if (test.key == "output.folder") continue;
     Key const& key = *find_key(test.key);

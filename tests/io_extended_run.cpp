@@ -105,7 +105,7 @@ TEST_F(ExtendedRun, TakesSnapshotsOnlyAtGivenStrainsWhereThereAreNoRegularOnes) 
   ASSERT_EQ(run("out", one + "--set output.snapshots=0 --set output.snapshots_at='0.5 %,0.2 %'").code, 0);
   EXPECT_EQ(snapshot_files(folder / "out").size(), 2u);
   CommandResult const wrong = run("wrong", one + "--set output.snapshots_at='[\"1 mm\"]'");
-  EXPECT_EQ(wrong.code, 65);
+  EXPECT_EQ(wrong.code, 64);
   EXPECT_NE(wrong.output.find("'output.snapshots_at' needs a plain number or a percentage"), std::string::npos) << wrong.output;
 }
 
@@ -129,13 +129,13 @@ TEST_F(ExtendedRun, IsRefusedWhereItIsAnotherTestOrLiesBehind) {
   ASSERT_EQ(run("out", one).code, 0);
   std::string const before = text("out", "history.csv");
   CommandResult const other = run("out", two + "--resume --set damping.local=0.2");
-  EXPECT_EQ(other.code, 77);
+  EXPECT_EQ(other.code, 73);
   EXPECT_NE(other.output.find("finished run of another scene"), std::string::npos) << other.output;
-  EXPECT_EQ(run("out", "--resume --set test.axial_strain='0.5 %'").code, 77);
+  EXPECT_EQ(run("out", "--resume --set test.axial_strain='0.5 %'").code, 73);
   ASSERT_EQ(run("none", one + "--set output.keep_checkpoint=false").code, 0);
   EXPECT_FALSE(fs::exists(folder / "none" / "ckpt"));
   CommandResult const none = run("none", two + "--resume");
-  EXPECT_EQ(none.code, 77);
+  EXPECT_EQ(none.code, 73);
   EXPECT_NE(none.output.find("kept no checkpoint to be extended from (output.keep_checkpoint)"), std::string::npos)
       << none.output;
   EXPECT_EQ(text("out", "history.csv"), before);

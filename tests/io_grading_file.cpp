@@ -190,7 +190,7 @@ class GradingFileOfAScene : public testing::Test {
 
   CommandResult check(std::string const& grading, std::string const& more = "") {
     std::ofstream(folder / "sand.csv") << grading;
-    return run_clathra("check '" + (folder / "sand.toml").string() + "' --disc-steps-per-second 1e6 " + more);
+    return run_clathra("check '" + (folder / "sand.toml").string() + "' --particle-steps-per-second 1e6 " + more);
   }
   /// The warnings alone.
   std::string warned(CommandResult const& result) {
@@ -234,9 +234,10 @@ TEST_F(GradingFileOfAScene, IsWarnedOfWhereItsDiscsAreEqual) {
   std::string const wanted = "warning: the particles are as good as equal (d90 / d10 = ";
   EXPECT_EQ(warned(check("d_mm,finer\n0.2,0\n0.21,100\n")).substr(0, wanted.size()), wanted);
   EXPECT_EQ(warned(check("d_mm,finer\n0.2,0\n0.23,100\n")), "");
-  EXPECT_EQ(warned(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set grading.table=uniform --disc-steps-per-second 1e6"))
-                .substr(0, wanted.size()),
-            wanted);
+  EXPECT_EQ(
+      warned(run_clathra("check '" CLATHRA_EXAMPLES "/quick.toml' --set grading.table=uniform --particle-steps-per-second 1e6"))
+          .substr(0, wanted.size()),
+      wanted);
 }
 
 }  // namespace

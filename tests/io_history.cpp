@@ -274,6 +274,7 @@ TEST_F(Record, HoldsWhatARunNeedsToBeRepeated) {
   RunRecord record;
   record.version = "0.1.0";
   record.input = parse_scene("[specimen]\nparticles = 2000\n", "my.toml", "", {"run.seed=7"});
+  record.input.scene.test.inertial_number = 0;  // as where a strain rate is given
   record.stages["generate"]["void_ratio"] = 0.24;
   record.state_hash = 0xabcull;
   record.exit_reason = "finished";
@@ -284,6 +285,10 @@ TEST_F(Record, HoldsWhatARunNeedsToBeRepeated) {
   EXPECT_EQ(json["input"]["overrides"][0], "run.seed=7");
   EXPECT_EQ(json["seed"], 7);
   EXPECT_EQ(json["scene"]["specimen"]["particles"], 2000);
+  EXPECT_TRUE(json["scene"]["specimen"]["width"].is_null()) << "not given, not zero";
+  EXPECT_TRUE(json["scene"]["specimen"]["file"].is_null());
+  EXPECT_EQ(json["scene"]["damping"]["viscous_ratio"], 0) << "zero, not left out";
+  EXPECT_EQ(resolved_scene(scene_of(json["scene"]), folder), resolved_scene(record.input.scene, folder));
   EXPECT_EQ(json["scene"]["bond"]["contact_coupling"], "parallel");
   EXPECT_EQ(json["state_hash"], "0x0000000000000abc");
   EXPECT_EQ(json["exit"]["reason"], "finished");

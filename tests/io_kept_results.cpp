@@ -71,7 +71,7 @@ TEST_F(KeptResults, OfAFinishedRunGoOnlyWhenAskedAndWhenThereAreNewOnes) {
   ASSERT_EQ(run().code, 0);
   auto const before = contents(out);
   CommandResult const again = run("--set damping.local=0.2");
-  EXPECT_EQ(again.code, 77) << again.output;
+  EXPECT_EQ(again.code, 73) << again.output;
   EXPECT_TRUE(says(again, "out: holds a finished run: --output names another folder"));
   EXPECT_EQ(contents(out), before);
   // Refused a moment later: when the folder is taken hold of, and while its specimen is made.
@@ -104,11 +104,11 @@ TEST_F(KeptResults, OfARunKilledBeforeItsFirstCheckpoint) {
   kill_one_with_rows();
   auto const before = contents(out);
   CommandResult const again = run();
-  EXPECT_EQ(again.code, 77) << again.output;
+  EXPECT_EQ(again.code, 73) << again.output;
   EXPECT_TRUE(says(again, "holds a run that is not finished (it was killed)"));
   EXPECT_EQ(contents(out), before);
   CommandResult const other = run("--resume --set damping.local=0.2");
-  EXPECT_EQ(other.code, 77) << other.output;
+  EXPECT_EQ(other.code, 73) << other.output;
   EXPECT_TRUE(says(other, "damping.local was 0.3, is 0.2"));
   EXPECT_EQ(contents(out), before);
   // The same scene begins anew: its rows will be the same.
@@ -129,7 +129,7 @@ TEST_F(KeptResults, OfSomebodyElseAreNeverTouched) {
     auto const before = contents(out);
     for (char const* const option : {"", "--overwrite", "--resume"}) {
       CommandResult const result = run(option);
-      EXPECT_EQ(result.code, 77) << result.output;
+      EXPECT_EQ(result.code, 73) << result.output;
       EXPECT_EQ(contents(out), before);
     }
   }
@@ -152,14 +152,14 @@ TEST_F(KeptResults, WhoseRecordIsDamagedAreNeitherUnfinishedNorBegunAnew) {
     EXPECT_EQ(resumed.code, 65) << resumed.output;
     EXPECT_TRUE(says(resumed, "run.json: is damaged"));
     CommandResult const plain = run();
-    EXPECT_EQ(plain.code, 77) << plain.output;
+    EXPECT_EQ(plain.code, 73) << plain.output;
     EXPECT_TRUE(says(plain, "holds results of a run whose run.json is damaged"));
     EXPECT_EQ(contents(out), before);
   }
   fs::remove(out / "run.json");
   fs::remove_all(out / "ckpt");  // with it the run would go on from its end
   EXPECT_TRUE(says(run(), "holds results of a run whose run.json is missing"));
-  EXPECT_EQ(run("--resume").code, 77);
+  EXPECT_EQ(run("--resume").code, 73);
   EXPECT_EQ(run("--overwrite").code, 0);
 }
 
@@ -190,7 +190,7 @@ TEST_F(KeptResults, WhoseRecordIsOfTheWrongKindInsideAreDamagedToo) {
     CommandResult const resumed = run("--resume");
     EXPECT_EQ(resumed.code, 65) << at << " " << value << resumed.output;
     EXPECT_TRUE(says(resumed, "run.json: is "));
-    EXPECT_EQ(run().code, 77) << at;
+    EXPECT_EQ(run().code, 73) << at;
     EXPECT_EQ(contents(out), before) << at;
   }
 }
@@ -200,7 +200,7 @@ TEST_F(KeptResults, ThatTheNewRunReadsAreNotTakenThePlaceOf) {
   auto const before = contents(out);
   std::string const from = "--overwrite --set specimen.file='" + out.string();
   CommandResult const result = run(from + "/final.h5'");
-  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_EQ(result.code, 73) << result.output;
   EXPECT_TRUE(says(result, "final.h5: is a result that the new run would take the place of"));
   EXPECT_EQ(contents(out), before);
   // A run that reads its specimen makes none: that of the earlier one stays.
@@ -215,7 +215,7 @@ TEST_F(KeptResults, OfOtherGrainsAreNotGoneOnWith) {
   put(folder / "sizes.csv", "d_mm,percent_finer\n0.12,0\n0.15,30\n0.17,55\n0.2,80\n0.24,100\n");
   auto const before = contents(out);
   CommandResult const resumed = run(graded + "--resume");
-  EXPECT_EQ(resumed.code, 77) << resumed.output;
+  EXPECT_EQ(resumed.code, 73) << resumed.output;
   EXPECT_TRUE(says(resumed, "the grading file had digest "));
   EXPECT_EQ(contents(out), before);
 }
@@ -233,7 +233,7 @@ TEST_F(KeptResults, OfARunThatWasResumedSayHowItsSpecimenWasMade) {
   EXPECT_GT(whole["wall_seconds"]["shear"], first["wall_seconds"]["shear"]);
   fs::remove_all(out);
   ASSERT_EQ(run(longer).code, 0);
-  EXPECT_EQ(whole["disc_steps"], record()["disc_steps"]) << "of the whole shear";
+  EXPECT_EQ(whole["particle_steps"], record()["particle_steps"]) << "of the whole shear";
 }
 
 TEST_F(KeptResults, ASpecimenFileIsReplacedOnlyWhenAsked) {

@@ -26,6 +26,10 @@ TEST(KeyLimits, SayWhatZeroStandsFor) {
     if (key.takes_zero) EXPECT_FALSE(key.zero.empty()) << key.name;
   EXPECT_EQ(problems_of({"grains.friction=6"}),
             "--set grains.friction=6: error: 'grains.friction' must lie between 0 and 5, got 6");
+  EXPECT_EQ(problems_of({"output.snapshots=-1"}),
+            "--set output.snapshots=-1: error: 'output.snapshots' must lie between 1 and 100000, or be 0 (none), got -1");
+  EXPECT_NE(problems_of({"grains.density=31 t/m^3"}).find("between 100 kg/m^3 and 30000 kg/m^3, got 31000 kg/m^3"),
+            std::string::npos);
 }
 
 TEST(KeyLimits, OfTheSeedAreWholeNumbersThatEveryFormatHolds) {
@@ -68,6 +72,35 @@ TEST(KeyNames, OfPapersAndOtherProgramsLeadToTheKey) {
   EXPECT_NE(problems_of({"grains.kn=1"}).find("did you mean 'grains.normal_stiffness'?"), std::string::npos);
   EXPECT_NE(problems_of({"mu=1"}).find("did you mean 'grains.friction'?"), std::string::npos);
   EXPECT_NE(problems_of({"test.sigma3=1"}).find("did you mean 'test.confining_stress'?"), std::string::npos);
+  for (auto const& [name, hint] : std::vector<std::pair<std::string, std::string>>{
+           {"young", "'grains.normal_stiffness' (of a contact, per metre thickness)?"},
+           {"bond.young", "'hydrate.pore_pressure' (the stiffness of hydrate follows from its temperature, "},
+           {"grains.friction_angle", "'grains.friction' (the tangent of the angle)?"},
+           {"box", "'specimen.width' (and 'height')?"},
+           {"specimen.box", "'specimen.width' (and 'height')?"},
+           {"hydrate.rho", "'hydrate.density'?"},
+           {"hydrat.densty", "'hydrate.density'?"},
+           {"grains.stiffness", "'grains.normal_stiffness' or 'grains.shear_stiffness'?"},
+           {"specimen.pressure", "'specimen.preparation_stress'?"},
+           {"pressure", "'test.confining_stress'?"},
+           {"grains.saturaton", "'hydrate.saturation'?"}})
+    EXPECT_NE(problems_of({name + "=1"}).find("did you mean " + hint), std::string::npos) << problems_of({name + "=1"});
+}
+
+TEST(KeysStatedTwice, AreNamedWithBothLines) {
+  auto const said = [](std::string const& text) {
+    try {
+      (void)parse_scene(text, "a.toml", ".", {});
+    } catch (SceneProblems const& problems) {
+      return std::string(problems.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(said(sized + "[hydrate]\nsaturation = 0.3 # first\n\n\"saturation\" = 0.4\n"),
+            "a.toml:6:1: error: 'hydrate.saturation' is stated twice, in lines 4 and 6: leave one of them out");
+  EXPECT_EQ(said(sized + "[test]\naxial_strain = 0.1\n[specimen]\nwidth = 1\n"),
+            "a.toml:5:1: error: the section [specimen] begins twice, in lines 1 and 5: write the keys of both below one");
+  EXPECT_NE(said(sized + "[test.axial_strain]\na = 1\n[test]\naxial_strain = 2\n").find("a.toml:6:"), std::string::npos);
 }
 
 }  // namespace

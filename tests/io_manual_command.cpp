@@ -31,9 +31,13 @@ TEST(Manual, NamesEveryVerbOfTheHelpEveryKeyAndEveryExitCode) {
     EXPECT_NE(text.find(".B " + std::to_string(code) + "\n"), std::string::npos) << code;
 }
 
-TEST(Manual, NamesNoHiddenOption) {
-  EXPECT_EQ(manual().find("--only"), std::string::npos);
-  EXPECT_EQ(run_clathra("--help").output.find("completion"), std::string::npos);
+TEST(Manual, NamesNoHiddenOption) { EXPECT_EQ(manual().find("--only"), std::string::npos); }
+
+TEST(Help, ShowsTheManualPageAndWhereThePagesAre) {
+  CommandResult const help = run_clathra("--help");
+  EXPECT_TRUE(says(help, "\n  man                         Print the manual page\n"));
+  EXPECT_TRUE(says(help, "\nPages that texts call docs/NAME.md: "));
+  EXPECT_NE(manual().find("docs/NAME.md"), std::string::npos);
 }
 
 }  // namespace

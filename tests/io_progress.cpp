@@ -52,7 +52,7 @@ TEST_F(ProgressOutput, IsALineEveryFivePercentWhereItIsNoTerminal) {
   std::string const text = in_a_file();
   EXPECT_EQ(text.find('\033'), std::string::npos) << text;
   EXPECT_EQ(text.find('\r'), std::string::npos) << text;
-  std::regex const line("shear ([0-9]+)% eps1 [0-9.]+/0.5% \\| .* disc-steps/s \\| ETA .* \\| q .* MPa \\| I [0-9.e-]+\n");
+  std::regex const line("shear ([0-9]+)% eps1 [0-9.]+/0.5% \\| .* particle-steps/s \\| ETA .* \\| q .* MPa \\| I [0-9.e-]+\n");
   int lines = 0, last = -5;
   for (std::sregex_iterator found(text.begin(), text.end(), line), end; found != end; ++found, ++lines) {
     int const percent = std::stoi((*found)[1]);
@@ -60,8 +60,8 @@ TEST_F(ProgressOutput, IsALineEveryFivePercentWhereItIsNoTerminal) {
     last = percent;
   }
   EXPECT_EQ(last, 100) << text;
-  EXPECT_EQ(text.find(" 0 disc-steps/s"), std::string::npos) << "nothing is claimed before there is something to tell from\n"
-                                                             << text;
+  EXPECT_EQ(text.find(" 0 particle-steps/s"), std::string::npos) << "nothing is claimed before there is something to tell from\n"
+                                                                 << text;
   EXPECT_LE(lines, 21);
   EXPECT_NE(text.find("2 warnings:\n  - kn / sigma_1"), std::string::npos) << text;
 }

@@ -4,6 +4,8 @@
 #include "command.hpp"
 #include "domain/measurement/test_numbers.hpp"
 #include "io/report/plot.hpp"
+#include "io/report/seed_bands.hpp"
+#include "io/report/study_report.hpp"
 #include "io/results/run_results.hpp"
 #include "report_page.hpp"
 
@@ -124,6 +126,73 @@ TEST_F(Report, NeedsNothingFromOutside) {
   EXPECT_NE(page.find("Where it sheared"), std::string::npos);
   EXPECT_NE(page.find("Grading curve"), std::string::npos);
   EXPECT_NE(page.find("Directions of contacts and forces"), std::string::npos);
+}
+
+TEST_F(Report, CallsTheLargestStressNoPeakWhileItRises) {
+  MadeUpTest rising;
+  rising.peak_eps1 = 0.2;
+  for (auto const& [name, test] : {std::pair("peaked", MadeUpTest{}), std::pair("rising", rising)})
+    write_made_up_snapshots(made(name, test), made_up_lattice(5, 5), 0.3);
+  EXPECT_NE(page_on({folder / "peaked"}).find("through the grains near the peak:"), std::string::npos);
+  std::string const page = page_on({folder / "rising"});
+  EXPECT_NE(page.find("through the grains near the largest q so far, which no peak follows yet:"), std::string::npos);
+  EXPECT_EQ(page.find("near the peak"), std::string::npos);
+  EXPECT_NE(page_on({folder / "peaked", folder / "rising"}).find("it was still rising at the end of 1 of them"),
+            std::string::npos);
+}
+
+/// Two members of one group, of which the second has no peak.
+class StudyPage : public Report {
+ protected:
+  std::string page_on_study() const {
+    MadeUpTest second;
+    second.peak_eps1 = 0.2;
+    second.breaking = 3;
+    std::vector<fs::path> const folders = {made("first"), made("second", second)};
+    Study study;
+    study.file = "two.toml";
+    study.seeds = {1, 2};
+    study.groups = {{"all", {}, "all"}};
+    std::vector<MemberResult> members(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      double const sign = i == 0 ? 1 : -1;
+      members[i].seed = i + 1;
+      members[i].state = MemberState::finished;
+      members[i].numbers = {{"peak_q_Pa", 5e6 + sign * 1e5}, {"largest_eps_v", sign * 0.003 - 0.0001}};
+      members[i].numbers["peak_passed"] = i == 0 ? 1 : 0;
+      if (i == 0) members[i].peak = members[i].residual = FailureStress{6e6, 1e6};
+    }
+    write_study_report(study, members, folders, folder / "study.html");
+    return content_of(folder / "study.html");
+  }
+};
+
+TEST_F(StudyPage, SaysWhichMembersHaveNoPeak) {
+  std::string const page = page_on_study();
+  EXPECT_NE(page.find("<small class=\"unit\">(1 of 2 still rising)</small>"), std::string::npos);
+  EXPECT_NE(page.find("q still rises at the end of 1 of 2 members (all-seed2): it has not fallen by 2 %"), std::string::npos);
+}
+
+TEST_F(StudyPage, RoundsItsNumbersToTheirIntervals) {
+  std::string const page = page_on_study();
+  EXPECT_NE(page.find("<span>5.0 ± 1.3<"), std::string::npos);
+  EXPECT_NE(page.find("<span>0.0 ± 3.8<"), std::string::npos) << "-0.01, without a sign";
+}
+
+TEST_F(StudyPage, CutsItsBandsWhereNoValuesArePossible) {
+  std::string const page = page_on_study();
+  EXPECT_NE(page.find("at each strain, as far as such values are possible. Of 2 seeds it is wide: 9.0 standard deviations to "
+                      "either side; of 5 it would be 1.2."),
+            std::string::npos);
+  std::vector<SeedBand> const bands = seed_bands({folder / "first", folder / "second"});
+  constexpr std::size_t q = 0, broken_shear = 6;
+  ASSERT_STREQ(band_columns[broken_shear], "broken_shear");
+  EXPECT_EQ(bands[broken_shear].low.back(), 0);
+  EXPECT_GT(bands[broken_shear].high.back(), 3.0 * made_up_records);
+  EXPECT_TRUE(bands[broken_shear].cut);
+  EXPECT_FALSE(bands[q].cut);
+  EXPECT_LT(bands[q].low.back(), 0) << "a deviator stress can be negative";
+  EXPECT_EQ(possible_range("bonds_intact_pct").cut(120), 100);
 }
 
 TEST_F(Report, OfEightRunsWithPicturesFitsIntoFiveMegabytes) {

@@ -134,6 +134,8 @@ TEST(ReportPage, WritesNumbersForPeople) {
   EXPECT_EQ(grouped(1000), "1,000");
   EXPECT_EQ(grouped(-1234567), "−1,234,567");
   EXPECT_EQ(grouped(NAN), "–");
+  EXPECT_EQ(with_minus("-0.00"), "0.00");
+  EXPECT_EQ(with_minus("-0.01"), "−0.01");
 }
 
 TEST(ReportPage, MakesTextHarmless) {

@@ -71,7 +71,7 @@ TEST_F(RunFolder, OfAnUnfinishedRunIsNotClearedUnlessAsked) {
   fs::path const folder = copy_of("stopped");
   std::string const history = content(folder / "history.csv");
   CommandResult const refused = run("copy");
-  EXPECT_EQ(refused.code, 77) << refused.output;
+  EXPECT_EQ(refused.code, 73) << refused.output;
   EXPECT_TRUE(says(refused, "copy: holds a run that is not finished (stopped as its wall time is over at an axial strain of "));
   EXPECT_TRUE(says(refused, "--resume goes on with it, --overwrite puts the new run in its place"));
   EXPECT_EQ(content(folder / "history.csv"), history);
@@ -80,7 +80,7 @@ TEST_F(RunFolder, OfAnUnfinishedRunIsNotClearedUnlessAsked) {
   put(folder / "run.json", "{\"exit\": {\"code\": 0, \"reason\": \"running\"}}");
   EXPECT_TRUE(says(run("copy"), "not finished (it was killed)"));
   for (char const* const file : {"ckpt/0.h5", "ckpt/1.h5"}) change_byte(folder / file, 3000);
-  EXPECT_EQ(run("copy").code, 77);
+  EXPECT_EQ(run("copy").code, 73);
   EXPECT_EQ(run("copy", "--resume --overwrite").code, 64);
   EXPECT_EQ(run("copy", "--overwrite").code, 0);
   expect_as_left_alone();
@@ -228,7 +228,7 @@ TEST_F(RunFolder, OfAnotherSceneIsLeftAloneAndToldBeforeAnythingElse) {
     fs::path const folder = copy_of(name);
     std::string const before = content(folder / "run.json");
     CommandResult const other = run("copy", "--resume --set damping.local=0.2");
-    EXPECT_EQ(other.code, 77) << other.output;
+    EXPECT_EQ(other.code, 73) << other.output;
     EXPECT_TRUE(says(other, "of another scene"));
     EXPECT_TRUE(says(other, "damping.local was 0.3, is 0.2"));
     EXPECT_EQ(other.output.find("goes on from step"), std::string::npos) << other.output;
@@ -240,7 +240,7 @@ TEST_F(RunFolder, OfAnotherSceneIsLeftAloneAndToldBeforeAnythingElse) {
 TEST_F(RunFolder, GoesOnInItsOwnPrecisionOnly) {
   copy_of("stopped");
   CommandResult const other = run("copy", "--resume --set run.precision=double");
-  EXPECT_EQ(other.code, 77) << other.output;
+  EXPECT_EQ(other.code, 73) << other.output;
   EXPECT_TRUE(says(other, "of another scene"));
   EXPECT_TRUE(says(other, "run.precision was ")) << other.output;
 }
@@ -252,7 +252,7 @@ TEST_F(RunFolder, OfAFinishedRunKnowsItsSpecimenByItsContent) {
   ASSERT_EQ(run("copy", from(base() / "one.h5")).code, 0);
   EXPECT_TRUE(says(run("copy", "--resume" + from(base() / "two.h5")), "this run is finished"));
   CommandResult const other = run("copy", "--resume" + from(base() / "alone" / "final.h5"));
-  EXPECT_EQ(other.code, 77) << other.output;
+  EXPECT_EQ(other.code, 73) << other.output;
   EXPECT_TRUE(says(other, "the specimen file had digest "));
 }
 

@@ -113,5 +113,28 @@ TEST(InitCommand, WritesASceneThatIsRightAndNeverOverwrites) {
         << example;
 }
 
+TEST(InitCommand, WritesAStudyBesideItsScene) {
+  fs::path const folder = fs::temp_directory_path() / ("clathra_init_study_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::string const study = (folder / "mine.toml").string();
+  CommandResult const written = run_clathra("init studies/saturations -o '" + study + "'");
+  EXPECT_EQ(written.code, 0) << written.output;
+  EXPECT_TRUE(says(written, "mine.toml is written; see what it costs with: clathra study "));
+  CommandResult const cost = run_clathra("study --dry-run '" + study + "'");
+  EXPECT_EQ(cost.code, 0) << cost.output;
+  EXPECT_TRUE(says(cost, "mine.toml: 6 groups of 5 seeds\n"));
+  EXPECT_NE(content_of(study).find("clathra study " + study + " --output"), std::string::npos) << "its comment names it";
+  // Neither is overwritten.
+  std::ofstream(folder / "quick.toml", std::ios::app) << "# mine\n";
+  auto const size = fs::file_size(folder / "quick.toml");
+  EXPECT_EQ(run_clathra("init studies/saturations -o '" + study + "'").code, 73);
+  CommandResult const second = run_clathra("init studies/saturations -o '" + (folder / "second.toml").string() + "'");
+  EXPECT_EQ(second.code, 0) << second.output;
+  EXPECT_TRUE(says(second, "quick.toml is there already and stays\n"));
+  EXPECT_EQ(fs::file_size(folder / "quick.toml"), size);
+  EXPECT_TRUE(says(run_clathra("init"), "studies/saturations      Three saturations at two confining stresses"));
+  fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace clathra

@@ -71,12 +71,16 @@ TEST_F(ScriptOutput, OfCheckIsTheForecastAsJson) {
   EXPECT_GT(valid["shear_seconds"].get<double>(), 0);
   EXPECT_TRUE(valid["refusals"].empty());
   EXPECT_TRUE(valid["error_of_peak_q"].is_null()) << "1 % strain was not measured";
+  EXPECT_NE(valid["error_of_peak_q_not_measured"].get<std::string>(), "");
   CommandResult const refused = quiet_errors("check --json '" + scene() + "' --set test.inertial_number=0.5");
   EXPECT_EQ(refused.code, 77);
   EXPECT_EQ(Json::parse(refused.output)["verdict"], "refused");
   EXPECT_FALSE(Json::parse(refused.output)["refusals"].empty());
+  CommandResult const ignored = quiet_errors("check --json '" + scene() + "' --set test.inertial_number=0.5 --ignore-guards");
+  EXPECT_EQ(ignored.code, 0);
+  EXPECT_EQ(Json::parse(ignored.output)["verdict"], "guards ignored");
   CommandResult const wrong = quiet_errors("check --json '" + scene() + "' --set grains.kn=1 --set test.axial_strain=15");
-  EXPECT_EQ(wrong.code, 65);
+  EXPECT_EQ(wrong.code, 64);
   Json const problems = Json::parse(wrong.output)["problems"];
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[0]["text"], "unknown key 'grains.kn'; did you mean 'grains.normal_stiffness'?");
@@ -106,10 +110,50 @@ TEST_F(ScriptOutput, OfInfoEventsAndVerifyIsJson) {
   for (Json const& part : events["parts"]) broken += part["all"].get<int>();
   EXPECT_GT(broken, 0);
   EXPECT_NEAR(events["parts"][3]["eps1_to"].get<double>(), 0.01, 1e-4);
-  EXPECT_EQ(run_clathra("events '" + out() + "' --to 15").code, 65) << "15 is no fraction";
+  EXPECT_EQ(run_clathra("events '" + out() + "' --to 15").code, 64) << "15 is no fraction";
   Json const verified = Json::parse(quiet_errors("verify --json '" + out() + "'").output);
-  EXPECT_EQ(verified["wrong"], 0);
+  EXPECT_EQ(verified["files_not_as_written"], 0);
+  EXPECT_EQ(verified["files_checked"], verified["files"].size());
   EXPECT_GE(verified["files"].size(), 5u);
+  EXPECT_EQ(verified["files"][0]["as_written"], true);
+}
+
+/// One object on stdout, whatever goes wrong.
+TEST_F(ScriptOutput, OfWhatGoesWrongIsJsonToo) {
+  std::string const none = "'" + (folder() / "none").string() + "'", study = "'" + (folder() / "study.toml").string() + "' ";
+  std::ofstream(folder() / "wrong.toml") << "scene = \"small.toml\"\nseeds = 0\n";
+  struct Case {
+    std::string arguments;
+    int code;
+    char const *verdict, *severity, *text;
+  };
+  for (Case const& wrong :
+       {Case{"check --json " + none, 66, "invalid", "missing file", "cannot be opened"},
+        {"info --json " + none, 66, "invalid", "missing file", "no such file"},
+        {"events --json " + none, 66, "invalid", "missing file", "is not the folder of a run"},
+        {"verify --json " + none, 66, "invalid", "missing file", "is not the folder of a run"},
+        {"events --json --to 15 '" + out() + "'", 64, "invalid", "error", "this looks like percent"},
+        {"study --dry-run --json '" + (folder() / "wrong.toml").string() + "'", 65, "invalid", "error",
+         "'seeds' must be between"},
+        {"study --dry-run --json " + study + "--set grains.kn=1", 64, "invalid", "error", "unknown key 'grains.kn'"},
+        {"bond --json --saturation 41", 64, "invalid", "error", "this looks like percent"},
+        {"check --json", 64, "invalid", "error", "scene is required"}}) {
+    CommandResult const result = quiet_errors(wrong.arguments);
+    EXPECT_EQ(result.code, wrong.code) << wrong.arguments;
+    Json const json = Json::parse(result.output, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << wrong.arguments << ": " << result.output;
+    EXPECT_EQ(json["exit_code"], wrong.code) << wrong.arguments;
+    EXPECT_EQ(json["verdict"], wrong.verdict) << wrong.arguments;
+    ASSERT_EQ(json["problems"].size(), 1u) << json;
+    EXPECT_EQ(json["problems"][0]["severity"], wrong.severity) << json;
+    EXPECT_NE(json["problems"][0]["text"].get<std::string>().find(wrong.text), std::string::npos) << json;
+  }
+  Json const line = Json::parse(quiet_errors("study --dry-run --json '" + (folder() / "wrong.toml").string() + "'").output);
+  EXPECT_EQ(line["problems"][0]["file"], (folder() / "wrong.toml").string());
+  EXPECT_EQ(line["problems"][0]["line"], 2);
+  CommandResult const refused = quiet_errors("study --dry-run --json " + study + "--set test.inertial_number=0.5");
+  EXPECT_EQ(refused.code, 77);
+  EXPECT_FALSE(Json::parse(refused.output)["members"][0]["refusals"].empty()) << "its forecast, not a second object";
 }
 
 TEST_F(ScriptOutput, OfADryRunIsJson) {

@@ -78,7 +78,7 @@ TEST_F(SpecimenCheck, AStressThatTheOverlapsDoNotShowIsWarnedOf) {
 /// The grading of the scene is not that of the file: what a test of it costs and how fast it goes follows from its discs.
 TEST_F(SpecimenCheck, ATestIsForecastFromTheDiscsOfTheFile) {
   write([](Specimen& s) { scale_lengths(s, 3); });
-  CommandResult const triple = by_scene("check", "--disc-steps-per-second 1e6");
+  CommandResult const triple = by_scene("check", "--particle-steps-per-second 1e6");
   EXPECT_TRUE(says(triple, "  d50                0.5082 mm\n")) << triple.output;
   EXPECT_FALSE(says(triple, "generation"));
   std::ofstream(folder / "sand.csv") << "d_mm,percent_finer\n1,0\n2,100\n";

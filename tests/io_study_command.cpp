@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "command.hpp"
@@ -67,7 +68,7 @@ TEST_F(StudyCommand, LeavesATableWithARowForEachMemberAndStatisticsOfEachGroup) 
   }
   auto const rows = csv_rows(csv());
   for (auto const& row : rows) EXPECT_EQ(row.size(), rows[0].size());
-  EXPECT_EQ(rows[0].back(), "disc_steps_per_second");
+  EXPECT_EQ(rows[0].back(), "particle_steps_per_second");
   EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("<polygon data-name=\"1MPa\""), std::string::npos) << "a band";
   std::string const before = csv();
   EXPECT_EQ(study(two).code, 0);
@@ -80,8 +81,17 @@ TEST_F(StudyCommand, NamesAMemberThatFailsAndGoesOnWithTheOthers) {
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"failed", "finished", "finished"}));
   EXPECT_NE(cells("member", "message")[0].find(" without friction: looser than the 0.1 that was asked for"), std::string::npos)
       << csv();
-  EXPECT_NE(result.output.find("failed    void-ratio0.1-seed1: "), std::string::npos) << result.output;
-  EXPECT_NE(read_text_file(out / "study.html", 1 << 24).find("Members that are missing"), std::string::npos);
+  EXPECT_NE(result.output.find("failed    the specimen of specimen.void_ratio = 0.1, seed 1: refused: "), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("needed by void-ratio0.1-seed1\n"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("specimens 3, each for 1 member: 2 made, 1 could not be made\n"), std::string::npos)
+      << result.output;
+  std::string const why = " without friction: looser than";
+  EXPECT_EQ(result.output.find(why), result.output.rfind(why)) << "said once\n" << result.output;
+  std::string const page = read_text_file(out / "study.html", 1 << 24);
+  EXPECT_NE(page.find("Members that are missing"), std::string::npos);
+  for (std::string const& text : {result.output, page})
+    EXPECT_FALSE(std::regex_search(text, std::regex("[0-9a-f]{10}-seed"))) << "the name of a file is no name for people";
 }
 
 TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
@@ -101,6 +111,8 @@ TEST_F(StudyCommand, AsksTheGuardsOfAllGroupsBeforeItStarts) {
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"refused", "finished", "finished", "refused"}));
   EXPECT_NE(cells("member", "message")[0].find("inertial number"), std::string::npos) << csv();
   EXPECT_NE(skipped.output.find("2 finished, 2 refused by guards and left out"), std::string::npos) << skipped.output;
+  EXPECT_NE(skipped.output.find("specimens 1, each for 2 members\n"), std::string::npos) << skipped.output;
+  EXPECT_EQ(skipped.output.find("/4 members"), std::string::npos) << skipped.output;
   EXPECT_EQ(study(four, "--collect --skip-refused").code, 0);
   EXPECT_EQ(cells("member", "state")[3], "refused");
   CommandResult const ignored =
@@ -116,9 +128,18 @@ TEST_F(StudyCommand, SkipsGroupsWhoseSceneIsRefused) {
   for (char const* const part :
        {"the group particles20 would be refused: specimen.particles=20: the specimen is ", "1 of 2 groups would be refused"})
     EXPECT_NE(asked.output.find(part), std::string::npos) << part << "\n" << asked.output;
+  CommandResult const forecast = study(sizes, "--skip-refused --dry-run");
+  EXPECT_EQ(forecast.code, 0) << forecast.output;
+  EXPECT_TRUE(std::regex_search(forecast.output, std::regex("  members +1, .*; 1 refused by guards and left out\n")))
+      << forecast.output;
   CommandResult const skipped = study(sizes, "--skip-refused");
   EXPECT_EQ(skipped.code, 0) << skipped.output;
   EXPECT_EQ(cells("member", "state"), (std::vector<std::string>{"refused", "finished"}));
+  for (CommandResult const& result : {forecast, skipped})
+    EXPECT_TRUE(std::regex_search(result.output, std::regex("specimens +1, each for 1 member\n"))) << result.output;
+  std::size_t files = 0;
+  for (auto const& file : fs::directory_iterator(out / "specimens")) files += file.path().extension() == ".h5" ? 1 : 0;
+  EXPECT_EQ(files, 1u);
   EXPECT_EQ(study("seeds = 1\n[matrix]\nspecimen.particles = [5, 100]\n", "--skip-refused").code, 65) << "a mistake is none";
 }
 
@@ -147,7 +168,7 @@ TEST_F(StudyCommand, HasOnePrecedenceAndSaysWhatItSets) {
            {"test.confining_stress=3MPa", "'test.confining_stress' is what the groups of "},
            {"grains.friction=wet", "'grains.friction' needs a"}}) {
     CommandResult const refused = study(two, "--set " + set);
-    EXPECT_EQ(refused.code, 65) << refused.output;
+    EXPECT_EQ(refused.code, 64) << refused.output;
     EXPECT_NE(refused.output.find(why), std::string::npos) << refused.output;
   }
 }
@@ -198,7 +219,7 @@ TEST_F(StudyCommand, NamesAMemberWithABadNumberAndGoesOnWithTheOthers) {
   for (auto const& [number, bad] :
        std::vector<std::pair<std::string, std::string>>{{"\"peak_q_Pa\": ", "\"high\", \"was\": "},
                                                         {"\"shear\": ", "[1], \"was\": "},
-                                                        {"\"disc_steps_per_second\": ", "{}, \"was\": "}}) {
+                                                        {"\"particle_steps_per_second\": ", "{}, \"was\": "}}) {
     std::string text = whole;
     std::ofstream(record) << text.insert(text.rfind(number) + number.size(), bad);
     CommandResult const result = study(two);
@@ -239,10 +260,12 @@ TEST_F(StudyCommand, AddsSeedsUntilANumberIsKnown) {
   EXPECT_EQ(cells("mean", "n").front(), "6") << "five are enough, a sixth confirms it";
   CommandResult const few = study("seeds = 3\nmax_seeds = 3\n", "--precision-target peak_q_Pa=0.0001%");
   EXPECT_NE(few.output.find("with 3 seeds, not to 0.0001 %"), std::string::npos) << few.output;
-  CommandResult const wrong = study("", "--precision-target peek_q_Pa=1%");
-  EXPECT_EQ(wrong.code, 65);
-  EXPECT_NE(wrong.output.find("no member has a number 'peek_q_Pa'; did you mean 'peak_q_Pa'?"), std::string::npos)
-      << wrong.output;
+  CommandResult const wrong = study("", "--precision-target peek_q=1%");
+  EXPECT_EQ(wrong.code, 64);
+  EXPECT_TRUE(says(wrong, "--precision-target: error: names no number of a test: 'peek_q'; did you mean 'peak_q'?\n"));
+  CommandResult const in_file = study("precision_target = \"peek_q=1%\"\n");
+  EXPECT_EQ(in_file.code, 65);
+  EXPECT_TRUE(says(in_file, "many.toml:2:"));
 }
 
 TEST_F(StudyCommand, SaysWhatItCostsAndDoesNothing) {
@@ -250,6 +273,10 @@ TEST_F(StudyCommand, SaysWhatItCostsAndDoesNothing) {
   EXPECT_EQ(result.code, 0) << result.output;
   EXPECT_NE(result.output.find("many.toml: 2 groups of 2 seeds\n"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("  members            4, "), std::string::npos) << result.output;
+  EXPECT_TRUE(std::regex_search(result.output, std::regex("\n  shear +[0-9]+ s at "))) << result.output;
+  CommandResult const nothing = study(two, "--dry-run --quiet");
+  EXPECT_EQ(nothing.code, 64) << "it does nothing but print";
+  EXPECT_TRUE(says(nothing, "--dry-run excludes --quiet"));
   EXPECT_FALSE(fs::exists(out));
 }
 
@@ -279,7 +306,7 @@ TEST_F(StudyCommand, ByHandIsOneThatIsGoneOnWithAndStaysOutOfOthersFolders) {
   std::ofstream(out / "study.csv") << "my precious table";
   for (char const* const part : {"--collect", "--member 1", "--specimen 1", "--slurm array.sh", ""}) {
     CommandResult const result = study(two, part);
-    EXPECT_EQ(result.code, 77) << result.output;
+    EXPECT_EQ(result.code, 73) << result.output;
     EXPECT_EQ(csv(), "my precious table") << part;
   }
   fs::remove_all(out);
@@ -320,7 +347,7 @@ TEST_F(StudyCommand, SaysWhereAMistakeIs) {
        {"--precision-target peak_q_Pa", "--precision-target peak_q_Pa=0", "--precision-target peak_q_Pa=200%",
         "--launcher \"'open\"", "--max-walltime 0s", "--member 0"}) {
     CommandResult const result = study("", option);
-    EXPECT_TRUE(result.code == 64 || result.code == 65) << result.output;
+    EXPECT_EQ(result.code, 64) << result.output;
     EXPECT_NE(result.output.find(option.substr(0, option.find(' '))), std::string::npos) << result.output;
   }
   CommandResult const loose = study("seeds = 1\n", "--set specimen.void_ratio=0.9");
@@ -333,8 +360,13 @@ TEST_F(StudyCommand, RefusesGroupsThatAreTheSameAndAScenesFaultsOnce) {
   CommandResult const same = study("[groups.a]\ngrains.friction = 0.5\n[groups.b]\ntest.confining_stress = \"1 MPa\"\n");
   EXPECT_EQ(same.code, 65);
   EXPECT_NE(same.output.find("the groups a and b are the same scene"), std::string::npos) << same.output;
+  CommandResult const refused = study("[matrix]\ntest.inertial_number = [0.5]\ngrains.friction = [0.4, 0.5]\n");
+  EXPECT_NE(
+      refused.output.find("the groups inertial-number0.5_friction0.4 and inertial-number0.5_friction0.5 would be refused: "),
+      std::string::npos)
+      << refused.output;
   CommandResult const wrong = study("[matrix]\ntest.confining_stress = [\"1 MPa\", \"2 MPa\"]\n", "--set grains.fricton=1");
-  EXPECT_EQ(wrong.code, 65);
+  EXPECT_EQ(wrong.code, 64);
   std::string const text = "unknown key 'grains.fricton'";
   EXPECT_EQ(wrong.output.find(text), wrong.output.rfind(text)) << wrong.output;
 }

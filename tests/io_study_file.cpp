@@ -89,7 +89,7 @@ TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
                                        "\"hydrate.saturation\" = [\"1 mm\", \"2\"]\n\"run.seed\" = [1, 2]\n"
                                        "\"test.axial_strain\" = { from = \"1 %\", to = 0.2, count = 3 }\n");
   for (char const* const part :
-       {":2:9: error: unknown key 'sedes'; did you mean 'seeds'?; a study has", ":3:13: error: seed 1 is there twice",
+       {":2:9: error: unknown key 'sedes'; did you mean 'seeds'?\n", ":3:13: error: seed 1 is there twice",
         "error: unknown key 'test.confinig_stress' of a scene; did you mean 'test.confining_stress'?",
         ":6:25: error: 'hydrate.saturation' needs a",
         ":7:14: error: 'run.seed' cannot be varied here: 'seeds' of the study gives the seeds",
@@ -110,6 +110,22 @@ TEST_F(StudyFile, SaysAllThatIsWrongWithItsPlace) {
   EXPECT_NE(problems_of("scene = \"a\"\nseeds = 1 2\n").find(":2:"), std::string::npos) << "no TOML";
 }
 
+TEST_F(StudyFile, SaysWhatIsWrongOnce) {
+  auto const lines = [](std::string const& text) { return std::count(text.begin(), text.end(), '\n') + 1; };
+  for (auto const& [text, said] : std::vector<std::pair<std::string, std::string>>{
+           {base + "[matrix]\ntest.confining_stress = [\"1 Mpa\", \"2 Mpa\"]\n", "unknown unit 'Mpa' in '1 Mpa'"},
+           {base + "[specimen]\nparticles = 100\n[test]\naxial_strain = 0.1\n", "[specimen], [test] belong into the scene file"},
+           {"[specimen]\nparticles = 100\n[test]\naxial_strain = 0.1\n", "[specimen], [test] belong to a scene, and this is one"},
+           {base + "[groups.a]\ngrains.friction = 0.3\n[groups.b]\ngrains.friction = 0.4\n[matrix]\ngrains.friction = [1]\n",
+            "in [matrix] and in [groups.a]"},
+           {base + "[matrix]\n\"grains.friction\" = [0.3, 0.4]\ngrains.friction = 0.5\n",
+            "'grains.friction' is stated twice, in lines 3 and 4: leave one of them out"}}) {
+    std::string const problems = problems_of(text);
+    EXPECT_NE(problems.find(said), std::string::npos) << problems;
+    EXPECT_EQ(lines(problems), 1) << problems;
+  }
+}
+
 TEST_F(StudyFile, SaysWhichGroupASceneIsWrongIn) {
   Study const study = load(base + "[matrix]\nhydrate.saturation = \"55 %\"\nhydrate.temperature = [\"5 degC\", \"15 degC\"]\n");
   EXPECT_NO_THROW(member_scene(study, study.groups[0], 1));
@@ -117,7 +133,7 @@ TEST_F(StudyFile, SaysWhichGroupASceneIsWrongIn) {
     member_scene(study, study.groups[1], 1);
     ADD_FAILURE() << "taken";
   } catch (SceneProblems const& problems) {
-    EXPECT_NE(std::string(problems.what()).find("(in the group 15degC of "), std::string::npos) << problems.what();
+    EXPECT_NE(std::string(problems.what()).find("(in the group 15degC)"), std::string::npos) << problems.what();
   }
 }
 
@@ -205,9 +221,14 @@ TEST(StudyFiles, OfTheExamplesAreRight) {
 TEST(StudyGoal, IsANumberAndAWidth) {
   EXPECT_EQ(study_goal("peak_q_Pa=2%").width, 0.02);
   EXPECT_EQ(study_goal("peak_q_Pa=2%").number, "peak_q_Pa");
+  EXPECT_EQ(study_goal("peak_q=2%").number, "peak_q_Pa");
+  EXPECT_EQ(study_goal("peak_friction_angle=2%").number, "peak_friction_angle_deg");
+  EXPECT_THROW(number_of_name("peak_friction_angle", NumbersOf::tests), std::invalid_argument) << "one test has no envelope";
+  for (std::string const& name : number_names(NumbersOf::tests))
+    EXPECT_TRUE(number_of_name(name, NumbersOf::tests).starts_with(name));
   EXPECT_EQ(study_goal("peak_eps1= 0.05").width, 0.05);
   for (char const* const wrong :
-       {"peak_q_Pa", "=2%", "peak_q_Pa=", "peak_q_Pa=2 MPa", "peak_q_Pa=0", "peak_q_Pa=-1%", "peak_q_Pa=100%"})
+       {"peak_q_Pa", "=2%", "peak_q_Pa=", "peak_q_Pa=2 MPa", "peak_q_Pa=0", "peak_q_Pa=-1%", "peak_q_Pa=100%", "peek_q=2%"})
     EXPECT_THROW(study_goal(wrong), std::invalid_argument) << wrong;
 }
 

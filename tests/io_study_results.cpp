@@ -6,6 +6,7 @@
 #include <map>
 
 #include "file_content.hpp"
+#include "io/results/interval_text.hpp"
 #include "io/results/study_results.hpp"
 
 namespace clathra {
@@ -86,6 +87,16 @@ TEST_F(PlantedStudy, AveragesEnvelopesOfCompleteSeedsOnly) {
   EXPECT_NEAR(std::stod(means[0].at("peak_cohesion_Pa")), c.mean, 1e-3);
   EXPECT_NEAR(std::stod(high[0].at("peak_cohesion_Pa")), c.high(), 1e-3);
   EXPECT_NEAR(std::stod(means[0].at("peak_friction_angle_deg")), 30, 1e-9);
+}
+
+TEST(IntervalText, IsRoundedToTheSecondDigitOfTheInterval) {
+  EXPECT_EQ(with_error(3.0449, 0.1234), "3.04 ± 0.12");
+  EXPECT_EQ(with_error(1234.5, 113.7), "1230 ± 110");
+  EXPECT_EQ(with_error(-0.3, 11.2), "0 ± 11");
+  EXPECT_EQ(with_error(-12, 0.0996), "-12.00 ± 0.10");
+  EXPECT_EQ(with_error(100, 0), "100 ± 0");
+  EXPECT_EQ(interval_text(mean_interval({2.5e6}), 1e-6), "2.5");
+  EXPECT_EQ(interval_text(mean_interval({1e6, 2e6}), 1e-6), "1.5 ± 6.4");
 }
 
 }  // namespace

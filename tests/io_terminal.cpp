@@ -7,11 +7,25 @@
 
 #include "command.hpp"
 #include "io/errors/printable.hpp"
+#include "terminal/text.hpp"
 
 namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
+
+TEST(Durations, HaveTheirUnits) {
+  for (auto const& [seconds, text] : {std::pair{0.4, "0 s"},
+                                      {59.4, "59 s"},
+                                      {60., "1 min"},
+                                      {200., "3 min 20 s"},
+                                      {185., "3 min 05 s"},
+                                      {7500., "2 h 05 min"},
+                                      {7200., "2 h"},
+                                      {3 * 86400., "3 days"},
+                                      {-1., "?"}})
+    EXPECT_EQ(duration_text(seconds), text);
+}
 
 TEST(Printable, WritesControlCharactersOut) {
   EXPECT_EQ(printable("a\x1b[31mb\a\x7f"), "a\\x1b[31mb\\x07\\x7f");
@@ -70,7 +84,7 @@ TEST_F(Terminal, GetsNoControlCharacterOfASceneOrAName) {
 TEST_F(Terminal, GetsNoControlCharacterOfARecord) {
   scene(
       R"({"exit": {"reason": "finished", "code": 0}, "program": {"version": "\u001b[31m1", "git_hash": "a", "backend": "b",
-         "threads": 1}, "stages": {}, "wall_seconds": {}, "disc_steps_per_second": 1, "warnings": ["a\u001b[2Jb"]})",
+         "threads": 1}, "stages": {}, "wall_seconds": {}, "particle_steps_per_second": 1, "warnings": ["a\u001b[2Jb"]})",
       "run.json");
   expect_escaped("info " + (folder / "run.json").string(), "warning: a\\x1b[2Jb", 0);
 }

@@ -97,6 +97,10 @@ TEST(Units, AHintSaysHowToWriteWhatWasMeant) {
   EXPECT_EQ(said("3 /s", Dimension::rate), "has an unknown unit '' in '3 /s'; a rate is written 1/s");
   EXPECT_EQ(said("26 percent", Dimension::ratio), "has an unknown unit 'percent' in '26 percent'; did you mean '%'?");
   EXPECT_EQ(said("0.9 g/cc", Dimension::density), "has an unknown unit 'cc' in '0.9 g/cc'; did you mean 'cm^3'?");
+  for (char const* const angle : {"30deg", "30 degrees", "30\xc2\xb0", "0.5235987755982988 rad"})
+    EXPECT_NE(said(angle, Dimension::ratio).find(", where a coefficient is needed: the tangent of the angle, 0.577"),
+              std::string::npos)
+        << said(angle, Dimension::ratio);
   EXPECT_EQ(said("2 g/cm3", Dimension::density), "has an unknown unit 'cm3' in '2 g/cm3'; did you mean 'cm^3'?");
 }
 
@@ -138,6 +142,9 @@ TEST(Units, WhatIsWrittenReadsBackToTheSameBits) {
   EXPECT_EQ(format_quantity(0.1694e-3, Dimension::length), "0.1694 mm");
   EXPECT_EQ(format_quantity(5, Dimension::temperature), "5 degC");
   EXPECT_EQ(format_quantity(0.26, Dimension::ratio), "0.26");
+  EXPECT_EQ(format_quantity(30000, Dimension::density), "30000 kg/m^3");
+  EXPECT_EQ(format_quantity(1e-12, Dimension::rate), "1e-12 1/s");
+  EXPECT_EQ(format_quantity(0, Dimension::pressure), "0");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 # Packs the build tree as a .deb and looks at its list of contents. Run by ctest as
-#   cmake -DBUILD=<build folder> -DCPACK=<cpack> -DDPKG_DEB=<dpkg-deb> -DFOLDER=<scratch> -P package_test.cmake
+#   cmake -DBUILD=<build folder> -DCPACK=<cpack> -DDPKG_DEB=<dpkg-deb> -DVERSION=<of the project> -DFOLDER=<scratch> -P package_test.cmake
 cmake_minimum_required(VERSION 3.22)
 
 file(REMOVE_RECURSE ${FOLDER})
@@ -40,7 +40,15 @@ foreach(line "-rwxr-xr-x root/root [^\n]*/usr/bin/clathra\n" "-rw-r--r-- root/ro
   endif()
 endforeach()
 
-execute_process(COMMAND ${DPKG_DEB} --field ${package} Package Depends OUTPUT_VARIABLE fields COMMAND_ERROR_IS_FATAL ANY)
-if(NOT fields MATCHES "Package: clathra\n" OR NOT fields MATCHES "Depends: [^\n]*libc6 [^\n]*libhdf5")
-  message(SEND_ERROR "name or dependencies of the package are wrong:\n${fields}")
+execute_process(COMMAND ${DPKG_DEB} --extract ${package} ${FOLDER}/root COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${FOLDER}/root/usr/bin/clathra --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+if(NOT help MATCHES "docs/NAME.md: [^\n]*/root/usr/share/doc/clathra\n" OR NOT EXISTS ${FOLDER}/root/usr/share/doc/clathra/output.md)
+  message(SEND_ERROR "the help does not say where the pages are:\n${help}")
 endif()
+
+execute_process(COMMAND ${DPKG_DEB} --field ${package} OUTPUT_VARIABLE fields COMMAND_ERROR_IS_FATAL ANY)
+foreach(field "Package: clathra" "Version: ${VERSION}" "Maintainer: Clathra developers" "Depends: [^\n]*libc6 [^\n]*libhdf5[^\n]*")
+  if(NOT fields MATCHES "(^|\n)${field}\n")
+    message(SEND_ERROR "the package lacks the field ${field}:\n${fields}")
+  endif()
+endforeach()

@@ -271,7 +271,8 @@ TEST(UnderCompaction, OfAGapGradedSandMakesASpecimen) {
   scene.run.seed = 36;
   GeneratedSpecimen const made = generate_specimen(scene, {});
   EXPECT_NEAR(made.specimen.void_ratio, 0.2, 0.001);
-  EXPECT_NEAR(predict(scene).at("generation_disc_steps") / made.record.at("disc_steps"), 1, 0.5) << "knows how wide the curve is";
+  EXPECT_NEAR(predict(scene).at("generation_particle_steps") / made.record.at("particle_steps"), 1, 0.5)
+      << "knows how wide the curve is";
   fs::remove(curve);
 }
 

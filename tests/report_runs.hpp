@@ -22,6 +22,7 @@ struct MadeUpTest {
   double saturation = 0.55;
   bool energy = false;
   std::vector<std::string> overrides = {};  ///< of the scene in run.json
+  int breaking = 1;                         ///< bonds that break in each mode from record to record
 
   double q(double eps1) const {
     constexpr double residual_eps1 = 0.08;
@@ -45,8 +46,8 @@ inline HistoryRow made_up_row(MadeUpTest const& test, int i) {
   row.void_ratio = 0.24;
   if (test.saturation > 0) {
     row.bonds_intact = 1000 - 2 * i;
-    row.broken[BreakMode::rolling] = i;
-    row.broken[BreakMode::shear] = i;
+    row.broken[BreakMode::rolling] = test.breaking * i;
+    row.broken[BreakMode::shear] = test.breaking * i;
     row.bonds_intact_pct = static_cast<double>(row.bonds_intact) / 10;
   }
   return row;

@@ -58,7 +58,7 @@ grep -q "this run is finished" log || fail "does not know that the run is finish
 compare killed
 code=0
 "$clathra" "${given[@]}" --output killed --resume --set damping.local=0.2 >log 2>&1 || code=$?
-[ "$code" = 77 ] && grep -q "finished run of another scene" log || fail "would destroy another scene's results ($code)"
+[ "$code" = 73 ] && grep -q "finished run of another scene" log || fail "would destroy another scene's results ($code)"
 compare killed
 
 # Asked to stop: the step's end, a checkpoint, 75.
@@ -71,7 +71,7 @@ hash=$("$clathra" info --state-hash stopped/ckpt/0.h5)
 [ "${#hash}" = 18 ] || fail "a checkpoint without a state hash: '$hash'"
 code=0
 "$clathra" "${given[@]}" --output stopped --resume --set bond.rolling_lever="1 mm" >log 2>&1 || code=$?
-[ "$code" = 77 ] && grep -q "bond.rolling_lever was .*, is" log || fail "a checkpoint of another scene is not refused with the key ($code)"
+[ "$code" = 73 ] && grep -q "bond.rolling_lever was .*, is" log || fail "a checkpoint of another scene is not refused with the key ($code)"
 grep -q "rod_mm" stopped/run.json && fail "a refused scene left its record in the folder"
 printf 'x' | dd of=stopped/ckpt/0.h5 bs=1 seek=5000 conv=notrunc 2>/dev/null
 code=0
@@ -79,7 +79,7 @@ code=0
 [ "$code" = 66 ] && grep -q "has digest" log || fail "a damaged checkpoint is not refused ($code)"
 code=0
 start 2 "${given[@]}" --output stopped --max-walltime "$(seconds $quarter)s" >log 2>&1 || code=$?
-[ "$code" = 77 ] && grep -q "holds a run that is not finished" log || fail "a run that is not finished is not kept ($code)"
+[ "$code" = 73 ] && grep -q "holds a run that is not finished" log || fail "a run that is not finished is not kept ($code)"
 code=0
 start 2 "${given[@]}" --output stopped --overwrite --max-walltime "$(seconds $quarter)s" >log 2>&1 || code=$?
 [ "$code" = 75 ] || fail "code $code at the second try"

@@ -30,7 +30,7 @@ def plant(folder, seed, numbers, q, finished=True, energy=False, rate=1e-4, **ru
     member = folder / f"members/{len(list(folder.glob('members/*')))}"
     member.mkdir(parents=True)
     scene = {**SCENE, "run": {**SCENE["run"], **run}, "test": {**SCENE["test"], "inertial_number": rate}}
-    document = {"scene": scene, "seed": seed, "disc_steps": 1000, "input": {"specimen_digest_xxh3_128": f"{seed:x}".ljust(32, "0")},
+    document = {"scene": scene, "seed": seed, "particle_steps": 1000, "input": {"specimen_digest_xxh3_128": f"{seed:x}".ljust(32, "0")},
                 "stages": {"plan": {"particles": 2000.0, "inertial_number": rate}, "shear": numbers}, "exit": {"reason": "finished" if finished else "stopped"}}
     (member / "run.json").write_text(json.dumps(document))
     with open(member / "history.csv", "w", newline="") as file:

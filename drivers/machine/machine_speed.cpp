@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr double assumed_rate = 15e6;  // disc-steps a second and thread, the floor that the program is held to
+constexpr double assumed_rate = 15e6;  // particle-steps a second and thread, the floor that the program is held to
 constexpr std::size_t largest_cache = 1 << 20;
 
 /// Empty where there is no place for it.
@@ -60,28 +60,39 @@ void keep(fs::path const& file, std::string const& key, double rate) {
   }
 }
 
-double measured(int threads, bool bonded, std::string const& precision) {
-  if (!is_quiet()) print_error("clathra: measuring the speed of this machine, once for each kind of test (a few seconds)");
-  std::string const json =
-      output_of_own_program({"bench", "--json", "--case", bonded ? "bonded" : "rolling", "--particles", "2000", "--seconds",
-                             "0.7", "--precision", precision, "--threads", fmt::format("{}", threads)});
-  return Json::parse(json).at("disc_steps_per_second").get<double>();
+/// The size to measure for a specimen: what a step costs besides its particles shows in small ones, what memory costs in large.
+int size_to_measure(double particles) {
+  constexpr int sizes[] = {250, 500, 1000, 2000, 20'000, 200'000};
+  int best = sizes[0];
+  for (int const size : sizes)
+    if (size <= particles) best = size;
+  return best;
+}
+
+double measured(int threads, bool bonded, std::string const& precision, int particles) {
+  if (!is_quiet())
+    print_error("clathra: measuring the speed of this machine, once for each kind and size of test (some seconds)");
+  std::string const json = output_of_own_program({"bench", "--json", "--case", bonded ? "bonded" : "rolling", "--particles",
+                                                  fmt::format("{}", particles), "--seconds", "0.7", "--precision", precision,
+                                                  "--threads", fmt::format("{}", threads)});
+  return Json::parse(json).at("particle_steps_per_second").get<double>();
 }
 
 }  // namespace
 
-MachineSpeed machine_speed(Scene const& scene, int ranks, bool may_measure) {
+MachineSpeed machine_speed(Scene const& scene, double particles, int ranks, bool may_measure) {
   int const threads = thread_count(scene.run.threads);
   bool const bonded = has_bonds(scene);
   fs::path const file = cache_file();
   std::string const precision = precision_names[static_cast<int>(scene.run.precision)];
-  std::string const key = fmt::format("{} {},{}, {} threads, {}, {}", CLATHRA_VERSION, CLATHRA_GIT_HASH, processor(), threads,
-                                      bonded ? "bonded" : "rolling", precision);
+  int const size = size_to_measure(particles);
+  std::string const key = fmt::format("{} {},{}, {} threads, {}, {}, {} particles", CLATHRA_VERSION, CLATHRA_GIT_HASH,
+                                      processor(), threads, bonded ? "bonded" : "rolling", precision, size);
   Json const all = kept(file);
   double rate = 0;
   if (auto const found = all.find(key); found != all.end() && found->is_number()) rate = found->get<double>();
   if (!(rate > 0) && may_measure) {
-    rate = measured(threads, bonded, precision);
+    rate = measured(threads, bonded, precision, size);
     keep(file, key, rate);
   }
   if (!(rate > 0)) return {assumed_rate * threads * ranks, "assumed"};

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
@@ -15,6 +16,7 @@
 #include "domain/parallel/ranks.hpp"
 #include "io/formats/hdf5_file.hpp"
 #include "io/results/run_record.hpp"
+#include "machine/processes.hpp"
 
 namespace clathra {
 namespace {
@@ -73,6 +75,14 @@ std::string version_and_libraries() {
 }
 
 std::string own_version() { return version_text(CLATHRA_VERSION, CLATHRA_GIT_HASH); }
+
+std::string pages_folder() {
+  std::error_code ignored;
+  std::filesystem::path const installed = std::filesystem::path(own_path()).parent_path().parent_path() / "share/doc/clathra";
+  return std::filesystem::exists(installed / "README.md", ignored)
+             ? installed.string()
+             : "in the source of Clathra; an installed program has them in share/doc/clathra";
+}
 
 std::string output_of_own_program(std::vector<std::string> const& arguments) {
   int ends[2];

@@ -10,6 +10,7 @@
 #include "io/results/paper_numbers.hpp"
 #include "io/results/scorecard.hpp"
 #include "machine/own_program.hpp"
+#include "study/study_outcome.hpp"
 #include "terminal/print.hpp"
 #include "terminal/text.hpp"
 
@@ -51,10 +52,8 @@ ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, Pro
     write_paper_report({plan.study, plan.members, folders, outcome.design, card, scene, d50, outcome.data},
                        out / "reproduce.html");
   line.repeat_warnings();
-  std::string text = fmt::format("tests     {} of {} finished\n", finished, plan.members.size());
-  for (std::size_t i = 0; i < plan.members.size(); ++i)
-    if (plan.members[i].state == MemberState::failed)
-      text += "failed    " + plan.runs[i].name + ": " + plan.members[i].message + "\n";
+  std::string text = fmt::format("members   {} of {} finished\n", finished, plan.members.size());
+  text += failures_text(plan);
   for (Claim const& claim : card.claims)
     text += fmt::format("{:>5}     {:<13} {}\n", "(" + claim.id + ")", name_of(claim.verdict()), claim.words);
   text += fmt::format("claims    {}\nresults   {}\n", tally(card.claims), (out / "scorecard.md").string());

@@ -9,6 +9,7 @@
 #include "domain/biaxial/scene_needs.hpp"
 #include "domain/measurement/disc_grading.hpp"
 #include "io/results/export.hpp"
+#include "io/results/stage_numbers.hpp"
 
 namespace clathra {
 namespace {
@@ -62,7 +63,10 @@ std::string number_text(nlohmann::json const& value) {
 /// The numbers of a stage, one a line under its name.
 std::string stage_text(std::string const& stage, nlohmann::json const& numbers) {
   std::string text = stage + "\n";
-  for (auto const& [name, value] : numbers.items()) text += fmt::format("  {:<30} {}\n", name, number_text(value));
+  for (auto const& [name, value] : numbers.items()) {
+    std::string const meaning = meaning_of(stage, name);
+    text += fmt::format("  {:<32} {:<12}{}\n", name, number_text(value), meaning.empty() ? "" : "  " + meaning);
+  }
   return text;
 }
 
@@ -136,7 +140,8 @@ std::string run_text(nlohmann::json const& record) {
     if (stages.contains(stage)) text += stage_text(stage, stages.at(stage));
   for (auto const& [stage, seconds] : record.at("wall_seconds").items())
     text += fmt::format("{:<18} {} s\n", "time of " + stage, number_text(seconds));
-  text += fmt::format("{:<18} {:.4g} M\n", "disc-steps/s", record.at("disc_steps_per_second").get<double>() * 1e-6);
+  if (double const rate = record.at("particle_steps_per_second"); rate > 0)
+    text += fmt::format("{:<18} {:.4g} M\n", "particle-steps/s", rate * 1e-6);
   for (auto const& warning : record.at("warnings")) text += "warning: " + warning.get<std::string>() + "\n";
   if (record.contains("state_hash")) text += fmt::format("{:<18} {}\n", "state hash", record.at("state_hash").get<std::string>());
   return text;

@@ -38,12 +38,12 @@ RateNumbers rate_of(StageRecord const& n) {
 std::string expected_error_text(Scene const& scene, StageRecord const& numbers) {
   ExpectedError const expected = expected_error(scene, rate_of(numbers));
   if (!expected.peak_q) return "not measured: " + expected.range;
-  return fmt::format("{:+.1f} +- {:.1f} % against slow shear in double precision ({})", 100 * expected.peak_q->error,
+  return fmt::format("{:+.1f} ± {:.1f} % against slow shear in double precision ({})", 100 * expected.peak_q->error,
                      100 * expected.peak_q->half_width, expected.range);
 }
 
 double generation_seconds(StageRecord const& n, MachineSpeed const& speed) {
-  return n.at("generation_disc_steps") / (generation_speedup * speed.disc_steps_per_second);
+  return n.at("generation_particle_steps") / (generation_speedup * speed.disc_steps_per_second);
 }
 
 /// Of the file system that the results would go to, or nothing where it cannot be asked.
@@ -90,7 +90,7 @@ std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& f
   std::vector<std::string> warnings = input.warnings;
   warnings.insert(warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
   if (input.scene.run.ignore_guards)
-    for (std::string const& refusal : forecast.refusals) warnings.push_back("guard ignored: " + refusal);
+    for (std::string const& refusal : forecast.refusals) warnings.push_back(guard_ignored + refusal);
   return warnings;
 }
 
@@ -126,10 +126,11 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
                     fmt::format("{:.3g} ({}quasi-static below {:g})", n.at("inertial_number"), lowered, inertial_warning(scene)));
   text += table_row("wave stress W", fmt::format("{:.3g} (quasi-static below {:g})", n.at("platen_wave_stress"), wave_limit));
   text += table_row("error of peak q", expected_error_text(scene, n));
-  text += table_row("steps", fmt::format("{} ({} disc-steps)", short_count(n.at("steps")), short_count(n.at("disc_steps"))));
+  text +=
+      table_row("steps", fmt::format("{} ({} particle-steps)", short_count(n.at("steps")), short_count(n.at("particle_steps"))));
   double const generation = generation_seconds(n, speed);
   if (generation > 0) text += table_row("generation", fmt::format("about {}", duration_text(generation)));
-  text += table_row("shear", fmt::format("{} at {} disc-steps/s ({})", hours(n.at("disc_steps")),
+  text += table_row("shear", fmt::format("{} at {} particle-steps/s ({})", hours(n.at("particle_steps")),
                                          short_count(speed.disc_steps_per_second), speed.origin));
   double const literal = scene.test.axial_strain / (paper_rate * n.at("time_step_s"));
   text += table_row("at 5 %/min", fmt::format("{} steps, {}", short_count(literal), hours(literal * n.at("particles"))));
@@ -142,13 +143,16 @@ nlohmann::ordered_json forecast_json(Scene const& scene, Forecast const& forecas
   StageRecord const& n = forecast.numbers;
   ExpectedError const expected = expected_error(scene, rate_of(n));
   nlohmann::ordered_json json = {{"forecast", n},
-                                 {"disc_steps_per_second", speed.disc_steps_per_second},
+                                 {"particle_steps_per_second", speed.disc_steps_per_second},
                                  {"generation_seconds", generation_seconds(n, speed)},
-                                 {"shear_seconds", n.at("disc_steps") / speed.disc_steps_per_second},
+                                 {"shear_seconds", n.at("particle_steps") / speed.disc_steps_per_second},
                                  {"refusals", forecast.refusals}};
   json["error_of_peak_q"] = nullptr;
-  if (expected.peak_q) json["error_of_peak_q"] = {{"mean", expected.peak_q->error}, {"half_width", expected.peak_q->half_width}};
-  json["error_of_peak_q_measured_on"] = expected.range;
+  if (expected.peak_q)
+    json["error_of_peak_q"] = {
+        {"mean", expected.peak_q->error}, {"half_width", expected.peak_q->half_width}, {"measured_on", expected.range}};
+  else
+    json["error_of_peak_q_not_measured"] = expected.range;
   return json;
 }
 

@@ -36,7 +36,7 @@ std::vector<std::string> warnings_of(LoadedScene const& input, Forecast const& f
 /// The same as lines.
 std::string warnings_text(LoadedScene const& input, Forecast const& forecast);
 
-/// Discs that are packed have few contacts, no bonds and mixed precision: so many times as many disc-steps a second as in the
+/// Discs that are packed have few contacts, no bonds and mixed precision: so many times as many particle-steps a second as in the
 /// shear.
 inline constexpr double generation_speedup = 2;
 

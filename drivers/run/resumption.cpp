@@ -18,7 +18,7 @@ Resumption resume_from(FoundCheckpoint const& checkpoint, std::filesystem::path 
   on_each(ranks, [&] { resumed.history = read_history(folder / "history.csv", checkpoint.progress.history.bytes); });
   resumed.test = std::make_unique<BiaxialTest>(scene, read_checkpoint(checkpoint, scene, ranks), ranks);
   if (double const strain = resumed.test->axial_strain(); scene.test.axial_strain < strain * (1 - 1e-3))
-    throw FileProblem(ExitCode::refused, folder,
+    throw FileProblem(ExitCode::cannot_create, folder,
                       fmt::format("the test is at an axial strain of {:.4g} % already, test.axial_strain is {:.4g} %",
                                   strain * 100, scene.test.axial_strain * 100));
   std::string const hash = hash_text(resumed.test->state_hash());
@@ -41,7 +41,7 @@ Resumption resume_run(FoundCheckpoints const& found, std::filesystem::path const
       for (FileProblem const& problem : problems) resumed.passed_over.emplace_back(problem.what());
       return resumed;
     } catch (FileProblem const& problem) {
-      if (problem.code == ExitCode::refused) throw;  // another scene: the other generation is, too
+      if (problem.code == ExitCode::refused || problem.code == ExitCode::cannot_create) throw;  // so would the other generation
       problems.push_back(problem);
     }
   }

@@ -16,7 +16,7 @@ struct Resumption {
 
 /// Takes the newest checkpoint that serves: its files are whole, it gives the state that it was written with, and the rows that
 /// were written before it stand in the folder as they were. Nothing is changed. Collective.
-/// @throws FileProblem refused where they are of another scene, bad_input or file_missing where none serves
+/// @throws FileProblem cannot_create where they are of another scene, bad_input or file_missing where none serves
 Resumption resume_run(FoundCheckpoints const& found, std::filesystem::path const& folder, Scene const& scene, Ranks const& ranks);
 
 }  // namespace clathra

@@ -43,14 +43,14 @@ void RunSession::look_for_an_earlier_part() {
 void RunSession::look_at_what_the_folder_holds() {
   if (!limits_.resume && !limits_.overwrite)
     if (std::optional<KeptRun> const kept = kept_run(folder_))
-      throw FileProblem(ExitCode::refused, folder_,
+      throw FileProblem(ExitCode::cannot_create, folder_,
                         fmt::format("holds {}: --output names another folder, {}--overwrite puts the new run in its place",
                                     kept->what, kept->can_go_on ? "--resume goes on with it, " : ""));
   replaces_ = holds_results(folder_);
   std::error_code ignored;
   if (replaces_ && scene().specimen.is_read() &&
       std::filesystem::equivalent(scene().specimen.file, folder_ / "final.h5", ignored))
-    throw FileProblem(ExitCode::refused, scene().specimen.file,
+    throw FileProblem(ExitCode::cannot_create, scene().specimen.file,
                       "is a result that the new run would take the place of: copy it elsewhere, or choose another folder");
   forget_next_specimen();  // of a run that was killed
 }

@@ -16,7 +16,7 @@ std::string Speedometer::text(double fraction, std::int64_t disc_steps) const {
   double const passed = seconds();
   if (disc_steps <= 0 || fraction <= from_) return "...";
   double const left = passed * std::max(0.0, 1 - fraction) / (fraction - from_);
-  return fmt::format("{} disc-steps/s | ETA {}", short_count(static_cast<double>(disc_steps) / passed), duration_text(left));
+  return fmt::format("{} particle-steps/s | ETA {}", short_count(static_cast<double>(disc_steps) / passed), duration_text(left));
 }
 
 ProgressCallback show_stage(ProgressLine& line, Ranks const& ranks) {

@@ -9,12 +9,12 @@ namespace clathra {
 /// A callback for generation and consolidation: shows each report with its rate, and asks to stop after Ctrl-C on any rank.
 ProgressCallback show_stage(ProgressLine& line, Ranks const& ranks);
 
-/// Disc-steps per second and the time left, counted from its construction.
+/// Particle-steps per second and the time left, counted from its construction.
 class Speedometer {
  public:
   /// @param from  the fraction at which it begins
   explicit Speedometer(double from = 0) : from_(from) {}
-  /// "31 M disc-steps/s | ETA 00:41", or "..." while there is too little to tell from.
+  /// "31 M particle-steps/s | ETA 41 s", or "..." while there is too little to tell from.
   std::string text(double fraction, std::int64_t disc_steps) const;
   double seconds() const;
 

@@ -44,7 +44,7 @@ ExitCode write_script(StudyPlan const& plan, SlurmJobs const& jobs) {
   std::vector<StudyGroup> groups;
   for (std::size_t g = 0; g < study.groups.size(); ++g)
     if (std::none_of(plan.members.begin(), plan.members.end(),
-                     [g](MemberResult const& m) { return m.group == g && m.state == MemberState::refused; }))
+                     [g](MemberResult const& m) { return m.group == g && is_refused(m); }))
       groups.push_back(study.groups[g]);
   study.groups = std::move(groups);
   StudyPlan script_plan = plan_study(std::move(study));

@@ -21,9 +21,13 @@ StudyForecast study_forecast(StudyPlan const& plan, int parallel, int threads) {
   StudyForecast forecast{parallel, threads};
   for (StudyTask const& task : plan.runs) runs += task.disc_steps, forecast.disk_bytes += task.disk;
   for (StudyTask const& task : plan.specimens) specimens += task.disc_steps;
-  Scene scene = member_scene(plan.study, plan.study.groups.back(), plan.study.seeds.front()).scene;
+  StudyGroup unguarded = plan.study.groups.back();
+  unguarded.settings.emplace_back("run.ignore_guards", "true");
+  Scene scene = member_scene(plan.study, unguarded, plan.study.seeds.front()).scene;
   scene.run.threads = threads;
-  MachineSpeed const speed = machine_speed(scene, 1, true);
+  auto const fewest = std::min_element(plan.runs.begin(), plan.runs.end(),
+                                       [](StudyTask const& a, StudyTask const& b) { return a.particles < b.particles; });
+  MachineSpeed const speed = machine_speed(scene, fewest == plan.runs.end() ? 0 : fewest->particles, 1, true);
   forecast.disc_steps_per_second = speed.disc_steps_per_second * parallel;
   forecast.speed_origin = speed.origin;
   forecast.generation_seconds = specimens / (generation_speedup * forecast.disc_steps_per_second);
@@ -35,11 +39,13 @@ StudyForecast study_forecast(StudyPlan const& plan, int parallel, int threads) {
 std::string study_forecast_text(StudyPlan const& plan, StudyForecast const& forecast) {
   std::string text = fmt::format("{}: {} groups of {} seed{}\n", plan.study.file.string(), plan.study.groups.size(),
                                  plan.study.seeds.size(), plan.study.seeds.size() == 1 ? "" : "s");
-  text += table_row("members", fmt::format("{}, {} at a time with {} thread{} each", plan.runs.size(), forecast.parallel,
-                                           forecast.threads, forecast.threads == 1 ? "" : "s"));
+  auto const refused = std::count_if(plan.members.begin(), plan.members.end(), is_refused);
+  text += table_row("members", fmt::format("{}, {} at a time with {} thread{} each{}", std::ssize(plan.runs) - refused,
+                                           forecast.parallel, forecast.threads, forecast.threads == 1 ? "" : "s",
+                                           refused > 0 ? fmt::format("; {} refused by guards and left out", refused) : ""));
   text += table_row("specimens", sharing_text(plan));
   text += table_row("generation", duration_text(forecast.generation_seconds));
-  text += table_row("shear", fmt::format("{} at {} disc-steps/s ({})", duration_text(forecast.shear_seconds),
+  text += table_row("shear", fmt::format("{} at {} particle-steps/s ({})", duration_text(forecast.shear_seconds),
                                          short_count(forecast.disc_steps_per_second), forecast.speed_origin));
   text += table_row("memory", fmt::format("{:.3g} GB", forecast.memory_bytes * 1e-9));
   text += table_row("disk", fmt::format("{:.3g} GB", forecast.disk_bytes * 1e-9));
@@ -52,19 +58,20 @@ std::string study_forecast_text(StudyPlan const& plan, StudyForecast const& fore
 
 nlohmann::ordered_json study_forecast_json(StudyPlan const& plan, StudyForecast const& forecast) {
   nlohmann::ordered_json members = nlohmann::json::array();
-  for (StudyTask const& task : plan.runs)
-    members.push_back({{"name", task.name},
-                       {"disc_steps", task.disc_steps},
-                       {"memory_bytes", task.memory},
-                       {"disk_bytes", task.disk},
-                       {"refusals", task.refusals}});
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    members.push_back({{"name", plan.runs[i].name},
+                       {"left_out", is_refused(plan.members[i])},
+                       {"particle_steps", plan.runs[i].disc_steps},
+                       {"memory_bytes", plan.runs[i].memory},
+                       {"disk_bytes", plan.runs[i].disk},
+                       {"refusals", plan.runs[i].refusals}});
   return {{"study", plan.study.file.string()},
           {"groups", plan.study.groups.size()},
           {"seeds", plan.study.seeds.size()},
           {"specimens", plan.specimens.size()},
           {"parallel", forecast.parallel},
           {"threads", forecast.threads},
-          {"disc_steps_per_second", forecast.disc_steps_per_second},
+          {"particle_steps_per_second", forecast.disc_steps_per_second},
           {"generation_seconds", forecast.generation_seconds},
           {"shear_seconds", forecast.shear_seconds},
           {"memory_bytes", forecast.memory_bytes},

@@ -1,13 +1,12 @@
 #include "study/study_goal.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 
-#include "domain/measurement/test_numbers.hpp"
-#include "io/scene/schema.hpp"
-#include "kernels/break_mode.hpp"
+#include "io/results/interval_text.hpp"
 
 namespace clathra {
 namespace {
@@ -20,15 +19,17 @@ std::vector<std::uint64_t> seeds_of(StudyPlan const& plan, std::size_t group) {
   return seeds;
 }
 
-std::string interval_text(GroupNumbers const& group, char const* name, char const* words, char const* unit, double factor) {
+std::string number_text(GroupNumbers const& group, char const* name, char const* words, char const* unit, double factor) {
   auto const found = group.values.find(name);
   if (found == group.values.end()) return {};
-  MeanInterval const m = mean_interval(found->second);
-  std::string text = fmt::format("{} {:.4g}", words, m.mean * factor);
-  if (m.half_width) text += fmt::format(" ± {:.2g}", *m.half_width * factor);
-  text += std::string(" ") + unit;
+  std::string text = fmt::format("{} {} {}", words, interval_text(mean_interval(found->second), factor), unit);
   if (found->second.size() != group.seeds.size()) text += fmt::format(" (of {})", found->second.size());
   return text;
+}
+
+std::string rising_text(GroupNumbers const& group) {
+  std::size_t const rising = group.without_peak();
+  return rising == 0 ? "" : fmt::format(" (still rising in {} of {})", rising, group.seeds.size());
 }
 
 std::string line_of(GroupNumbers const& group, std::vector<std::string> const& parts) {
@@ -41,33 +42,15 @@ std::string line_of(GroupNumbers const& group, std::vector<std::string> const& p
 
 }  // namespace
 
-std::vector<std::string> known_numbers() {
-  TestNumbers every;
-  every.secant_modulus = every.dilation_angle = 0;
-  std::vector<std::string> names;
-  for (auto const& entry : record_of(every)) names.push_back(entry.first);
-  for (BreakModeNames const& mode : break_modes) names.emplace_back(mode.broken);
-  return names;
-}
-
-void require_known_number(StudyGoal const& goal) {
-  std::vector<std::string> names = known_numbers();
-  for (char const* const state : {"peak", "residual"})
-    for (char const* const number : {"_cohesion_Pa", "_friction_angle_deg"}) names.push_back(std::string(state) + number);
-  if (std::find(names.begin(), names.end(), goal.number) != names.end()) return;
-  std::vector<std::string_view> const views(names.begin(), names.end());
-  std::string all;
-  for (std::string const& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw SceneProblems({{"--precision-target", 0, 0,
-                        fmt::format("no member has a number '{}'{}; there are {}", goal.number.substr(0, 60),
-                                    name_suggestion(goal.number, views), all)}});
-}
-
 std::map<std::string, GoalSearch::Searched> GoalSearch::collect(StudyPlan const& plan) const {
   std::map<std::string, Searched> found;
   bool const of_envelope = goal_->number.ends_with("_cohesion_Pa") || goal_->number.ends_with("_friction_angle_deg");
+  std::set<std::size_t> refused;
+  for (MemberResult const& member : plan.members)
+    if (is_refused(member)) refused.insert(member.group);
   for (std::size_t g = 0; g < plan.study.groups.size(); ++g) {
     StudyGroup const& group = plan.study.groups[g];
+    if (refused.contains(g)) continue;
     Searched& searched =
         found.try_emplace(of_envelope ? group.material : group.name, Searched{{}, SequentialMean(goal_->width), {}})
             .first->second;
@@ -112,11 +95,11 @@ bool GoalSearch::add_members(StudyPlan& plan, ProgressLine& line) {
 std::string statistics_text(StudyPlan const& plan) {
   std::string text;
   for (GroupNumbers const& group : numbers_by_group(plan.study, plan.members))
-    text += line_of(group, {interval_text(group, "peak_q_Pa", "peak q", "MPa", 1e-6),
-                            interval_text(group, "residual_q_Pa", "residual q", "MPa", 1e-6)});
+    text += line_of(group, {number_text(group, "peak_q_Pa", "peak q", "MPa", 1e-6) + rising_text(group),
+                            number_text(group, "residual_q_Pa", "residual q", "MPa", 1e-6)});
   for (GroupNumbers const& material : envelopes_by_material(plan.study, plan.members))
-    text += line_of(material, {interval_text(material, "peak_cohesion_Pa", "c", "MPa", 1e-6),
-                               interval_text(material, "peak_friction_angle_deg", "φ", "°", 1)});
+    text += line_of(material, {number_text(material, "peak_cohesion_Pa", "c", "MPa", 1e-6),
+                               number_text(material, "peak_friction_angle_deg", "φ", "°", 1)});
   return text.empty() ? text : "mean" + text.substr(4);
 }
 

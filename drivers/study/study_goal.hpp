@@ -9,12 +9,6 @@
 
 namespace clathra {
 
-/// Names of the numbers of members that people ask for; more stand in study.csv.
-std::vector<std::string> known_numbers();
-
-/// @throws SceneProblems where no member has a number of that name, with a suggestion
-void require_known_number(StudyGoal const& goal);
-
 /// Follows the goal of a study, wave by wave: each group (each material, where the number is one of its envelopes) has its own
 /// number of seeds. What it decides follows from the results alone, so a study that is resumed decides the same again.
 class GoalSearch {

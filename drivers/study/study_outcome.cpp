@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/formats/text_file.hpp"
 #include "io/report/study_report.hpp"
 #include "study/study_goal.hpp"
@@ -9,33 +11,74 @@
 
 namespace clathra {
 
+namespace {
+
+/// "a, b and 3 more"
+std::string first_of(std::vector<std::string> const& names) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
+}
+
+/// What became of the specimens: "4 made, 1 could not be made, 2 not yet: each for 3 members".
+std::string specimens_text(StudyPlan const& plan) {
+  std::error_code ignored;
+  std::size_t made = 0, failed = 0;
+  for (StudyTask const& task : plan.specimens) {
+    failed += task.failure.empty() ? 0 : 1;
+    made += task.failure.empty() && std::filesystem::exists(task.result, ignored) ? 1 : 0;
+  }
+  if (made == plan.specimens.size()) return sharing_text(plan);
+  std::string text = fmt::format("{}: {} made", sharing_text(plan), made);
+  if (failed > 0) text += fmt::format(", {} could not be made", failed);
+  std::size_t const waiting = plan.specimens.size() - made - failed;
+  return waiting == 0 ? text : text + fmt::format(", {} not yet", waiting);
+}
+
+}  // namespace
+
+std::string failures_text(StudyPlan const& plan) {
+  std::string text;
+  std::vector<bool> said(plan.runs.size());
+  for (std::size_t s = 0; s < plan.specimens.size(); ++s) {
+    if (plan.specimens[s].failure.empty()) continue;
+    std::vector<std::string> members;
+    for (std::size_t i = 0; i < plan.runs.size(); ++i)
+      if (plan.runs[i].specimen == s && plan.members[i].message == failure_of_specimen(plan.specimens[s]))
+        said[i] = true, members.push_back(plan.runs[i].name);
+    text += fmt::format("failed    the specimen of {}: {}\n          needed by {}\n", specimen_words(plan, s),
+                        plan.specimens[s].failure, first_of(members));
+  }
+  for (std::size_t i = 0; i < plan.members.size(); ++i)
+    if (plan.members[i].state == MemberState::failed && !said[i])
+      text += fmt::format("failed    {}: {}\n", plan.runs[i].name, plan.members[i].message);
+  return text;
+}
+
 ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   replace_text_file(plan.study.folder / "study.csv", study_csv(plan.study, plan.members));
-  std::vector<std::string> failed;
-  std::size_t finished = 0, waiting = 0, refused = 0, warnings = 0, warned = 0;
-  for (std::size_t i = 0; i < plan.members.size(); ++i) {
-    MemberResult const& member = plan.members[i];
-    if (member.state == MemberState::failed) failed.push_back(plan.runs[i].name + ": " + member.message);
-    refused += member.state == MemberState::refused ? 1 : 0;
-    warnings += member.warnings.size(), warned += member.warnings.empty() ? 0 : 1;
-    finished += member.state == MemberState::finished ? 1 : 0;
-    waiting += member.state == MemberState::waiting ? 1 : 0;
-  }
+  std::size_t warnings = 0, warned = 0;
+  for (MemberResult const& member : plan.members) warnings += member.warnings.size(), warned += member.warnings.empty() ? 0 : 1;
+  auto const count = [&](MemberState state) {
+    return std::count_if(plan.members.begin(), plan.members.end(), [state](MemberResult const& m) { return m.state == state; });
+  };
+  auto const finished = count(MemberState::finished), waiting = count(MemberState::waiting), failed = count(MemberState::failed),
+             refused = count(MemberState::refused);
   std::vector<std::filesystem::path> folders;
   for (StudyTask const& task : plan.runs) folders.push_back(task.result);
   if (finished > 0) write_study_report(plan.study, plan.members, folders, plan.study.folder / "study.html");
   line.repeat_warnings();
   if (warned > 0)
     line.note(fmt::format("warning: {} of {} members have warnings ({} in all); study.csv and study.html list them", warned,
-                          plan.members.size(), warnings));
+                          finished, warnings));
   std::string text = fmt::format("members   {} finished", finished);
   if (waiting > 0) text += fmt::format(", {} not yet", waiting);
-  if (!failed.empty()) text += fmt::format(", {} failed", failed.size());
+  if (failed > 0) text += fmt::format(", {} failed", failed);
   if (refused > 0) text += fmt::format(", {} refused by guards and left out", refused);
-  text += "\nspecimens " + sharing_text(plan) + "\n" + statistics_text(plan);
-  for (std::string const& member : failed) text += "failed    " + member + "\n";
+  text += "\nspecimens " + specimens_text(plan) + "\n" + statistics_text(plan) + failures_text(plan);
   print_result(text + fmt::format("results   {}\n", (plan.study.folder / (finished > 0 ? "study.html" : "study.csv")).string()));
-  return !failed.empty() ? ExitCode::member_failed : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;
+  return failed > 0 ? ExitCode::member_failed : waiting > 0 ? ExitCode::to_be_resumed : ExitCode::done;
 }
 
 }  // namespace clathra

@@ -92,7 +92,7 @@ std::size_t specimen_task(StudyPlan& plan, Scene const& scene, std::vector<std::
       making.push_back(text);
   task.arguments = with_set({"generate", plan.study.scene.string(), "-o", task.result.string()}, making);
   StageRecord const cost = predict(scene);
-  task.disc_steps = cost.at("generation_disc_steps");
+  task.disc_steps = cost.at("generation_particle_steps");
   task.memory = cost.at("memory_bytes");
   plan.specimens.push_back(std::move(task));
   return plan.specimens.size() - 1;
@@ -118,6 +118,40 @@ Scene scene_of_member(StudyPlan& plan, StudyGroup const& group, std::uint64_t se
   }
 }
 
+/// Where a problem begins to say in which group it is.
+std::size_t group_part(std::string const& text) { return std::min(text.size(), text.rfind(" (in the group")); }
+
+std::string without_group(Problem const& problem) {
+  return fmt::format("{}:{}:{}", problem.file, problem.line, problem.text.substr(0, group_part(problem.text)));
+}
+
+/// "a", "a and b", "a, b and 3 more"
+std::string listed(std::vector<std::string> const& names) {
+  constexpr std::size_t most = 5;
+  std::size_t const shown = names.size() > most ? most - 1 : names.size();
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return shown < names.size() ? fmt::format("{} and {} more", text, names.size() - shown) : text;
+}
+
+/// Members that guards refuse cost nothing, nor do specimens that no other member needs.
+void leave_out_refused(StudyPlan& plan) {
+  std::vector<StudyTask> needed;
+  std::map<std::size_t, std::size_t> places;  // in `needed`, of those in plan.specimens
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    StudyTask& task = plan.runs[i];
+    if (is_refused(plan.members[i])) {
+      task.disc_steps = task.memory = task.disk = 0;
+      task.specimen.reset();
+    } else if (task.specimen) {
+      auto const [place, is_new] = places.emplace(*task.specimen, needed.size());
+      if (is_new) needed.push_back(plan.specimens[*task.specimen]);
+      task.specimen = place->second;
+    }
+  }
+  plan.specimens = std::move(needed);
+}
+
 }  // namespace
 
 LoadedScene StudyPlan::scene_of_run(std::size_t member) const {
@@ -130,9 +164,9 @@ LoadedScene StudyPlan::scene_of_run(std::size_t member) const {
 
 StudyPlan plan_study(Study study) {
   StudyPlan plan{std::move(study), {}, {}, {}, {}, {}};
-  std::map<SceneTexts, std::string> seen;
+  std::map<SceneTexts, std::vector<std::string>> same;
   std::vector<Problem> problems;
-  std::set<std::string> said;
+  std::map<std::string, std::size_t> said;  // by how many groups
   std::vector<std::string> read_files;
   for (StudyGroup const& group : plan.study.groups) {
     try {
@@ -140,16 +174,17 @@ StudyPlan plan_study(Study study) {
       SceneTexts texts = scene_texts(scene, ".");
       texts["specimen.file"] = scene.specimen.file;
       if (scene.specimen.is_read()) read_files.push_back(group.name);
-      auto const [other, is_new] = seen.emplace(std::move(texts), group.name);
-      if (!is_new)
-        problems.push_back(
-            {plan.study.file.string(), 0, 0, fmt::format("the groups {} and {} are the same scene", other->second, group.name)});
+      same[std::move(texts)].push_back(group.name);
     } catch (SceneProblems const& found) {
       for (Problem const& problem : found.problems)
-        if (said.insert(problem.file + problem.text.substr(0, problem.text.rfind(" (in the group"))).second)
-          problems.push_back(problem);
+        if (++said[without_group(problem)] == 1) problems.push_back(problem);
     }
   }
+  for (Problem& problem : problems)
+    if (said.at(without_group(problem)) == plan.study.groups.size()) problem.text.erase(group_part(problem.text));
+  for (auto const& [texts, groups] : same)
+    if (groups.size() > 1)
+      problems.push_back({plan.study.file.string(), 0, 0, fmt::format("the groups {} are the same scene", listed(groups))});
   if (problems.empty() && !plan.study.seeds_stated && !plan.study.precision_target &&
       read_files.size() == plan.study.groups.size())
     plan.study.seeds.resize(1);
@@ -172,7 +207,8 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed) {
   task.result = plan.study.folder / "members" / task.name;
   task.log = plan.study.folder / "logs" / (task.name + ".log");
   Forecast const cost = forecast_of(plan, scene);
-  task.disc_steps = cost.numbers.at("disc_steps");
+  task.particles = cost.numbers.at("particles");
+  task.disc_steps = cost.numbers.at("particle_steps");
   task.memory = cost.numbers.at("memory_bytes");
   task.disk = cost.numbers.at("disk_bytes");
   task.refusals = plan.refused[of.name];
@@ -196,41 +232,62 @@ void add_members(StudyPlan& plan) {
 }
 
 std::string sharing_text(StudyPlan const& plan) {
-  std::vector<int> tests(plan.specimens.size());
+  std::vector<int> shares(plan.specimens.size());
   int of_files = 0;
-  for (StudyTask const& run : plan.runs) ++(run.specimen ? tests[*run.specimen] : of_files);
-  auto const tested_by = [](int least, int most) {
-    return least < most ? fmt::format("tested by {} to {} members", least, most)
-                        : fmt::format("tested by {} member{}", most, most == 1 ? "" : "s");
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    if (is_refused(plan.members[i])) continue;
+    ++(plan.runs[i].specimen ? shares[*plan.runs[i].specimen] : of_files);
+  }
+  auto const for_members = [](int least, int most) {
+    return (least < most ? fmt::format("for {} to ", least) : "for ") + fmt::format("{} member{}", most, most == 1 ? "" : "s");
   };
   std::string text;
-  if (!tests.empty()) {
-    auto const [least, most] = std::minmax_element(tests.begin(), tests.end());
-    text = fmt::format("{} made, each {}", tests.size(), tested_by(*least, *most));
+  if (!shares.empty()) {
+    auto const [least, most] = std::minmax_element(shares.begin(), shares.end());
+    text = fmt::format("{}, each {}", shares.size(), for_members(*least, *most));
   }
   if (of_files > 0)
-    text += fmt::format("{}{} read, {}", text.empty() ? "" : "; ", plan.designs.size(), tested_by(of_files, of_files));
+    text += fmt::format("{}{} read, {}", text.empty() ? "" : "; ", plan.designs.size(), for_members(of_files, of_files));
   return text;
 }
 
+std::string specimen_words(StudyPlan const& plan, std::size_t specimen) {
+  auto const first =
+      std::find_if(plan.runs.begin(), plan.runs.end(), [&](StudyTask const& run) { return run.specimen == specimen; });
+  MemberResult const& member = plan.members[static_cast<std::size_t>(first - plan.runs.begin())];
+  std::vector<std::string> const& made_with = plan.specimens[specimen].arguments;
+  std::string text;
+  for (auto const& [key, value] : plan.study.groups[member.group].settings)
+    if (std::find(made_with.begin(), made_with.end(), key + "=" + value) != made_with.end() && groups_differ_in(plan.study, key))
+      text += fmt::format("{} = {}, ", key, value);
+  return text + fmt::format("seed {}", member.seed);
+}
+
+std::string failure_of_specimen(StudyTask const& specimen) { return "its specimen could not be made: " + specimen.failure; }
+
 void heed_guards(StudyPlan& plan, bool skip) {
-  std::vector<Problem> problems;
+  std::vector<std::pair<std::string, std::vector<std::string>>> refused;  // what guards say, of which groups
   std::set<std::size_t> groups;
-  auto const add = [&](std::string text) {
-    problems.push_back({plan.study.file.string(), 0, 0, std::move(text), Severity::refusal});
-  };
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     MemberResult& member = plan.members[i];
     std::string why;
     for (std::string const& refusal : plan.runs[i].refusals) why += (why.empty() ? "" : "; ") + refusal;
     if (why.empty()) continue;
-    if (groups.insert(member.group).second)
-      add(fmt::format("the group {} would be refused: {}", plan.study.groups[member.group].name, why));
     member.state = MemberState::refused;
     member.message = why;
+    if (!groups.insert(member.group).second) continue;
+    auto same = std::find_if(refused.begin(), refused.end(), [&](auto const& entry) { return entry.first == why; });
+    if (same == refused.end()) same = refused.insert(same, {why, {}});
+    same->second.push_back(plan.study.groups[member.group].name);
   }
   bool const all = groups.size() == plan.study.groups.size();
-  if (groups.empty() || (skip && !all)) return;
+  if (groups.empty() || (skip && !all)) return leave_out_refused(plan);
+  std::vector<Problem> problems;
+  auto const add = [&](std::string text) {
+    problems.push_back({plan.study.file.string(), 0, 0, std::move(text), Severity::refusal});
+  };
+  for (auto const& [why, names] : refused)
+    add(fmt::format("the group{} {} would be refused: {}", names.size() == 1 ? "" : "s", listed(names), why));
   add(fmt::format("{} of {} groups would be refused, so nothing was started: {}--ignore-guards overrides the guards",
                   groups.size(), plan.study.groups.size(), all ? "" : "--skip-refused goes on without them, "));
   throw SceneProblems(std::move(problems));
@@ -273,7 +330,7 @@ void find_finished(StudyPlan& plan, std::size_t member) {
     EarlierRun const earlier = earlier_run(task.result, scene, input_digests(scene));
     // An extended test has rows at the places of the shorter one: other numbers than one that was asked for at once.
     if (earlier == EarlierRun::to_be_extended)
-      throw FileProblem(ExitCode::refused, task.result,
+      throw FileProblem(ExitCode::cannot_create, task.result,
                         "holds a finished run to a smaller test.axial_strain; a study does not extend it: name another folder "
                         "(--output), or remove this one");
     if (earlier == EarlierRun::finished) read_member(plan.members[member], task.result);

@@ -14,14 +14,15 @@ namespace clathra {
 
 /// One call of the program.
 struct StudyTask {
-  std::string name;                     ///< of the member, or of the specimen's file
-  std::vector<std::string> arguments;   ///< "run", "scene.toml", "--set", ...
-  std::filesystem::path result;         ///< folder of the run, or the specimen's file
-  std::filesystem::path log;            ///< where its messages go
-  double disc_steps = 0;                ///< predicted
-  double memory = 0, disk = 0;          ///< predicted [bytes]
-  std::vector<std::string> refusals;    ///< of its guards; none where guards are ignored
-  std::optional<std::size_t> specimen;  ///< place of the task that makes what this one reads
+  std::string name;                      ///< of the member, or of the specimen's file
+  std::vector<std::string> arguments;    ///< "run", "scene.toml", "--set", ...
+  std::filesystem::path result;          ///< folder of the run, or the specimen's file
+  std::filesystem::path log;             ///< where its messages go
+  double particles = 0, disc_steps = 0;  ///< predicted
+  double memory = 0, disk = 0;           ///< predicted [bytes]
+  std::vector<std::string> refusals;     ///< of its guards; none where guards are ignored
+  std::optional<std::size_t> specimen;   ///< place of the task that makes what this one reads
+  std::string failure;                   ///< of a specimen: why it could not be made
 };
 
 /// Members by group and seed, and the tasks of each.
@@ -47,10 +48,17 @@ void add_member(StudyPlan& plan, std::size_t group, std::uint64_t seed);
 /// Adds all seeds of all groups.
 void add_members(StudyPlan& plan);
 
-/// How many specimens there are, and how many members test the same one: "5 made, each tested by 3 members".
+/// How many specimens there are, and how many members share each: "5, each for 3 members".
 std::string sharing_text(StudyPlan const& plan);
 
-/// What the guards of the members say, before any is started. @param skip  members that they refuse are marked so and left out
+/// A specimen by what it differs in from those of other groups: "specimen.void_ratio = 0.1, seed 2".
+std::string specimen_words(StudyPlan const& plan, std::size_t specimen);
+
+/// The message of a member whose specimen could not be made.
+std::string failure_of_specimen(StudyTask const& specimen);
+
+/// What the guards of the members say, before any is started. @param skip  members that they refuse are marked so and left out,
+/// with the specimens that only they need: they cost nothing
 /// @throws SceneProblems (refused) with all groups that would be, unless they are skipped and others are left
 void heed_guards(StudyPlan& plan, bool skip);
 

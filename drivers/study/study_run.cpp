@@ -29,7 +29,9 @@ StudyLimits usual_limits(StudyPlan const& plan, int parallel, int threads, std::
   StudyLimits limits;
   limits.launcher = std::move(launcher);
   limits.threads_stated = threads > 0;
-  int const cores = static_cast<int>(own_cores().size()), members = static_cast<int>(plan.members.size());
+  int const cores = static_cast<int>(own_cores().size());
+  int const members = static_cast<int>(plan.members.size()) -
+                      static_cast<int>(std::count_if(plan.members.begin(), plan.members.end(), is_refused));
   limits.threads = threads > 0 ? threads : std::max(1, cores / std::max(1, members));
   int const most = limits.launcher.empty() ? std::max(1, cores / limits.threads) : 1;
   limits.parallel = parallel > 0 ? parallel : std::min(most, parallel_in_memory(plan));
@@ -55,9 +57,10 @@ void StudyRun::look_at_what_is_there() {
       if (plan_.members[i].state == MemberState::failed) note_failure(i);
     }
     MemberState const state = plan_.members[i].state;
-    run_states_[i] = state == MemberState::waiting  ? TaskState::waiting
-                     : state == MemberState::failed ? TaskState::failed
-                                                    : TaskState::done;
+    run_states_[i] = state == MemberState::waiting   ? TaskState::waiting
+                     : state == MemberState::failed  ? TaskState::failed
+                     : state == MemberState::refused ? TaskState::left_out
+                                                     : TaskState::done;
     work_ += plan_.runs[i].disc_steps;
     if (run_states_[i] != TaskState::waiting) done_ += plan_.runs[i].disc_steps;
     if (run_states_[i] == TaskState::waiting && plan_.runs[i].specimen) needed[*plan_.runs[i].specimen] = true;
@@ -127,17 +130,12 @@ std::optional<std::size_t> StudyRun::next_specimen() const {
 }
 
 /// The longest of those that can start: a long one that starts last would keep the others' cores idle.
-std::optional<std::size_t> StudyRun::next_run() {
+std::optional<std::size_t> StudyRun::next_run() const {
   std::optional<std::size_t> next;
   for (std::size_t i = 0; i < run_states_.size(); ++i) {
     if (run_states_[i] != TaskState::waiting) continue;
-    if (std::optional<std::size_t> const specimen = plan_.runs[i].specimen) {
-      if (specimen_states_[*specimen] == TaskState::failed)
-        fail_member(i, fmt::format("its specimen {} could not be made: {}", plan_.specimens[*specimen].name,
-                                   specimen_failures_.at(*specimen))),
-            run_states_[i] = TaskState::failed;
+    if (std::optional<std::size_t> const specimen = plan_.runs[i].specimen)
       if (specimen_states_[*specimen] != TaskState::done) continue;
-    }
     if (folder_in_use(plan_.runs[i].result)) continue;  // a member of a study that was killed still writes its checkpoint
     if (!next || plan_.runs[i].disc_steps > plan_.runs[*next].disc_steps) next = i;
   }
@@ -194,8 +192,9 @@ void StudyRun::take_end(Running const& was, ProcessEnd const& end) {
     state = TaskState::waiting;
   } else if (stopped && tried_again_.insert(task.name).second) {
     state = TaskState::waiting;
-    line_.note(fmt::format("clathra: {} was stopped{}, it goes on from its checkpoint", task.name,
-                           end.signal != 0 ? fmt::format(" by signal {}", end.signal) : ""));
+    line_.note(fmt::format("clathra: {} was stopped{}, it {}", words_of(was),
+                           end.signal != 0 ? fmt::format(" by signal {}", end.signal) : "",
+                           was.specimen ? "is made once more" : "goes on from its checkpoint"));
   } else if (end.signal != 0) {
     fail(was, fmt::format("killed by signal {}, again when it was tried once more", end.signal));
   } else if (end.code != 0) {
@@ -222,21 +221,36 @@ void StudyRun::fail(Running const& was, std::string const& message) {
   (was.specimen ? specimen_states_ : run_states_)[was.task] = TaskState::failed;
   done_ += task_of(was).disc_steps;
   if (was.specimen) {
-    specimen_failures_[was.task] = message;
-    return line_.warn(fmt::format("{}: {}", task_of(was).name, message));
+    fail_specimen(was.task, message);
+  } else {
+    plan_.members[was.task].state = MemberState::failed;
+    plan_.members[was.task].message = message;
+    note_failure(was.task);
   }
-  fail_member(was.task, message);
   write_table();
 }
 
-void StudyRun::fail_member(std::size_t member, std::string const& message) {
-  plan_.members[member].state = MemberState::failed;
-  plan_.members[member].message = message;
-  note_failure(member);
+/// And all members that wait for it.
+void StudyRun::fail_specimen(std::size_t specimen, std::string const& message) {
+  plan_.specimens[specimen].failure = message;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+    if (plan_.runs[i].specimen != specimen || run_states_[i] != TaskState::waiting) continue;
+    run_states_[i] = TaskState::failed;
+    done_ += plan_.runs[i].disc_steps;
+    plan_.members[i].state = MemberState::failed;
+    plan_.members[i].message = failure_of_specimen(plan_.specimens[specimen]);
+    ++count;
+  }
+  line_.note(fmt::format("clathra: the specimen of {} could not be made; {} member{} need{} it", specimen_words(plan_, specimen),
+                         count, count == 1 ? "" : "s", count == 1 ? "s" : ""));
 }
 
-void StudyRun::note_failure(std::size_t member) {
-  line_.note(fmt::format("clathra: {} failed: {}", plan_.runs[member].name, plan_.members[member].message));
+/// Why, the summary says at the end, and study.csv from now on.
+void StudyRun::note_failure(std::size_t member) { line_.note(fmt::format("clathra: {} failed", plan_.runs[member].name)); }
+
+std::string StudyRun::words_of(Running const& running) const {
+  return running.specimen ? "the specimen of " + specimen_words(plan_, running.task) : task_of(running).name;
 }
 
 void StudyRun::write_table() const { replace_text_file(plan_.study.folder / "study.csv", study_csv(plan_.study, plan_.members)); }
@@ -253,12 +267,12 @@ void StudyRun::show() {
         running.fraction = std::max(running.fraction, status.fraction);
     done += running.fraction * task_of(running).disc_steps;
   }
-  auto const finished = std::count(run_states_.begin(), run_states_.end(), TaskState::done),
-             failed = std::count(run_states_.begin(), run_states_.end(), TaskState::failed);
+  auto const count = [&](TaskState state) { return std::count(run_states_.begin(), run_states_.end(), state); };
+  auto const finished = count(TaskState::done), failed = count(TaskState::failed);
   double const rate = (done - done_before_) / (time - begin_);
-  std::string text = fmt::format("{}/{} members", finished, run_states_.size());
+  std::string text = fmt::format("{}/{} members", finished, std::ssize(run_states_) - count(TaskState::left_out));
   if (failed > 0) text += fmt::format(", {} failed", failed);
-  if (running_.size() == 1) text += " | " + task_of(running_.begin()->second).name;
+  if (running_.size() == 1) text += " | " + words_of(running_.begin()->second);
   if (running_.size() > 1) text += fmt::format(" | {} running", running_.size());
   if (rate > 0 && done - done_before_ > 0.01 * work_) text += " | ETA " + duration_text((work_ - done) / rate);
   line_.show("study", work_ > 0 ? done / work_ : 1, text);

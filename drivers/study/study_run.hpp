@@ -46,7 +46,7 @@ class StudyRun {
     bool specimen = false;
     double fraction = 0;  ///< done
   };
-  enum class TaskState { waiting, running, done, failed };
+  enum class TaskState { waiting, running, done, failed, left_out };
 
   StudyTask const& task_of(Running const& running) const {
     return running.specimen ? plan_.specimens[running.task] : plan_.runs[running.task];
@@ -57,12 +57,13 @@ class StudyRun {
   bool start_next();
   bool start(bool specimen, std::size_t task);
   std::optional<std::size_t> next_specimen() const;
-  std::optional<std::size_t> next_run();
+  std::optional<std::size_t> next_run() const;
   void take(ProcessEnd const& end);
   void take_end(Running const& was, ProcessEnd const& end);
   void take_result(Running const& was);
+  std::string words_of(Running const& running) const;
   void fail(Running const& was, std::string const& message);
-  void fail_member(std::size_t member, std::string const& message);
+  void fail_specimen(std::size_t specimen, std::string const& message);
   void note_failure(std::size_t member);
   void write_table() const;
   void show();
@@ -72,12 +73,11 @@ class StudyRun {
   StudyLimits limits_;
   ProgressLine line_;
   std::vector<TaskState> specimen_states_, run_states_;
-  std::map<std::size_t, std::string> specimen_failures_;  // why they could not be made
   std::map<pid_t, Running> running_;
   std::set<std::string> tried_again_;
   std::vector<bool> slot_taken_;
   std::vector<int> cores_;
-  double work_ = 0, done_ = 0, done_before_ = 0;         ///< predicted disc-steps
+  double work_ = 0, done_ = 0, done_before_ = 0;         ///< predicted particle-steps
   double first_begin_ = 0, begin_ = 0, last_shown_ = 0;  ///< [s]
   bool stopping_ = false;
 };

@@ -17,6 +17,8 @@ bool is_quiet();
 
 /// Writes what a script reads, to stdout, quiet or not. @return as print_result()
 ExitCode print_json(std::string const& text);
+/// Whether it has written something.
+bool has_printed_json();
 
 /// Writes a line to stderr; failure is ignored, for there is nobody left to tell.
 void print_error(std::string const& line);

@@ -12,8 +12,11 @@ std::string duration_text(double seconds) {
   if (seconds >= 365.25 * 86400) return fmt::format("{:.3g} years", seconds / (365.25 * 86400));
   if (seconds >= 3 * 86400) return fmt::format("{:.3g} days", seconds / 86400);
   auto const whole = static_cast<long long>(std::llround(seconds));
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+  auto const pair = [](long long large, char const* unit, long long small, char const* smaller) {
+    return fmt::format("{} {}", large, unit) + (small > 0 ? fmt::format(" {:02} {}", small, smaller) : "");
+  };
+  if (whole >= 3600) return pair(whole / 3600, "h", whole / 60 % 60, "min");
+  return whole >= 60 ? pair(whole / 60, "min", whole % 60, "s") : fmt::format("{} s", whole);
 }
 
 std::string short_count(double value) {

@@ -4,7 +4,7 @@
 
 namespace clathra {
 
-/// "00:41", "2:10:05", "12 days"; "?" where the time is not known.
+/// "41 s", "3 min 05 s", "2 h 10 min", "12 days"; "?" where the time is not known.
 std::string duration_text(double seconds);
 
 /// "31 M": a number with the prefix that makes it short.

@@ -7,9 +7,6 @@
 
 #include "domain/biaxial/scene_cost.hpp"
 #include "domain/scene/specimen_design.hpp"
-#include "io/errors/problems.hpp"
-#include "io/scene/schema.hpp"
-#include "study/study_goal.hpp"
 
 namespace clathra {
 namespace {
@@ -26,13 +23,6 @@ constexpr std::string_view own_keys[] = {"run.seed", "run.threads", "output.fold
 
 bool is_one_of(std::string_view text, std::span<std::string_view const> keys) {
   return std::find(keys.begin(), keys.end(), text.substr(0, text.find('='))) != keys.end();
-}
-
-/// "peak_q" of "peak_q_Pa".
-std::string without_unit(std::string const& name) {
-  for (std::string_view const unit : {"_Pa", "_deg", "_pct"})
-    if (name.ends_with(unit)) return name.substr(0, name.size() - unit.size());
-  return name;
 }
 
 std::string share_text(double value) { return fmt::format("{}", value); }
@@ -107,32 +97,7 @@ double step_of(MemberResult const& member) {
 
 }  // namespace
 
-TuneGoal tune_goal(std::string const& quantity, std::string const& tolerance) {
-  TuneGoal goal;
-  std::vector<Problem> problems;
-  std::vector<std::string> short_names;
-  for (std::string const& name : known_numbers()) {
-    short_names.push_back(without_unit(name));
-    if (quantity == name || quantity == short_names.back()) goal.quantity = name;
-  }
-  if (goal.quantity.empty()) {
-    std::vector<std::string_view> const views(short_names.begin(), short_names.end());
-    std::string all;
-    for (std::string const& name : short_names) all += (all.empty() ? "" : ", ") + name;
-    problems.push_back({"--quantity", 0, 0,
-                        fmt::format("a test has no number '{}'{}; there are {}", quantity.substr(0, 60),
-                                    name_suggestion(quantity.substr(0, 60), views), all)});
-  }
-  try {
-    goal.tolerance = study_goal("error=" + tolerance).width;
-  } catch (std::invalid_argument const& problem) {
-    problems.push_back({"--tolerance", 0, 0, problem.what()});
-  }
-  if (!problems.empty()) throw SceneProblems(std::move(problems));
-  return goal;
-}
-
-TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> const& overrides, TuneGoal const& goal,
+TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> const& overrides, StudyGoal const& goal,
                    std::int64_t discs, std::filesystem::path const& folder) {
   TunePlan plan;
   plan.base = load_scene(scene, overrides);

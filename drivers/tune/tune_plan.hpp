@@ -18,24 +18,15 @@ struct TuneSetting {
   bool operator==(TuneSetting const&) const = default;
 };
 
-/// What is asked for.
-struct TuneGoal {
-  std::string quantity;  ///< a number of study.csv
-  double tolerance = 0;  ///< of its error, as a part
-};
-
-/// "peak_q" or "peak_q_Pa" and "1%". @throws SceneProblems
-TuneGoal tune_goal(std::string const& quantity, std::string const& tolerance);
-
 struct TunePlan {
-  LoadedScene base;  ///< the scene with the overrides of the command line
-  TuneGoal goal;
+  LoadedScene base;        ///< the scene with the overrides of the command line
+  StudyGoal goal;          ///< the number, and how large its error may be
   std::int64_t discs = 0;  ///< of a level
   bool reduced = false;    ///< levels are smaller than the scene
   std::vector<TuneSetting> settings;
   std::size_t as_it_stands = 0;  ///< the setting of the scene, at the rate that it has
   StudyPlan study;               ///< groups are settings, members are levels of a seed
-  double speed_of_mixed = 1;     ///< over that of double precision, in disc-steps a second on this machine
+  double speed_of_mixed = 1;     ///< over that of double precision, in particle-steps a second on this machine
 
   /// The trials of a search among the settings, costs by prediction.
   std::vector<Trial> trials() const;
@@ -53,7 +44,7 @@ struct TunePlan {
 /// Ladder: rates from 3e-3 on that fall to a third, in double precision with half the usual time step and no masses scaled; at
 /// each rate the usual time step, moments of inertia times 3, small discs made heavier, mixed precision. @param discs  of a level
 /// @throws SceneProblems, Refused
-TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> const& overrides, TuneGoal const& goal,
+TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> const& overrides, StudyGoal const& goal,
                    std::int64_t discs, std::filesystem::path const& folder);
 
 }  // namespace clathra

@@ -45,7 +45,7 @@ std::string row_of(TunePlan const& plan, SettingSearch const& search, std::size_
   std::optional<SettingError> const error = search.error(i);
   std::string const measured =
       error ? fmt::format("{:+.2f} ± {:.2f}", 100 * error->error, 100 * error->half_width) : std::string("-");
-  std::string words = failure.empty() ? verdict_text(search, i, plan.goal.tolerance) : "cannot be run: " + failure;
+  std::string words = failure.empty() ? verdict_text(search, i, plan.goal.width) : "cannot be run: " + failure;
   if (i == plan.as_it_stands) words += (words.empty() ? "" : ", ") + as_it_stands_text(plan);
   if (search.choice() == i) words += ", chosen";
   return fmt::format("  {:<8.3g} {:<6.2g} {:<7} {:<6} {:<10} {:>5}  {:>14}  {:>7.3g}  {}\n", s.inertial_number,
@@ -57,24 +57,24 @@ std::string row_of(TunePlan const& plan, SettingSearch const& search, std::size_
 std::string comment_of(std::string const& key, TunePlan const& plan, SettingSearch const& search, std::size_t setting) {
   SettingError const all = *search.error(setting);
   if (key == "test.inertial_number")
-    return fmt::format("clathra tune, within {:g} %: with all its keys {}; {:.3g} of the cost that was",
-                       100 * plan.goal.tolerance, measured_text(plan, all), plan.relative_cost(setting));
+    return fmt::format("clathra tune, within {:g} %: with all its keys {}; {:.3g} of the cost that was", 100 * plan.goal.width,
+                       measured_text(plan, all), plan.relative_cost(setting));
   if (key == "test.max_platen_wave_stress")
     return plan.reduced ? "W of the specimens that were measured: a taller one is sheared slower"
                         : "W of the specimens that were measured";
-  return fmt::format("measured with these keys: {:+.2f} +- {:.2f} %", 100 * all.error, 100 * all.half_width);
+  return fmt::format("measured with these keys: {:+.2f} ± {:.2f} %", 100 * all.error, 100 * all.half_width);
 }
 
 }  // namespace
 
 std::string measured_text(TunePlan const& plan, SettingError const& error) {
-  return fmt::format("{} {:+.2f} +- {:.2f} % (95 %, {} seeds of {} particles)", plan.goal.quantity, 100 * error.error,
+  return fmt::format("{} {:+.2f} ± {:.2f} % (95 %, {} seeds of {} particles)", plan.goal.number, 100 * error.error,
                      100 * error.half_width, error.seeds, plan.discs);
 }
 
 std::string tune_table(TunePlan const& plan, SettingSearch const& search, std::vector<std::string> const& failures) {
   std::string text =
-      fmt::format("{}: error of {}, tests of {} particles\n", plan.study.study.scene.string(), plan.goal.quantity, plan.discs);
+      fmt::format("{}: error of {}, tests of {} particles\n", plan.study.study.scene.string(), plan.goal.number, plan.discs);
   text += fmt::format("  {:<8} {:<6} {:<7} {:<6} {:<10} {:>5}  {:>14}  {:>7}\n", "I", "W", "numbers", "step", "inertia", "seeds",
                       "error [%]", "cost");
   for (std::size_t i = 0; i < plan.settings.size(); ++i)

@@ -11,7 +11,7 @@ namespace clathra {
 /// @param failures  why settings cannot be run, by their place; empty where they can
 std::string tune_table(TunePlan const& plan, SettingSearch const& search, std::vector<std::string> const& failures);
 
-/// "peak_q_Pa +0.31 +- 0.52 % (95 %, 7 seeds of 1000 discs)"
+/// "peak_q_Pa +0.31 ± 0.52 % (95 %, 7 seeds of 1000 discs)"
 std::string measured_text(TunePlan const& plan, SettingError const& error);
 
 /// The scene file with the keys of a setting, each under what was measured of it. @param folder  where it will be kept

@@ -15,7 +15,7 @@
 namespace clathra {
 Tuning::Tuning(TunePlan plan, TuneLimits const& limits)
     : plan_(std::move(plan)),
-      search_(plan_.goal.tolerance, plan_.trials()),
+      search_(plan_.goal.width, plan_.trials()),
       failures_(plan_.settings.size()),
       budget_(limits.budget),
       begin_(clock_seconds()) {
@@ -31,15 +31,18 @@ Tuning::Tuning(TunePlan plan, TuneLimits const& limits)
 }
 
 ExitCode Tuning::run(OutputFolder const& folder) {
-  if (seconds_of(request_) > budget_) return ExitCode::done;
+  out_of_time_ = seconds_of(request_) > budget_;
+  if (out_of_time_) return ExitCode::done;
   StudyRun runs(plan_.study, limits_, folder);
   while (true) {
     ExitCode const code = runs.run();
     if (code != ExitCode::done && interrupted()) return code;
     take_results();
-    if (code != ExitCode::done) break;  // the budget is spent
+    out_of_time_ = code != ExitCode::done;
+    if (out_of_time_) break;
     std::optional<RunRequest> next = search_.next();
     if (next && !fits(*next)) {
+      out_of_time_ = true;
       search_.stop_growing();
       next = search_.next();
     }
@@ -55,7 +58,7 @@ ExitCode Tuning::run(OutputFolder const& folder) {
 std::string Tuning::undetermined() const {
   if (search_.trials_of_limit_failed()) return "undetermined: the slow rates that the error is counted from cannot be run";
   if (plan_.study.members.empty() || !search_.error(search_.fast()))
-    return fmt::format("undetermined: the first {} seeds need about {}, the budget is {}", SettingSearch::first_seeds,
+    return fmt::format("undetermined: the first {} seeds need about {}, the time allowed is {}", SettingSearch::first_seeds,
                        duration_text(seconds_of(request_)), duration_text(budget_));
   if (auto const open = search_.undecided()) {
     auto const [trial, seeds] = *open;
@@ -75,7 +78,7 @@ double Tuning::speed_of(Precision precision) const {
   Scene scene = plan_.base.scene;
   scene.run.threads = 1;
   scene.run.precision = precision;
-  return machine_speed(scene, 1, true).disc_steps_per_second;
+  return machine_speed(scene, static_cast<double>(plan_.discs), 1, true).disc_steps_per_second;
 }
 
 void Tuning::add(RunRequest const& request) {
@@ -99,13 +102,13 @@ bool Tuning::has_member(std::size_t trial, std::uint64_t seed) const {
 void Tuning::take_results() {
   for (MemberResult const& member : plan_.study.members) {
     Trial& trial = search_.trials()[member.group];
-    auto const found = member.numbers.find(plan_.goal.quantity);
+    auto const found = member.numbers.find(plan_.goal.number);
     if (member.state == MemberState::finished && found != member.numbers.end()) {
       trial.values[member.seed] = found->second;
     } else if (member.state != MemberState::waiting) {
       trial.failed = true;
       failures_[member.group] = member.state == MemberState::failed ? member.message.substr(0, member.message.find(" ("))
-                                                                    : "its test has no " + plan_.goal.quantity;
+                                                                    : "its test has no " + plan_.goal.number;
     }
   }
   for (std::size_t i = 0; i < plan_.settings.size(); ++i) search_.trials()[i].cost = plan_.relative_cost(i);
@@ -128,7 +131,7 @@ double Tuning::seconds_of(std::size_t trial) const {
 
 double Tuning::disc_steps_of(std::size_t trial) const {
   Study const& study = plan_.study.study;
-  return predict(member_scene(study, study.groups[trial], 1).scene).at("disc_steps");
+  return predict(member_scene(study, study.groups[trial], 1).scene).at("particle_steps");
 }
 
 double Tuning::seconds_of(RunRequest const& request) const {
@@ -151,6 +154,11 @@ bool Tuning::has_result(std::size_t trial, std::uint64_t seed) const {
   return std::any_of(plan_.study.members.begin(), plan_.study.members.end(), [&](MemberResult const& m) {
     return m.group == trial && m.seed == seed && m.state != MemberState::waiting;
   });
+}
+
+std::size_t Tuning::tests_made() const {
+  return static_cast<std::size_t>(std::count_if(plan_.study.members.begin(), plan_.study.members.end(),
+                                                [](MemberResult const& m) { return m.state == MemberState::finished; }));
 }
 
 bool Tuning::misses_peaks() const {

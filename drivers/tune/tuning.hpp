@@ -1,5 +1,5 @@
 #pragma once
-/// The search for the cheapest setting of a scene, and the runs that it asks for.
+/// The search for the cheapest setting of a scene, and the tests that it asks for.
 #include <string>
 
 #include "io/results/output_folder.hpp"
@@ -27,11 +27,16 @@ class Tuning {
   TunePlan const& plan() const { return plan_; }
   /// Whether some test ended before its q fell: then its peak is only the largest q.
   bool misses_peaks() const;
+  /// Tests that have a result, those of earlier calls included.
+  std::size_t tests_made() const;
+  double budget() const { return budget_; }  ///< [s]
+  /// Whether the time allowed was too short for what the search would have run next.
+  bool out_of_time() const { return out_of_time_; }
   /// Why there is no choice, and what would give one.
   std::string undetermined() const;
 
  private:
-  /// Disc-steps a second of one thread.
+  /// Particle-steps a second of one thread.
   double speed_of(Precision precision) const;
   std::size_t values_of(std::size_t trial) const { return search_.trials()[trial].values.size(); }
   /// Masses scaled further than usual, which a guard may refuse at the rate, are tried with one seed first.
@@ -52,6 +57,7 @@ class Tuning {
   StudyLimits limits_;
   RunRequest request_;  // the first one
   double budget_, begin_, speed_ = 1;
+  bool out_of_time_ = false;
 };
 
 }  // namespace clathra

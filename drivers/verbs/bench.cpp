@@ -8,6 +8,7 @@
 
 #include "io/results/run_record.hpp"
 #include "machine/threads.hpp"
+#include "terminal/json_text.hpp"
 #include "terminal/print.hpp"
 #include "throughput/throughput_card.hpp"
 #include "verbs/verbs.hpp"
@@ -29,12 +30,12 @@ nlohmann::ordered_json json_of(ThroughputRow const& row) {
   Throughput const& t = row.measured;
   return {{"precision", precision_names[static_cast<int>(row.precision)]},
           {"particles", row.discs},
-          {"disc_steps_per_second", t.disc_steps_per_second},
+          {"particle_steps_per_second", t.disc_steps_per_second},
           {"contact_steps_per_s", t.contact_steps_per_s},
           {"seconds_per_step", 1e-6 * row.microseconds_per_step()},
-          {"bytes_per_disc", t.bytes_per_disc},
-          {"search_bytes_per_disc", t.search_bytes_per_disc},
-          {"bytes_moved_per_disc_and_step", t.moved_per_step},
+          {"bytes_per_particle", t.bytes_per_disc},
+          {"search_bytes_per_particle", t.search_bytes_per_disc},
+          {"bytes_moved_per_particle_and_step", t.moved_per_step},
           {"bandwidth_bytes_per_s", row.bandwidth},
           {"bandwidth_share", row.bandwidth_share()},
           {"flops_per_s", t.flops_per_s},
@@ -58,7 +59,7 @@ std::string text_of(nlohmann::ordered_json const& c) {
   auto const number = [&](char const* key) { return c.at(key).get<double>(); };
   return fmt::format(
       "{} particles, {}, {} precision, {} threads, {} lanes, {}\n"
-      "disc-steps        {:.4g} million a second\n"
+      "particle-steps    {:.4g} million a second\n"
       "contact steps     {:.4g} million a second (pairs that touch or are bonded)\n"
       "memory            {:.0f} bytes a particle\n"
       "bandwidth         {:.3g} % of the {:.3g} GB/s that updating as much memory reaches ({:.0f} bytes a particle and step at "
@@ -67,9 +68,9 @@ std::string text_of(nlohmann::ordered_json const& c) {
       "arithmetic        {:.3g} % of the {:.3g} GFLOP/s that products and sums reach\n"
       "neighbour search  {:.3g} % of the time, every {:.0f} steps\n",
       c.at("particles").dump(), c.at("case").get<std::string>(), c.at("precision").get<std::string>(), c.at("threads").dump(),
-      c.at("lanes").dump(), c.at("backend").get<std::string>(), number("disc_steps_per_second") * 1e-6,
-      number("contact_steps_per_s") * 1e-6, number("bytes_per_disc"), number("bandwidth_share") * 100,
-      number("bandwidth_bytes_per_s") * 1e-9, number("bytes_moved_per_disc_and_step"), number("flop_share") * 100,
+      c.at("lanes").dump(), c.at("backend").get<std::string>(), number("particle_steps_per_second") * 1e-6,
+      number("contact_steps_per_s") * 1e-6, number("bytes_per_particle"), number("bandwidth_share") * 100,
+      number("bandwidth_bytes_per_s") * 1e-9, number("bytes_moved_per_particle_and_step"), number("flop_share") * 100,
       number("arithmetic_limit_flops_per_s") * 1e-9, number("rebuild_share") * 100,
       number("steps") / std::max(1.0, number("rebuilds")));
 }
@@ -91,7 +92,7 @@ ExitCode card(BenchOptions const& options) {
   if (!options.json) return code;
   nlohmann::ordered_json result = json_of(options);
   result["rows"] = rows;
-  return print_result(result.dump(2) + "\n");
+  return print_json(json_text(result));
 }
 
 ExitCode bench(BenchOptions options) {
@@ -107,7 +108,7 @@ ExitCode bench(BenchOptions options) {
   result["lanes"] = options.setup.precision == Precision::full ? lane_count : lane_count_of<float>;
   result["arithmetic_limit_flops_per_s"] = arithmetic;
   result["flop_share"] = arithmetic > 0 ? result.at("flops_per_s").get<double>() / arithmetic : 0;
-  return print_result(options.json ? result.dump(2) + "\n" : text_of(result));
+  return options.json ? print_json(json_text(result)) : print_result(text_of(result));
 }
 
 }  // namespace
@@ -125,7 +126,7 @@ void add_bench(CLI::App& program, Verb& chosen) {
           ->capture_default_str();
   CLI::Option const* const discs =
       verb->add_option("--particles", options->setup.discs, "number of particles, about; the largest of a card")
-          ->check(CLI::Range(std::int64_t{1000}, std::int64_t{100000000}))
+          ->check(CLI::Range(std::int64_t{100}, std::int64_t{100000000}))
           ->capture_default_str();
   verb->add_option("--threads", options->threads, "threads")->check(CLI::Range(1, 4096))->type_name("N");
   verb->add_option("--seconds", options->seconds, "time to measure")->check(CLI::Range(0.01, 3600.0))->capture_default_str();

@@ -1,13 +1,18 @@
 /// `clathra bond`: every number of one bond, to be checked by hand.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/units.hpp"
 #include "io/scene/presets.hpp"
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
+#include "terminal/json_text.hpp"
+#include "terminal/option_value.hpp"
 #include "terminal/print.hpp"
 #include "verbs/verbs.hpp"
 
@@ -22,21 +27,22 @@ struct BondOptions {
 };
 
 double read(char const* option, std::string const& text, Dimension dimension) {
-  try {
-    return parse_quantity(text, dimension);
-  } catch (std::invalid_argument const& problem) {
-    throw CLI::ValidationError(std::string(option) + " " + problem.what());
-  }
+  return option_value(option, [&] { return parse_quantity(text, dimension); });
+}
+
+/// The value of an option that is a key of a scene, within what a scene allows.
+void set(char const* option, char const* key, std::string const& text, Scene& scene) {
+  option_value(option, [&] { set_from_text(*find_key(key), scene, text); });
 }
 
 BondCard evaluate(BondOptions const& options) {
   Scene scene;
   scene.bond.preset = options.preset;
   apply_preset(bond_presets().of(options.preset), scene, [](std::string_view) { return false; });
-  scene.hydrate.saturation = read("--saturation", options.saturation, Dimension::ratio);
-  scene.hydrate.temperature = read("--temperature", options.temperature, Dimension::temperature);
-  scene.hydrate.pore_pressure = read("--pore-pressure", options.pore_pressure, Dimension::pressure);
-  scene.hydrate.density = read("--hydrate-density", options.density, Dimension::density);
+  set("--saturation", "hydrate.saturation", options.saturation, scene);
+  set("--temperature", "hydrate.temperature", options.temperature, scene);
+  set("--pore-pressure", "hydrate.pore_pressure", options.pore_pressure, scene);
+  set("--hydrate-density", "hydrate.density", options.density, scene);
   if (!options.strength_from.empty())
     scene.bond.strength_from = options.strength_from == "printed" ? StrengthFrom::printed : StrengthFrom::conditions;
   double const d50 = read("--d50", options.d50, Dimension::length);
@@ -44,15 +50,12 @@ BondCard evaluate(BondOptions const& options) {
   double const r2 = options.r2.empty() ? r1 : read("--r2", options.r2, Dimension::length);
   double const gap = read("--gap", options.gap, Dimension::length);
   double const force = read("--normal-force", options.normal_force, Dimension::line_force);
-  if (!(d50 > 0) || !(r1 > 0) || !(r2 > 0)) throw CLI::ValidationError("--d50, --r1 and --r2 must be above 0");
+  for (auto const& [option, length] : {std::pair{"--d50", d50}, {"--r1", r1}, {"--r2", r2}})
+    if (!(length > 0)) throw SceneProblems({{option, 0, 0, "must be above 0"}});
   if (std::string const problem = hydrate_problem(scene.hydrate); !problem.empty()) print_error("note: " + problem);
   if (std::string const warning = fit_warning(scene.hydrate); !warning.empty()) print_error("note: " + warning);
   if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) print_error("note: " + warning);
-  try {
-    return evaluate_bond(scene, d50, r1, r2, gap, force);
-  } catch (std::invalid_argument const& problem) {  // a saturation in percent
-    throw CLI::ValidationError(problem.what());
-  }
+  return evaluate_bond(scene, d50, r1, r2, gap, force);
 }
 
 /// Visits every number of the card but `bonded`: key, value, unit, what it is.
@@ -81,11 +84,21 @@ void for_each_number(BondCard const& card, Visit&& visit) {
   visit("R_r_per_length", card.R_r_per_length, "N/m", "rolling strength over L_r (Eq. 9b)");
 }
 
-std::string json_text(BondCard const& card) {
+/// A unit as names of numbers end in it.
+std::string_view suffix_of(std::string_view unit) {
+  constexpr std::pair<std::string_view, std::string_view> suffixes[] = {
+      {"m", "_m"}, {"m^2", "_m2"}, {"Pa", "_Pa"}, {"N/m", "_N_per_m"}, {"N/m/m", "_N_per_m2"}, {"N m/rad/m", "_N_per_rad"},
+      {"", ""}};
+  return std::find_if(std::begin(suffixes), std::end(suffixes), [&](auto const& s) { return s.first == unit; })->second;
+}
+
+nlohmann::ordered_json json_of(BondCard const& card) {
   nlohmann::ordered_json json;
   json["bonded"] = card.bonded;
-  for_each_number(card, [&](char const* key, double value, char const*, char const*) { json[key] = value; });
-  return json.dump() + "\n";
+  for_each_number(card, [&](char const* key, double value, char const* unit, char const*) {
+    json[fmt::format("{}{}", key, suffix_of(unit))] = value;
+  });
+  return json;
 }
 
 std::string table_text(BondCard const& card) {
@@ -97,13 +110,8 @@ std::string table_text(BondCard const& card) {
 }
 
 ExitCode bond(BondOptions const& options) {
-  try {
-    BondCard const card = evaluate(options);
-    return print_result(options.json ? json_text(card) : table_text(card));
-  } catch (CLI::ValidationError const& problem) {
-    print_error(fmt::format("clathra bond: {}", problem.what()));
-    return ExitCode::bad_input;
-  }
+  BondCard const card = evaluate(options);
+  return options.json ? print_json(json_text(json_of(card))) : print_result(table_text(card));
 }
 
 }  // namespace

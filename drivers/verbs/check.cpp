@@ -1,6 +1,7 @@
 /// `clathra check`: is a scene right, and what does it cost?
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -23,39 +24,28 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::string verdict_of(Scene const& scene, Forecast const& result) {
-  return result.refusals.empty() || scene.run.ignore_guards ? "valid" : "refused";
+/// Of a scene that can be read.
+std::string verdict_of(Scene const& scene, Forecast const& result, std::vector<std::string> const& warnings) {
+  if (!result.refusals.empty() && !scene.run.ignore_guards) return "refused";
+  bool const ignored =
+      std::any_of(warnings.begin(), warnings.end(), [](std::string const& text) { return text.starts_with(guard_ignored); });
+  return ignored ? "guards ignored" : "valid";
 }
 
 std::string count_text(std::size_t warnings) {
   return warnings == 0 ? "" : fmt::format(", {} warning{}", warnings, warnings == 1 ? "" : "s");
 }
 
-nlohmann::ordered_json problem_json(Problem const& problem) {
-  constexpr char const* severities[] = {"error", "missing file", "refusal"};
-  return {{"file", problem.file},
-          {"line", problem.line},
-          {"column", problem.column},
-          {"severity", severities[static_cast<int>(problem.severity)]},
-          {"text", problem.text}};
-}
-
-/// What is wrong with a scene that cannot be read, as JSON; the messages go to stderr as ever.
-void print_problems(CheckOptions const& options, SceneProblems const& problems) {
-  nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", "invalid"}, {"problems", nlohmann::json::array()}};
-  for (Problem const& problem : problems.problems) json["problems"].push_back(problem_json(problem));
-  print_json(json_text(json));
-}
-
-ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
+ExitCode check(CheckOptions const& options) {
+  LoadedScene input = options.scene.load();
   Scene const& scene = input.scene;
   bool const reads = scene.specimen.is_read();
   Forecast const result = forecast(scene, reads ? design_of(read_for_test(input)) : design_sample(scene), options.ranks);
   require_enough_discs(options.ranks, static_cast<std::int64_t>(result.numbers.at("particles")));
-  MachineSpeed const speed =
-      options.rate > 0 ? MachineSpeed{options.rate, "as given"} : machine_speed(scene, options.ranks, true);
-  std::string const verdict = verdict_of(scene, result);
+  MachineSpeed const speed = options.rate > 0 ? MachineSpeed{options.rate, "as given"}
+                                              : machine_speed(scene, result.numbers.at("particles"), options.ranks, true);
   std::vector<std::string> const warnings = warnings_of(input, result);
+  std::string const verdict = verdict_of(scene, result, warnings);
   ExitCode printed = ExitCode::done;
   if (options.json) {
     nlohmann::ordered_json json = {{"scene", options.scene.file}, {"verdict", verdict}};
@@ -64,22 +54,13 @@ ExitCode check_loaded(CheckOptions const& options, LoadedScene input) {
     printed = print_json(json_text(json));
   } else {
     printed = print_result(fmt::format("{}: {}{}\n{}{}", options.scene.file, verdict,
-                                       verdict == "valid" ? count_text(warnings.size()) : "", forecast_text(scene, result, speed),
-                                       warnings_text(input, result)));
+                                       verdict == "refused" ? "" : count_text(warnings.size()),
+                                       forecast_text(scene, result, speed), warnings_text(input, result)));
     if (is_quiet())
       for (std::string const& warning : warnings) print_error("warning: " + warning);
   }
   refuse_if_needed(scene, result);
   return printed;
-}
-
-ExitCode check(CheckOptions const& options) {
-  try {
-    return check_loaded(options, options.scene.load());
-  } catch (SceneProblems const& problems) {
-    if (options.json) print_problems(options, problems);
-    throw;
-  }
 }
 
 }  // namespace
@@ -88,7 +69,7 @@ void add_check(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<CheckOptions>();
   CLI::App* const verb = program.add_subcommand("check", "Check a scene and say what its run will cost");
   options->scene.add_to(*verb);
-  verb->add_option("--disc-steps-per-second", options->rate, "speed to assume (default: as measured on this machine, once)")
+  verb->add_option("--particle-steps-per-second", options->rate, "speed to assume (default: as measured on this machine, once)")
       ->check(CLI::PositiveNumber);
   verb->add_option("--ranks", options->ranks, "ranks that will share the run on this machine (mpirun -n N)")
       ->check(CLI::Range(1, 1000000));

@@ -120,7 +120,7 @@ std::string key_tables() {
 }  // namespace
 
 void add_completion(CLI::App& program, Verb& chosen) {
-  CLI::App* const verb = program.add_subcommand("completion", "Print the completion for a shell")->group("");
+  CLI::App* const verb = program.add_subcommand("completion", "Print the completion for a shell");
   verb->add_option("shell", "the shell")->required()->check(CLI::IsMember({"bash"}));
   verb->footer("Example: clathra completion bash > ~/.local/share/bash-completion/completions/clathra");
   verb->callback([&program, &chosen] {

@@ -4,28 +4,20 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
-#include "domain/scene/units.hpp"
+#include "io/scene/scene_value.hpp"
 #include "kernels/break_mode.hpp"
 #include "run/break_table.hpp"
 #include "terminal/json_text.hpp"
+#include "terminal/option_value.hpp"
 #include "terminal/print.hpp"
 #include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
 
-/// @throws SceneProblems, named after the option
 double strain_of(char const* option, std::string const& text) {
-  try {
-    double const strain = parse_quantity(text, Dimension::ratio);
-    if (strain > 1 || strain < 0)
-      throw std::invalid_argument(fmt::format("must lie between 0 and 1, got {}; 15 % is \"15 %\" or 0.15", text));
-    return strain;
-  } catch (std::invalid_argument const& problem) {
-    throw SceneProblems({{option, 0, 0, problem.what()}});
-  }
+  return option_value(option, [&] { return parse_share(text); });
 }
 
 struct EventsOptions {

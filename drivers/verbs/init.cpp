@@ -1,4 +1,4 @@
-/// `clathra init`: a commented scene file to start from.
+/// `clathra init`: a commented scene file, or a study file, to start from.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +9,15 @@
 #include "io/formats/text_file.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reference.hpp"
+#include "io/scene/study_file.hpp"
 #include "terminal/print.hpp"
 #include "verbs/examples.hpp"
 #include "verbs/verbs.hpp"
 
 namespace clathra {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct InitOptions {
   std::string example, output;
@@ -49,36 +52,63 @@ std::string listing() {
   return text;
 }
 
+/// Nothing where there is no such example.
+Example const* example_named(std::string_view name) {
+  auto const found = std::find_if(examples().begin(), examples().end(), [&](Example const& e) { return e.name == name; });
+  return found == examples().end() ? nullptr : &*found;
+}
+
+std::string write_scene(Example const& example, fs::path const& path) {
+  LoadedScene const loaded = parse_scene(std::string(example.text), std::string(example.name), path.parent_path());
+  replace_text_file(path, commented_scene(loaded.scene, loaded.stated, opening_comment(example.text), example.text),
+                    Existing::kept);
+  return fmt::format("{} is written; check it with: clathra check {}\n", path.string(), path.string());
+}
+
+void replace(std::string& text, std::string const& from, std::string const& to) {
+  if (std::size_t const at = text.find(from); at != text.npos) text.replace(at, from.size(), to);
+}
+
+/// The study, and beside it the scene that it is of, where there is no file of that name.
+std::string write_study(Example const& example, fs::path const& path) {
+  std::string text(example.text);
+  std::string const scene = parse_study(text, std::string(example.name) + ".toml").scene.string();  // "quick.toml"
+  fs::path const beside = path.parent_path() / fs::path(scene).filename();
+  replace(text, fmt::format("\"../{}\"", scene), fmt::format("\"{}\"", beside.filename().string()));
+  replace(text, fmt::format("examples/{}.toml", example.name), path.string());
+  std::error_code ignored;
+  std::string said = fs::exists(beside, ignored)
+                         ? fmt::format("{} is there already and stays\n", beside.string())
+                         : write_scene(*example_named(fs::path(scene).replace_extension().string()), beside);
+  replace_text_file(path, text, Existing::kept);
+  return said + fmt::format("{} is written; see what it costs with: clathra study {} --dry-run\n", path.string(), path.string());
+}
+
 ExitCode write_template(InitOptions const& options) {
-  auto const found =
-      std::find_if(examples().begin(), examples().end(), [&](Example const& e) { return e.name == options.example; });
-  if (found == examples().end()) {
+  Example const* const example = example_named(options.example);
+  if (!example) {
     std::vector<std::string_view> names;
-    for (Example const& example : examples()) names.push_back(example.name);
+    for (Example const& other : examples()) names.push_back(other.name);
     print_error(fmt::format("clathra: there is no example '{}'{}; `clathra init --list` names them all", options.example,
                             name_suggestion(options.example, names)));
     return ExitCode::usage;
   }
-  std::filesystem::path const path =
-      options.output.empty() ? std::filesystem::path(options.example).filename().string() + ".toml" : options.output;
+  fs::path const path = options.output.empty() ? fs::path(options.example).filename().string() + ".toml" : options.output;
   require_no_file(path, "-o names another file");
-  LoadedScene const loaded = parse_scene(std::string(found->text), options.example, path.parent_path());
-  replace_text_file(path, commented_scene(loaded.scene, loaded.stated, opening_comment(found->text), found->text),
-                    Existing::kept);
-  return print_result(fmt::format("{} is written; check it with: clathra check {}\n", path.string(), path.string()));
+  return print_result(example->name.starts_with("studies/") ? write_study(*example, path) : write_scene(*example, path));
 }
 
 }  // namespace
 
 void add_init(CLI::App& program, Verb& chosen) {
   auto const options = std::make_shared<InitOptions>();
-  CLI::App* const verb = program.add_subcommand("init", "Write a commented scene file to start from");
+  CLI::App* const verb = program.add_subcommand("init", "Write a commented scene file or a study file to start from");
   CLI::Option* const list = verb->add_flag("--list", options->list, "list the examples, as without an argument");
   verb->add_option("example", options->example, "the example to start from; without one, they are listed");
   verb->add_option("-o,--output", options->output, "file to write (default: the example's name in the current folder)")
       ->type_name("FILE")
       ->excludes(list);
-  verb->footer("Example: clathra init quick -o my.toml");
+  verb->footer("Example: clathra init quick -o my.toml\n         clathra init studies/saturations -o my-study.toml");
   verb->callback([options, &chosen] {
     if (options->example.empty() && !options->output.empty()) throw CLI::RequiredError("example");
     chosen = [options] { return options->example.empty() ? print_result(listing()) : write_template(*options); };

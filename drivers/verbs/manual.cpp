@@ -18,18 +18,21 @@ struct ExitEntry {
 };
 constexpr std::array exits = {
     ExitEntry{ExitCode::done, "Done."},
-    ExitEntry{ExitCode::usage, "A wrong option or command."},
-    ExitEntry{ExitCode::bad_input, "A scene or a file with wrong content; every fault is printed with its place."},
+    ExitEntry{ExitCode::usage, "The command line is wrong: the command, an option or its value, what --set says included."},
+    ExitEntry{ExitCode::bad_input, "A scene, a study or another file has wrong content; every fault is printed with its place."},
     ExitEntry{ExitCode::file_missing, "An input file is not there or cannot be read."},
     ExitEntry{ExitCode::internal, "A fault of Clathra, or a failed check of selftest."},
     ExitEntry{ExitCode::out_of_memory, "More memory is needed than there is."},
-    ExitEntry{ExitCode::cannot_create, "A file or folder of results cannot be made, or another run is writing there."},
+    ExitEntry{
+        ExitCode::cannot_create,
+        "A file or folder of results cannot be made: no right to, another run is writing there, or earlier results or files of "
+        "others are in the way."},
     ExitEntry{ExitCode::io_error, "A read or write failed half way, as on a full disk."},
     ExitEntry{ExitCode::to_be_resumed, "Stopped early, by a signal or the wall time, with a checkpoint: --resume goes on."},
     ExitEntry{ExitCode::diverged, "The run became unstable."},
     ExitEntry{ExitCode::refused,
-              "Refused: by a guard (its message names --ignore-guards where that helps), because a result is in the way, or "
-              "because no such specimen can be made."},
+              "Refused by a guard (its message names the option that overrides it, where there is one), or because no such test "
+              "or specimen can be made."},
     ExitEntry{ExitCode::member_failed, "Members of a study failed; the others have results."},
     ExitEntry{ExitCode::undetermined, "What was asked for cannot be told from the runs that there are."},
     ExitEntry{ExitCode::interrupted, "Stopped by Ctrl-C or a signal before there was a checkpoint."},
@@ -57,6 +60,13 @@ If set and not empty, warnings on a terminal have no colour.
 .TP
 .B TMPDIR
 Where selftest makes its temporary folder.
+.SH FILES
+.TP
+.I share/doc/clathra
+Beside the folder of the program: the pages that texts call docs/NAME.md, and the README.
+.TP
+.I share/clathra/examples
+Scenes and studies, which clathra init writes too.
 )";
 
 /// Text for troff: hyphens that are to be copied, no accidental requests.
@@ -126,7 +136,7 @@ std::string manual(CLI::App const& program) {
 }  // namespace
 
 void add_manual(CLI::App& program, Verb& chosen) {
-  CLI::App* const verb = program.add_subcommand("man", "Print the manual page")->group("");
+  CLI::App* const verb = program.add_subcommand("man", "Print the manual page");
   verb->footer("Example: clathra man | man -l -");
   verb->callback([&program, &chosen] { chosen = [&program] { return print_result(manual(program)); }; });
 }

@@ -124,17 +124,16 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
       ->type_name("KEY=VALUE");
   verb.add_option("--data", options.data,
                   "points of your own laboratory to be drawn into the figures (CSV; docs/howto/reproduce-a-paper.md)")
-      ->type_name("FILE")
-      ->check(CLI::ExistingFile);
+      ->type_name("FILE");
   verb.add_flag("--screening", options.screening, "only 26 and 55 % at 1 and 3 MPa with their sands, to compare presets");
-  verb.add_option("--jobs", options.parallel, "tests at a time (default: as many as cores and memory allow)")
+  verb.add_option("--jobs", options.parallel, "members at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  verb.add_option("--threads", options.threads, "threads of each test")->check(CLI::Range(1, 4096))->type_name("N");
-  verb.add_option("--max-walltime", options.most_time, "stop after this time, tests with a checkpoint (3h50m, 90s)")
+  verb.add_option("--threads", options.threads, "threads of each member")->check(CLI::Range(1, 4096))->type_name("N");
+  verb.add_option("--max-walltime", options.most_time, "stop after this time, members with a checkpoint (3h50m, 90s)")
       ->type_name("TIME")
       ->check(CLI::Validator(time_limit_problem, ""));
-  verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and tests that another program made");
+  verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and members that another program made");
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what it will cost");
   verb.add_flag("--json", options.json, "with --dry-run: one JSON object, SI units")->needs(dry);
   verb.add_flag("--collect", options.collect, "only scorecard and report of what there is")->excludes(dry);

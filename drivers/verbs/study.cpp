@@ -18,6 +18,7 @@
 #include "study/study_run.hpp"
 #include "terminal/duration.hpp"
 #include "terminal/json_text.hpp"
+#include "terminal/option_value.hpp"
 #include "terminal/print.hpp"
 #include "verbs/scene_options.hpp"
 #include "verbs/verbs.hpp"
@@ -33,15 +34,6 @@ struct StudyOptions {
   std::string most_time, checkpoint_every = "10m";
 };
 
-/// @throws SceneProblems, named after the option
-StudyGoal goal_of(std::string const& text) {
-  try {
-    return study_goal(text);
-  } catch (std::invalid_argument const& problem) {
-    throw SceneProblems({{"--precision-target " + text.substr(0, 100), 0, 0, problem.what()}});
-  }
-}
-
 Study study_of(StudyOptions const& options) {
   Study study = load_study(options.file);
   if (!options.output.empty()) study.folder = options.output;
@@ -50,7 +42,8 @@ Study study_of(StudyOptions const& options) {
     study.seeds.clear();
     for (int seed = 1; seed <= options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
   }
-  if (!options.precision_target.empty()) study.precision_target = goal_of(options.precision_target);
+  if (!options.precision_target.empty())
+    study.precision_target = option_value("--precision-target", [&] { return study_goal(options.precision_target); });
   if (options.max_seeds > 0 && !study.precision_target)
     throw SceneProblems({{"--max-seeds", 0, 0, "has no effect without --precision-target"}});
   if (options.max_seeds > 0) study.max_seeds = options.max_seeds;
@@ -107,7 +100,6 @@ ExitCode print_forecast(StudyPlan const& plan, StudyLimits const& limits, bool j
 
 ExitCode study(StudyOptions const& options) {
   StudyPlan plan = plan_study(study_of(options));
-  if (plan.study.precision_target) require_known_number(*plan.study.precision_target);
   add_members(plan);
   // Before study.csv is touched; the waves of a study with a goal are asked again.
   bool const only_plans = options.dry_run || !options.slurm.empty();
@@ -115,10 +107,11 @@ ExitCode study(StudyOptions const& options) {
   if (options.member > 0 || options.specimen > 0)
     return run_alone(plan, jobs_of(options), options.specimen > 0, options.specimen > 0 ? options.specimen : options.member);
   if (options.collect) return collect(plan, options);
+  if (options.skip_refused) heed_guards(plan, true);
   StudyLimits const limits = limits_of(options, plan);
   if (options.dry_run)
     if (ExitCode const printed = print_forecast(plan, limits, options.json); printed != ExitCode::done) return printed;
-  heed_guards(plan, options.skip_refused);
+  if (!options.skip_refused) heed_guards(plan, false);
   if (options.dry_run) return ExitCode::done;
   if (!options.slurm.empty()) return write_script(plan, jobs_of(options));
   return run_all(plan, limits);
@@ -173,7 +166,8 @@ void add_study(CLI::App& program, Verb& chosen) {
       ->check(CLI::Range(1, 10000))
       ->type_name("N");
   verb->add_option("--precision-target", options->precision_target,
-                   "add seeds until the 95 % interval of the mean of a number of study.csv is that narrow: peak_q_Pa=2%")
+                   "add seeds until the 95 % interval of the mean of a number is that narrow: peak_q=2%; " +
+                       fmt::format("{}", fmt::join(number_names(NumbersOf::envelopes), ", ")))
       ->type_name("NUMBER=WIDTH");
   verb->add_option("--max-seeds", options->max_seeds, "with --precision-target: stop at so many seeds of a group (default: 40)")
       ->check(CLI::Range(2, 10000))
@@ -194,7 +188,7 @@ void add_study(CLI::App& program, Verb& chosen) {
       ->type_name("TIME")
       ->check(time);
   add_parts(*verb, *options);
-  verb->footer("Example: clathra study examples/studies/saturations.toml --precision-target peak_q_Pa=5% --output out/study");
+  verb->footer("Example: clathra study examples/studies/saturations.toml --precision-target peak_q=5% --output out/study");
   verb->callback([options, &chosen] { chosen = [options] { return study(*options); }; });
 }
 

@@ -7,7 +7,9 @@
 #include "io/results/output_folder.hpp"
 #include "machine/interrupt.hpp"
 #include "terminal/duration.hpp"
+#include "terminal/option_value.hpp"
 #include "terminal/print.hpp"
+#include "terminal/text.hpp"
 #include "tune/tune_text.hpp"
 #include "tune/tuning.hpp"
 #include "verbs/verbs.hpp"
@@ -32,9 +34,11 @@ fs::path output_of(TuneOptions const& options) {
 ExitCode conclude(Tuning const& tuning, fs::path const& output) {
   std::string text = tuning.table();
   std::optional<std::size_t> const choice = tuning.search().choice();
-  if (tuning.misses_peaks() && tuning.plan().goal.quantity.starts_with("peak_"))
+  if (tuning.misses_peaks() && tuning.plan().goal.number.starts_with("peak_"))
     print_error(
         "warning: in some tests q has not fallen after its largest value: test.axial_strain is too small to compare peaks");
+  text += fmt::format("time      {} tests were made within the time allowed (--max-walltime {}){}\n", tuning.tests_made(),
+                      duration_text(tuning.budget()), tuning.out_of_time() ? "; more time may change the choice" : "");
   if (!choice) {
     if (is_quiet()) print_error("clathra: " + tuning.undetermined());
     ExitCode const printed = print_result(text + tuning.undetermined() + "\n");
@@ -48,7 +52,8 @@ ExitCode conclude(Tuning const& tuning, fs::path const& output) {
 }
 
 ExitCode tune(TuneOptions const& options) {
-  TuneGoal const goal = tune_goal(options.quantity, options.tolerance);
+  StudyGoal const goal{option_value("--quantity", [&] { return number_of_name(options.quantity, NumbersOf::tests); }),
+                       option_value("--tolerance", [&] { return goal_width(options.tolerance); })};
   fs::path const output = output_of(options);
   require_no_file(output, "-o names another file");
   fs::path const folder =
@@ -79,17 +84,17 @@ void add_tune(CLI::App& program, Verb& chosen) {
       ->capture_default_str()
       ->type_name("SHARE");
   verb->add_option("--quantity", options->quantity,
-                   "result that must be accurate: peak_q, residual_q, secant_modulus; a wrong name lists all")
+                   fmt::format("number that must be accurate: {}", fmt::join(number_names(NumbersOf::tests), ", ")))
       ->capture_default_str()
       ->type_name("NUMBER");
-  verb->add_option("--max-walltime", options->budget, "time that its runs may take (10m, 2h)")
+  verb->add_option("--max-walltime", options->budget, "time that its tests may take (10m, 2h)")
       ->capture_default_str()
       ->type_name("TIME")
       ->check(CLI::Validator(duration_problem, ""));
   verb->add_option("-o,--output", options->output, "scene file to write (default: NAME-tuned.toml in the current folder)")
       ->type_name("FILE")
       ->check(CLI::Validator(name_problem, ""));
-  verb->add_option("--folder", options->folder, "folder of the runs (default: out/NAME-tune)")
+  verb->add_option("--folder", options->folder, "folder of the tests (default: out/NAME-tune)")
       ->type_name("DIR")
       ->check(CLI::Validator(name_problem, ""));
   verb->add_option("--particles", options->discs,
@@ -97,7 +102,7 @@ void add_tune(CLI::App& program, Verb& chosen) {
       ->capture_default_str()
       ->check(CLI::Range(16, 1000000000))
       ->type_name("N");
-  verb->add_option("--jobs", options->parallel, "runs at a time (default: as many as cores and memory allow)")
+  verb->add_option("--jobs", options->parallel, "tests at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   verb->add_flag("--allow-mixed", options->allow_mixed, "take specimens and tests that another program made");

@@ -22,17 +22,20 @@ ExitCode verify(VerifyOptions const& options) {
   int wrong = 0;
   require_run_folder(options.folder);
   std::vector<FileCheck> const checks = check_run(options.folder);
-  nlohmann::ordered_json json = {{"folder", options.folder}, {"files", nlohmann::json::array()}};
+  nlohmann::ordered_json files = nlohmann::json::array();
   for (FileCheck const& check : checks) {
     text += fmt::format("{:<28} {}\n", check.file, check.problem.empty() ? "ok" : check.problem);
-    json["files"].push_back({{"file", check.file}, {"problem", check.problem}});
+    files.push_back({{"file", check.file}, {"as_written", check.problem.empty()}, {"problem", check.problem}});
     wrong += check.problem.empty() ? 0 : 1;
     if (is_quiet() && !check.problem.empty()) print_error(fmt::format("clathra: {} {}", check.file, check.problem));
   }
   text += wrong == 0 ? fmt::format("all {} files are as the run wrote them\n", checks.size())
                      : fmt::format("{} of {} files are not as the run wrote them\n", wrong, checks.size());
-  json["wrong"] = wrong;
-  ExitCode const printed = options.json ? print_json(json_text(json)) : print_result(text);
+  ExitCode const printed = options.json ? print_json(json_text({{"folder", options.folder},
+                                                                {"files_checked", checks.size()},
+                                                                {"files_not_as_written", wrong},
+                                                                {"files", std::move(files)}}))
+                                        : print_result(text);
   return wrong > 0 ? ExitCode::bad_input : printed;
 }
 

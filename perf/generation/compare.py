@@ -17,7 +17,7 @@ from specimens import Specimen  # noqa: E402
 
 OF_TEST = ["peak_q_Pa", "peak_eps1", "secant_modulus_Pa", "largest_eps_v", "residual_q_Pa", "end_eps_v", "void_ratio_before_consolidation",
            "void_ratio_after_consolidation", "consolidated_unbalanced"]
-OF_GENERATION = ["layer_void_ratio_sd", "unbalanced", "disc_steps", "generation_friction", "void_ratio", "stress_x_Pa", "stress_y_Pa"]
+OF_GENERATION = ["layer_void_ratio_sd", "unbalanced", "particle_steps", "generation_friction", "void_ratio", "stress_x_Pa", "stress_y_Pa"]
 
 
 def of_specimen(path):

@@ -49,7 +49,7 @@ def read_forces(path):
 @dataclass
 class Measurement:
     """What one run of one code gave."""
-    rate: float  # disc-steps/s
+    rate: float  # particle-steps/s
     searches: float  # neighbour searches in 1000 timed steps
     share: float  # of its cores that it got
     stress: tuple  # mean stress xx, yy after the first steps [Pa]

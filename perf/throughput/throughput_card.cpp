@@ -58,14 +58,14 @@ void throughput_card(ThroughputSetup setup, std::int64_t most_discs, double seco
 }
 
 std::string card_head() {
-  return "   discs  precision  M disc-steps/s  us a step  bytes a disc  moved a disc-step  "
+  return "   discs  precision  M particle-steps/s  us a step  bytes a disc  moved a particle-step  "
          "% of bandwidth   GB/s  launches a step  % searching\n";
 }
 
 std::string card_line(ThroughputRow const& row) {
   Throughput const& t = row.measured;
   char line[200];
-  std::snprintf(line, sizeof line, "%8lld  %-9s  %14.4g  %9.4g  %12.0f  %17.0f  %14.3g  %5.4g  %15.3g  %11.3g\n",
+  std::snprintf(line, sizeof line, "%8lld  %-9s  %18.4g  %9.4g  %12.0f  %21.0f  %14.3g  %5.4g  %15.3g  %11.3g\n",
                 static_cast<long long>(row.discs), precision_names[static_cast<int>(row.precision)],
                 t.disc_steps_per_second * 1e-6, row.microseconds_per_step(), t.bytes_per_disc, t.moved_per_step,
                 100 * row.bandwidth_share(), row.bandwidth * 1e-9, row.launches_per_step, 100 * t.rebuild_share);

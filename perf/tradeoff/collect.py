@@ -1,7 +1,7 @@
 """Adds the finished members of the studies in a folder to one table, which is made where there is none: collect.py FOLDER DATA.csv
 
 One row a test: the part (study file) it belongs to, what it was run with (settings that differ from base.toml make its factor and level), what came out, and its cost in
-disc-steps, which other load on the machine does not change. The inertial number is that of the test, which a bound of W may have lowered, to two digits.
+particle-steps, which other load on the machine does not change. The inertial number is that of the test, which a bound of W may have lowered, to two digits.
 """
 import csv
 import json
@@ -74,7 +74,7 @@ def row_of(member):
     row["early_disc_steps"] = row.pop("early_steps", 0) * int(row["discs"]) or ""
     row.update({name: run["stages"]["shear"].get(name, "") for name in NUMBERS})
     row.update(part=member.parent.parent.name, saturation=run["scene"]["hydrate"]["saturation"], stress_Pa=run["scene"]["test"]["confining_stress"], seed=run["seed"],
-               inertial_number=float(f"{run['stages']['plan']['inertial_number']:.2g}"), disc_steps=run["disc_steps"],
+               inertial_number=float(f"{run['stages']['plan']['inertial_number']:.2g}"), disc_steps=run["particle_steps"],
                specimen=run["input"]["specimen_digest_xxh3_128"][:12])
     return row
 

@@ -76,7 +76,7 @@ class Tests:
         return sum(values) / len(values) if values else math.nan
 
     def disc_steps(self, saturation, setting, stress=1e6):
-        """Disc-steps of a test to 10 % axial strain, the mean over its specimens; of shorter tests those of the base, as their early ones compare."""
+        """Particle-steps of a test to 10 % axial strain, the mean over its specimens; of shorter tests those of the base, as their early ones compare."""
         whole = self.mean_of(saturation, setting, "disc_steps", stress, whole=True)
         if whole == whole:
             return whole

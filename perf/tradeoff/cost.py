@@ -1,4 +1,4 @@
-"""Nanoseconds a disc-step of the shear by material and precision, the least of the tests of a study: cost.py STUDY COST.csv"""
+"""Nanoseconds a particle-step of the shear by material and precision, the least of the tests of a study: cost.py STUDY COST.csv"""
 import csv
 import json
 import sys
@@ -9,7 +9,7 @@ def main(study, path):
     found = {}
     for run in (json.loads(file.read_text()) for file in sorted(Path(study).glob("members/*/run.json"))):
         key = run["scene"]["hydrate"]["saturation"], run["scene"]["run"]["precision"]
-        found.setdefault(key, []).append(1e9 / run["disc_steps_per_second"])
+        found.setdefault(key, []).append(1e9 / run["particle_steps_per_second"])
     with open(path, "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["saturation", "precision", "ns_per_disc_step", "tests"])

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the tables of perf/reports/0.1/accuracy.md and its picture: table.py DATA.csv COST.csv FOLDER
 
-DATA.csv is what collect.py makes, COST.csv the nanoseconds a disc-step of each precision and material (cost.sh).
+DATA.csv is what collect.py makes, COST.csv the nanoseconds a particle-step of each precision and material (cost.sh).
 """
 import csv
 import math
@@ -36,7 +36,7 @@ def markdown(head, rows):
 
 
 class Cost:
-    """Seconds of one core that a test takes: its disc-steps times what one takes on a quiet machine."""
+    """Seconds of one core that a test takes: its particle-steps times what one takes on a quiet machine."""
 
     def __init__(self, path):
         with open(path, newline="") as file:
@@ -188,7 +188,7 @@ def stiffness(tests, _):
             rows.append((saturation, ratio, [NAMES[saturation], f"{ratio:g}", f"{setting[2]:g}"] + cells +
                          [with_interval(tests.change(saturation, setting, "peak_q_Pa", slow)), f"{tests.disc_steps(saturation, setting) / 1e6:.0f}", tests.part(saturation, setting)]))
     rows.sort(key=lambda r: r[:2])
-    return markdown(["material", "k_n / σ_3", "I", "peak q [MPa]", "strain at peak [%]", "E50 [MPa]", "peak q less that at 1e-4 [%]", "disc-steps [millions]", "part"],
+    return markdown(["material", "k_n / σ_3", "I", "peak q [MPa]", "strain at peak [%]", "E50 [MPa]", "peak q less that at 1e-4 [%]", "particle-steps [millions]", "part"],
                     [row for *_, row in rows])
 
 
@@ -271,7 +271,7 @@ def costs(tests, cost):
         for precision, setting in (("double", BASE), ("mixed", ("precision", "mixed", 1e-4))):
             rows.append([NAMES[saturation], precision, f"{cost.nanoseconds[saturation, precision]:.1f}",
                          f"{tests.disc_steps(saturation, setting) / 1e6:.0f}", f"{cost.seconds(tests, saturation, setting):.1f}"])
-    return markdown(["material", "precision", "ns a disc-step", "millions of disc-steps to 10 % at I = 1e-4", "core s"], rows)
+    return markdown(["material", "precision", "ns a particle-step", "millions of particle-steps to 10 % at I = 1e-4", "core s"], rows)
 
 
 TABLES = {"reference": references, "cost": costs, "sand": trade(SAND), "bonded": trade(BONDED), "many": many, "after": after,

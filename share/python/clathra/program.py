@@ -140,13 +140,14 @@ def _call(verb, what, output, progress, options):
 
 
 def check(scene: Scene, **options: Any) -> dict:
-    """What `clathra check --json` says of a scene: its verdict ("valid", "refused", "invalid"), problems or forecast (SI units) and
-    warnings. Raises ClathraError where it says nothing, as of a file that is not there."""
+    """What `clathra check --json` says of a scene: its verdict ("valid", "guards ignored", "refused", "invalid"),
+    problems (a file that is not there is one) or forecast (SI units) and warnings. Raises ClathraError where the program itself failed."""
     with _file_of(scene) as file:
         done = subprocess.run([program(), "check", file, "--json", *_options(options)], capture_output=True, text=True, errors="replace")
-    if not done.stdout:
+    said = json.loads(done.stdout or '{"verdict": "failed"}')
+    if said["verdict"] == "failed":
         raise ClathraError(done.returncode, done.stderr)
-    return json.loads(done.stdout)
+    return said
 
 
 def run(scene: Scene, output: Path, progress: Progress = True, **options: Any) -> Run:

@@ -215,7 +215,7 @@ void BiaxialTest::State::begin_shear() {
   if (broken > many * static_cast<double>(bonds0))
     warnings.push_back(short_number(100.0 * broken / static_cast<double>(bonds0)) +
                        " % of the bonds broke before the test: the specimen is no longer the one that was bonded");
-  preparation["bytes_per_disc"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.assembly().discs();
+  preparation["bytes_per_particle"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.assembly().discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
   if (rate.share < 1) preparation["rate_share"] = rate.share;
   began_quasi_static = at_rest && is_quasi_static(scene, rate);
@@ -312,7 +312,7 @@ std::vector<std::string> BiaxialTest::shear_warnings() const {
   if (std::string const soft = stiffness_warning_at(t.scene, t.watch.largest_sigma1()); !soft.empty()) warnings.push_back(soft);
   if (std::string const problem = collapse(t.simulation->assembly().void_ratio(), 0);
       t.scene.run.ignore_guards && !problem.empty())
-    warnings.push_back("guard ignored: " + problem);
+    warnings.push_back(guard_ignored + problem);
   constexpr double said = 1.01;  // of the strain that was asked for
   if (finished() && strain_fraction() > said) warnings.push_back(overshoot_text(t.eps1(), t.scene.test.axial_strain));
   return warnings;

@@ -127,7 +127,7 @@ std::vector<std::string> check_rate(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> warnings = rate_warnings(scene, n);
   std::string all;
   for (std::string const& refusal : rate_refusals(scene, n)) {
-    warnings.push_back("guard ignored: " + refusal);
+    warnings.push_back(guard_ignored + refusal);
     all += (all.empty() ? "" : "; ") + refusal;
   }
   if (!all.empty() && !scene.run.ignore_guards) throw Refused(all + ignore_hint);

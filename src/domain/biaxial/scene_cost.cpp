@@ -132,8 +132,8 @@ StageRecord predict(Scene const& scene, SpecimenDesign const& design, int ranks)
   p["platen_wave_stress"] = rate.platen_wave_stress;
   p["rate_share"] = rate.share;
   p["steps"] = std::ceil(scene.test.axial_strain / (rate.strain_rate * p["time_step_s"]));
-  p["disc_steps"] = p["steps"] * discs;
-  p["generation_disc_steps"] = generation_disc_steps(scene, design.grading, discs);
+  p["particle_steps"] = p["steps"] * discs;
+  p["generation_particle_steps"] = generation_disc_steps(scene, design.grading, discs);
   p["memory_bytes"] = std::max(memory_of_run(scene, bonded, discs, ranks), memory_of_report(scene, bonded, discs, p["steps"]));
   p["disk_bytes"] = disk_of_run(scene, bonded, discs, p["steps"]);
   return p;

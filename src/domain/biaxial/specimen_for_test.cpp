@@ -32,8 +32,8 @@ GeneratedSpecimen made_for_consolidation(Scene const& scene, ProgressCallback co
     }
     BiaxialTest const test(scene, generated.specimen, progress, ranks);
     reached = test.preparation().at("void_ratio_after_consolidation");
-    disc_steps += generated.record["disc_steps"] + static_cast<double>(test.disc_steps());
-    generated.record["disc_steps"] = disc_steps;
+    disc_steps += generated.record["particle_steps"] + static_cast<double>(test.disc_steps());
+    generated.record["particle_steps"] = disc_steps;
     generated.record["void_ratio_at_test"] = reached;
     if (std::abs(reached - wanted) <= void_tolerance) return generated;
     bool const turned = (wanted - reached) * lacking < 0;

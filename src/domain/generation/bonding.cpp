@@ -135,10 +135,10 @@ void bond_specimen(Scene const& scene, Specimen& specimen, StageRecord& record, 
   BondingOutcome const outcome = install_bonds(scene, specimen, ranks);
   record["h_max_m"] = outcome.critical_thickness;
   record["bonds"] = static_cast<double>(outcome.bonds);
-  record["bonds_per_disc"] =
+  record["bonds_per_particle"] =
       static_cast<double>(outcome.bonds) / static_cast<double>(ranks.sum(static_cast<std::int64_t>(specimen.size())));
-  record["rejected_no_tension"] = static_cast<double>(outcome.rejected_no_tension);
-  record["rejected_out_of_fit"] = static_cast<double>(outcome.rejected_out_of_fit);
+  record["pairs_without_tensile_strength"] = static_cast<double>(outcome.rejected_no_tension);
+  record["pairs_beyond_fit"] = static_cast<double>(outcome.rejected_out_of_fit);
   record["bond_area_m2"] = outcome.bond_area;
   record["areal_saturation"] = outcome.areal_saturation;
   record["areal_saturation_demanded"] = std::max(0.0, scene.hydrate.saturation - 0.2);

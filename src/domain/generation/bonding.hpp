@@ -32,7 +32,7 @@ double critical_thickness(Scene const& scene, Specimen const& share, Ranks const
 BondingOutcome install_bonds(Scene const& scene, Specimen& share, Ranks const& ranks = {});
 
 /// Installs bonds on a resting, unbonded specimen by scene.bond and scene.hydrate.
-/// The record holds bonds, bonds_per_disc, h_max, geometric (areal) saturation, rejected_no_tension, rejected_out_of_fit.
+/// The record holds h_max, the bonds, the pairs that got none and why, and the areal saturation.
 /// @param specimen  this rank's share as Simulation::specimen() or by_place() give it; gains the bonds
 void bond_specimen(Scene const& scene, Specimen& specimen, StageRecord& record, Ranks const& ranks = {});
 

@@ -98,12 +98,12 @@ GeneratedSpecimen make_specimen(Scene const& scene, ProgressCallback const& prog
   r["d50_wanted_m"] = design.grading.d50();
   r["grading_distance"] = grading_distance(design.grading, packed.specimen.radius, ranks);
   r["generation_friction"] = packed.friction;
-  r["generation_shape_factor"] = packed.shape_factor;
+  r["generation_rolling_width_factor"] = packed.shape_factor;
   r["stress_x_Pa"] = packed.stress_x;
   r["stress_y_Pa"] = packed.stress_y;
   r["unbalanced"] = packed.unbalanced;
   r["deep_overlap_share"] = packed.deep_overlap_share;
-  r["disc_steps"] = static_cast<double>(packed.disc_steps);
+  r["particle_steps"] = static_cast<double>(packed.disc_steps);
   r["width_m"] = packed.specimen.width();
   r["height_m"] = packed.specimen.height();
   generated.warnings = warnings_of(r);

@@ -118,6 +118,31 @@ std::string wide_skin(Grading const& grading, double skin) {
   return text;
 }
 
+std::string far_void_ratio(Scene const& scene, SpecimenDesign const& design) {
+  // Rests of 100 to 10,000 grains under 50 kPa, without friction and with that of sand: a part of the voids is at the walls, and
+  // that of other curves than the tables is denser, as far as is known.
+  struct Limits {
+    double dense, loose;  // of many grains
+  };
+  constexpr Limits of_toyoura{0.177, 0.32}, of_uniform{0.12, 0.32}, of_others{0.08, 0.32};
+  constexpr double dense_at_walls = 0.74, loose_at_walls = 0.9, squeezed = 5;
+  Limits const limits = !scene.grading.file.empty() ? of_others : scene.grading.table == "uniform" ? of_uniform : of_toyoura;
+  bool const at_test = scene.specimen.void_ratio_at == VoidRatioAt::test;
+  double const walls = 1 / std::sqrt(static_cast<double>(std::max<std::int64_t>(design.particles, 1))),
+               stress = at_test ? scene.test.confining_stress : scene.specimen.preparation_stress,
+               densest = limits.dense + dense_at_walls * walls - squeezed * stress / scene.grains.normal_stiffness,
+               loosest = limits.loose + loose_at_walls * walls;
+  if (design.void_ratio >= densest && design.void_ratio <= loosest) return {};
+  bool const is_dense = design.void_ratio < densest;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "a void ratio of %.4g will hardly be reached: %lld particles of such a grading come to rest at about %.2g at the %s",
+      design.void_ratio, static_cast<long long>(design.particles), is_dense ? densest : loosest,
+      is_dense ? "densest, without friction" : "loosest");
+  return text;
+}
+
 std::string narrowness(double width, double height, double largest, double fewest) {
   constexpr double rounding = 1e-9;
   double const side = std::min(width, height), across = side / largest;

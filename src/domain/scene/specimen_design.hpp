@@ -40,6 +40,10 @@ std::string crowding(double smallest, double largest, double reach);
 /// Why a Verlet skin [m], 0 = chosen, is too wide for the rows of neighbours, with the widest that is not; empty where it fits.
 std::string wide_skin(Grading const& grading, double skin);
 
+/// Why a specimen will hardly come to rest at the void ratio that a scene asks for: it is beyond the densest or the loosest
+/// packings of as many particles that were made; empty where it may. Which one there is, is known when it is made.
+std::string far_void_ratio(Scene const& scene, SpecimenDesign const& design);
+
 inline constexpr double fewest_grains_across = 3;
 
 /// Why a specimen is too narrow to be one of sand, its smaller side being less than `fewest` of its largest grains; empty where

@@ -24,6 +24,8 @@ struct Refused : std::runtime_error {
 };
 /// Ends the text of a refusal that a scene can overrule.
 inline constexpr char ignore_hint[] = " (run.ignore_guards = true or --ignore-guards runs it anyway)";
+/// Begins the warning that stands in its place where it was.
+inline constexpr char guard_ignored[] = "guard ignored: ";
 
 /// Thrown where a forecast asks for more memory than there is.
 struct OutOfMemory : std::runtime_error {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "domain/scene/short_number.hpp"
 #include "domain/scene/utf8.hpp"
 
 namespace clathra {
@@ -209,6 +210,13 @@ bool fits(Powers powers, Dimension dimension) {
   return powers == entry(dimension).powers;
 }
 
+/// Radians in a unit of angles, which no key has; 0 for other units.
+double radians_in(std::string_view unit) {
+  for (std::string_view const degrees : {"deg", "degree", "degrees"})
+    if (same_but_for_case(unit, degrees)) return 3.14159265358979323846 / 180;
+  return unit == "rad" ? 1 : 0;
+}
+
 /// "write 55.0 %" for a number with a decimal comma, which may be one that sets apart thousands; nothing for others.
 std::string comma_hint(std::string_view number, std::string_view rest) {
   if (rest.size() < 2 || rest[0] != ',' || rest[1] < '0' || rest[1] > '9') return {};
@@ -262,6 +270,9 @@ double parse_quantity(std::string_view text, Dimension dimension) {
     if (dimension == Dimension::temperature) refuse("a bare number (" + quoted(whole) + "), which could be degC or K");
     return shifted_number(number, 0);
   }
+  if (double const turn = dimension == Dimension::ratio ? radians_in(unit_text) : 0; turn > 0)
+    throw std::invalid_argument("is an angle, " + quoted(whole) + ", where a coefficient is needed: the tangent of the angle, " +
+                                short_number(std::tan(shifted_number(number, 0) * turn)));
   Unit const unit = parse_unit(unit_text, whole);
   if (!fits(unit.powers, dimension)) refuse(std::string(name_of(unit.powers)) + " (" + quoted(whole) + ")");
   double value = shifted_number(number, unit.decimals) * unit.factor / unit.divisor;
@@ -299,8 +310,9 @@ std::string format_quantity(double value, Dimension dimension) {
     std::string const text = format_number(shifted_number(bare, -parsed.decimals)) + " " + std::string(unit);
     if (parse_quantity(text, dimension) == value) return text;
   }
-  if (dimension == Dimension::temperature) return bare + " degC";
-  return bare;
+  std::string const unit(bare_unit(dimension));
+  bool const says_itself = unit.empty() || (value == 0 && dimension != Dimension::temperature);
+  return says_itself ? bare : bare + " " + unit;
 }
 
 std::string_view dimension_name(Dimension dimension) { return entry(dimension).name; }

@@ -8,8 +8,9 @@ namespace clathra {
 
 struct Failure {
   ExitCode code;
-  std::string text;  ///< for the user
-  bool everywhere;   ///< thrown on all ranks alike; the others know nothing of what is not
+  std::string text;               ///< for the user
+  bool everywhere;                ///< thrown on all ranks alike; the others know nothing of what is not
+  std::vector<Problem> problems;  ///< the same, one by one, for scripts
 };
 
 /// Of the exception that is being handled. To be called in a catch block.

@@ -16,8 +16,9 @@ std::string joined(std::vector<Problem> const& problems) {
   return text;
 }
 
-bool any_of(std::vector<Problem> const& problems, Severity severity) {
-  return std::any_of(problems.begin(), problems.end(), [&](Problem const& p) { return p.severity == severity; });
+template <class Test>
+bool any_of(std::vector<Problem> const& problems, Test const& test) {
+  return std::any_of(problems.begin(), problems.end(), test);
 }
 
 }  // namespace
@@ -31,8 +32,11 @@ std::string Problem::message() const {
 SceneProblems::SceneProblems(std::vector<Problem> all) : std::runtime_error(joined(all)), problems(std::move(all)) {}
 
 ExitCode SceneProblems::code() const {
-  if (any_of(problems, Severity::error)) return ExitCode::bad_input;
-  return any_of(problems, Severity::missing_file) ? ExitCode::file_missing : ExitCode::refused;
+  auto const is_error = [](Problem const& p) { return p.severity == Severity::error; };
+  if (any_of(problems, [&](Problem const& p) { return is_error(p) && !p.of_command_line(); })) return ExitCode::bad_input;
+  if (any_of(problems, is_error)) return ExitCode::usage;
+  bool const missing = any_of(problems, [](Problem const& p) { return p.severity == Severity::missing_file; });
+  return missing ? ExitCode::file_missing : ExitCode::refused;
 }
 
 }  // namespace clathra

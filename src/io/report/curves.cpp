@@ -34,8 +34,9 @@ std::string stress_figure(std::vector<RunResults> const& runs) {
   plot.title = "Deviator stress against axial strain";
   for (RunResults const& run : runs) {
     TestNumbers const n = test_numbers(run.history.curves());
-    plot.description += fmt::format("{}: peak {:.3g} MPa at {:.3g} %, residual {:.3g} MPa. ", run_label(run), n.peak_q * mega,
-                                    n.peak_eps1 * percent, n.residual_q * mega);
+    plot.description +=
+        fmt::format("{}: {} {:.3g} MPa at {:.3g} %, residual {:.3g} MPa. ", run_label(run),
+                    n.passed_peak ? "peak" : "largest so far", n.peak_q * mega, n.peak_eps1 * percent, n.residual_q * mega);
   }
   return figure("Stress and strain", svg(plot) + legend(plot.curves),
                 "How hard the specimen resists: the deviator stress q = σ₁ − σ₃, the difference of the vertical and the lateral "

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <set>
 #include <string_view>
 
 #include "io/report/markup.hpp"
+#include "io/results/interval_text.hpp"
 
 namespace clathra {
 namespace {
@@ -38,7 +39,7 @@ bool says_something(GroupCurves const& group, ShownBand const& what) {
 
 /// Shares end at 100 %.
 Axis axis_of(ShownBand const& what, Range const& values) {
-  bool const share = std::string_view(band_columns[what.column]).ends_with("_pct");
+  bool const share = possible_range(band_columns[what.column]).most == percent;
   return share ? Axis{what.axis, 0, percent} : values.axis(what.axis);
 }
 
@@ -52,6 +53,24 @@ Area area_of(GroupCurves const& group, ShownBand const& what) {
 Curve mean_of(GroupCurves const& group, ShownBand const& what) {
   SeedBand const& band = group.bands[what.column];
   return {group.name, scaled(band.eps1, percent), scaled(band.mean, what.factor), group.stroke};
+}
+
+/// What the bands of a figure are, and that few seeds make them wide.
+std::string note_on_bands(std::vector<GroupCurves> const& groups, ShownBand const& what) {
+  constexpr std::size_t enough = 5;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  bool cut = false;
+  for (GroupCurves const& group : groups) {
+    SeedBand const& band = group.bands[what.column];
+    if (band.seeds.size() > 1 && says_something(group, what)) fewest = std::min(fewest, band.seeds.size()), cut |= band.cut;
+  }
+  if (fewest == std::numeric_limits<std::size_t>::max()) return " Lines: one seed, which has no interval.";
+  std::string note = " Lines: mean over the seeds; bands: its 95 % confidence interval at each strain";
+  note += cut ? ", as far as such values are possible." : ".";
+  if (fewest >= enough) return note;
+  auto const deviations = [](std::size_t seeds) { return students_half_width(1, static_cast<int>(seeds)); };
+  return note + fmt::format(" Of {} seeds it is wide: {:.1f} standard deviations to either side; of {} it would be {:.1f}.",
+                            fewest, deviations(fewest), enough, deviations(enough));
 }
 
 /// The means of all groups with their bands in one figure.
@@ -76,17 +95,11 @@ std::string overlay(std::vector<GroupCurves> const& groups, ShownBand const& wha
   plot.title = std::string(what.heading) + ", mean over the seeds";
   plot.x = strains.exact_axis(strain_axis);
   plot.y = axis_of(what, values);
-  return figure(what.heading, svg(plot) + legend(plot.curves),
-                std::string(what.caption) + " Lines: mean over the seeds; bands: its 95 % confidence interval at each strain.");
+  return figure(what.heading, svg(plot) + legend(plot.curves), what.caption + note_on_bands(groups, what));
 }
 
-/// "3.04 ± 0.12": as many digits as the interval leaves sure.
 std::string with_interval(std::vector<double> const& values, double factor) {
-  MeanInterval const m = mean_interval(values);
-  if (!m.half_width) return with_minus(fmt::format("{:.3g}", m.mean * factor));
-  double const half = *m.half_width * factor;
-  int const digits = half > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6) : 3;
-  return with_minus(fmt::format("{:.{}f}", m.mean * factor, digits)) + fmt::format(" ± {:.{}f}", half, digits);
+  return with_minus(interval_text(mean_interval(values), factor));
 }
 
 /// A number of the envelopes against the saturation, with its interval as a vertical line.
@@ -94,6 +107,7 @@ std::string strength_figure(std::vector<GroupNumbers> const& materials, char con
                             std::string const& axis, double factor, std::vector<Curve> const& more) {
   Plot plot;
   Range saturations, values;
+  PossibleRange const range = possible_range(number);
   std::vector<std::pair<double, MeanInterval>> points;
   for (GroupNumbers const& material : materials) {
     std::string const* const setting = value_in(material.settings, saturation_key);
@@ -110,11 +124,12 @@ std::string strength_figure(std::vector<GroupNumbers> const& materials, char con
   for (auto const& [saturation, m] : points) {
     means.x.push_back(saturation);
     means.y.push_back(m.mean * factor);
-    plot.curves.push_back(
-        {"95 % interval", {saturation, saturation}, {m.low() * factor, m.high() * factor}, {colours::dark, "", 2}});
+    plot.curves.push_back({"95 % interval",
+                           {saturation, saturation},
+                           {range.cut(m.low()) * factor, range.cut(m.high()) * factor},
+                           {colours::dark, "", 2}});
     values.include(plot.curves.back().y);
-    plot.description +=
-        fmt::format("{:g} % hydrate: {:.3g} ± {:.2g}. ", saturation, m.mean * factor, m.half_width.value_or(0) * factor);
+    plot.description += fmt::format("{:g} % hydrate: {}. ", saturation, interval_text(m, factor));
   }
   saturations.include(means.x);
   values.include(means.y);
@@ -128,8 +143,8 @@ std::string strength_figure(std::vector<GroupNumbers> const& materials, char con
   plot.x = saturations.axis("hydrate saturation [%]");
   plot.y = values.axis(axis);
   return figure(plot.title, svg(plot),
-                "One envelope for each seed, fitted to its tests at all confining stresses. Points: mean over the seeds; "
-                "vertical lines: its 95 % confidence interval.");
+                "One envelope for each seed, fitted to its members at all confining stresses. Points: mean over the seeds; "
+                "vertical lines: its 95 % confidence interval, as far as such values are possible.");
 }
 
 }  // namespace clathra

@@ -26,7 +26,8 @@ struct Shown {
   RunResults const& run;
   std::size_t bytes;
   std::vector<Snapshot> snapshots;
-  std::size_t peak = 0;  ///< the one nearest to the peak
+  bool passed_peak = false;
+  std::size_t peak = 0;  ///< the one nearest to the peak, or to the largest q so far
   MapView view;
 
   Snapshot const& first() const { return snapshots.front(); }
@@ -102,8 +103,9 @@ std::string force_figure(Shown const& shown) {
   if (shown.run.has_bonds()) entries += patch_entry(map_colours::pulling, "pulling");
   return figure(
       "Force chains", strip(titled(image, strain_text(s))) + legend(entries),
-      "How the load finds its way through the grains near the peak: a line from centre to centre of two grains, as wide as "
-      "the normal force between them is large.");
+      fmt::format("How the load finds its way through the grains {}: a line from centre to centre of two grains, as wide as the "
+                  "normal force between them is large.",
+                  shown.passed_peak ? "near the peak" : "near the largest q so far, which no peak follows yet"));
 }
 
 std::string strain_figure(Shown const& shown) {
@@ -152,9 +154,10 @@ std::int64_t step_of(std::filesystem::path const& file) { return std::atoll(file
 Shown read_shown(RunResults const& run, std::size_t bytes) {
   std::vector<std::int64_t> steps;
   for (std::filesystem::path const& file : run.snapshots) steps.push_back(step_of(file));
-  auto const peak_step = static_cast<std::int64_t>(run.history["step"][test_numbers(run.history.curves()).peak]);
+  TestNumbers const numbers = test_numbers(run.history.curves());
+  auto const peak_step = static_cast<std::int64_t>(run.history["step"][numbers.peak]);
   std::vector<std::size_t> const which = shown_snapshots(steps, peak_step);
-  Shown shown{run, bytes, {}, which.size() > 1 ? std::size_t{1} : std::size_t{0}, {}};
+  Shown shown{run, bytes, {}, numbers.passed_peak, which.size() > 1 ? std::size_t{1} : std::size_t{0}, {}};
   if (which.size() == 2 && std::abs(steps[which[0]] - peak_step) < std::abs(steps[which[1]] - peak_step)) shown.peak = 0;
   std::vector<Snapshot const*> all;
   for (std::size_t const i : which) shown.snapshots.push_back(read_snapshot(run.snapshots[i]));

@@ -47,7 +47,8 @@ figcaption{font-size:.9rem;line-height:1.45;color:#39434a;margin-top:.5rem;max-w
 .bar span{display:flex;justify-content:space-between}
 .multiples{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,270px),1fr));gap:.8rem}
 .multiples .plot{font-size:24px;overflow:visible}.multiples+h3{margin-top:1.1rem}.multiples figure{padding:.5rem .5rem .2rem}.multiples h3{margin:0 0 .2rem}
-.words td,.words th{text-align:left}.sure td{white-space:nowrap}.scroll+.beside{margin-top:1.1rem}
+.words td,.words th{text-align:left}.sure td>span{white-space:nowrap}.sure thead th{white-space:normal}
+.sure tbody th{max-width:15em;overflow-wrap:anywhere}.sure td .unit{display:block;white-space:normal}.scroll+.beside{margin-top:1.1rem}
 .strip{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,210px),1fr));gap:.9rem}
 .strip>div{min-width:0}
 .stack{display:grid;gap:.9rem;align-content:start}
@@ -102,7 +103,9 @@ std::string grouped(double whole_number) {
 }
 
 std::string with_minus(std::string const& number) {
-  return number.starts_with('-') ? fmt::format("−{}", number.substr(1)) : number;
+  if (!number.starts_with('-')) return number;
+  bool const zero = number.find_first_not_of("-0.") == std::string::npos;
+  return (zero ? "" : "−") + number.substr(1);
 }
 
 std::string dash_attribute(Stroke const& stroke) {

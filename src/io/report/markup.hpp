@@ -16,7 +16,7 @@ std::string escaped(std::string_view text);
 /// "1,234,567"; a number that is not finite is a dash.
 std::string grouped(double whole_number);
 
-/// A number formatted by fmt with a true minus sign.
+/// A number formatted by fmt with a true minus sign; zero has none.
 std::string with_minus(std::string const& number);
 
 /// ` stroke-dasharray="..."`, or nothing for a solid line.

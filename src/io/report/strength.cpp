@@ -9,6 +9,7 @@
 
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
+#include "io/results/interval_text.hpp"
 #include "io/results/strength_groups.hpp"
 #include "io/results/tested_material.hpp"
 
@@ -55,18 +56,16 @@ double end_of_line(std::vector<SeedTest> const& tests) {
 /// c and phi with their intervals over the seeds, or the errors of the fit, if these are known.
 std::string envelope_numbers(PairedStrength const& strength) {
   Envelope const& fit = *strength.envelope;
-  auto const error = [](double value, char const* format) { return " ± " + fmt::format(fmt::runtime(format), value); };
   constexpr double degrees = 180 / half_turn;
-  std::string cohesion = with_minus(fmt::format("{:.3g}", fit.cohesion * mega)),
-              angle = fmt::format("{:.1f}", fit.friction_angle * degrees);
+  std::string cohesion = fmt::format("{:.3g}", fit.cohesion * mega), angle = fmt::format("{:.1f}", fit.friction_angle * degrees);
   if (strength.cohesion) {
-    cohesion += error(strength.cohesion->half_width.value_or(0) * mega, "{:.2g}");
-    angle += error(strength.friction_angle->half_width.value_or(0) * degrees, "{:.2g}");
+    cohesion = interval_text(*strength.cohesion, mega);
+    angle = interval_text(*strength.friction_angle, degrees);
   } else if (fit.errors) {
-    cohesion += error(fit.errors->cohesion * mega, "{:.2g}");
-    angle += error(fit.errors->friction_angle * degrees, "{:.1f}");
+    cohesion = with_error(fit.cohesion * mega, fit.errors->cohesion * mega);
+    angle = with_error(fit.friction_angle * degrees, fit.errors->friction_angle * degrees);
   }
-  return fmt::format("c = {} MPa and φ = {}°", cohesion, angle);
+  return fmt::format("c = {} MPa and φ = {}°", with_minus(cohesion), with_minus(angle));
 }
 
 /// What an envelope rests on.

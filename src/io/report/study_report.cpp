@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 
+#include "domain/measurement/test_numbers.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/group_curves.hpp"
 #include "io/report/markup.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr double percent = 100, mega = 1e-6;
 constexpr std::size_t most_seeds_drawn = 10, most_small_figures = 60;  // of one kind; a page stays below a few megabytes
-constexpr char saturation_key[] = "hydrate.saturation";
+constexpr char peak_number[] = "peak_q_Pa";
 constexpr std::size_t multiplied = 3;  // of the shown bands are also shown group by group
 
 /// One group in a small figure: each seed thin, their mean and its band.
@@ -57,6 +58,14 @@ struct Column {
   double factor;
 };
 
+/// How many seeds of a group have no peak yet, or nothing.
+std::string rising_seeds(GroupNumbers const& group) {
+  std::size_t const rising = group.without_peak();
+  if (rising == 0) return {};
+  std::string const of_all = rising == group.seeds.size() ? "" : fmt::format("{} of {} ", rising, group.seeds.size());
+  return fmt::format("<small class=\"unit\">({}still rising)</small>", of_all);
+}
+
 std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> const& columns, char const* what) {
   std::string head = fmt::format("<th>{}</th><th>seeds</th>", what), rows;
   std::vector<Column> used;
@@ -72,8 +81,10 @@ std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> c
       auto const found = group.values.find(column.number);
       std::string cell = found == group.values.end() ? "–" : with_interval(found->second, column.factor);
       if (found != group.values.end() && found->second.size() != group.seeds.size())
-        cell += fmt::format(" <span class=\"unit\">({} seeds)</span>", found->second.size());
-      rows += fmt::format("<td data-run=\"{} {}\">{}</td>", column.heading, column.unit, cell);
+        cell +=
+            fmt::format("<small class=\"unit\">({} seed{})</small>", found->second.size(), found->second.size() == 1 ? "" : "s");
+      if (std::string_view(column.number) == peak_number) cell += rising_seeds(group);
+      rows += fmt::format("<td data-run=\"{} {}\"><span>{}</span></td>", column.heading, column.unit, cell);
     }
     rows += "</tr>\n";
   }
@@ -110,50 +121,88 @@ std::string without_numbers(std::string const& text) {
 }
 
 /// What several members say in the same words.
-struct SharedWarning {
+struct SharedText {
   std::string first;  // as the first member says it
   bool numbers_differ = false;
   std::vector<std::string> members;
 };
 
-/// Each warning once, with the members that have it; of those that differ in numbers alone, the first.
-std::string warnings(Study const& study, std::vector<MemberResult> const& members) {
-  constexpr std::size_t most_named = 5;
-  std::vector<SharedWarning> all;
-  std::map<std::string, std::size_t> place;
-  for (MemberResult const& member : members)
-    for (std::string const& text : member.warnings) {
-      auto const [at, is_new] = place.try_emplace(without_numbers(text), all.size());
-      if (is_new) all.push_back({text, false, {}});
-      SharedWarning& warning = all[at->second];
-      warning.numbers_differ |= text != warning.first;
-      warning.members.push_back(member_name(study.groups[member.group], member.seed));
-    }
-  std::string items;
-  for (SharedWarning const& warning : all) {
-    std::span const named = std::span(warning.members).first(std::min(warning.members.size(), most_named));
-    std::string who = fmt::format("{}", fmt::join(named, ", "));
-    if (named.size() < warning.members.size()) who += fmt::format(" and {} more", warning.members.size() - named.size());
-    if (warning.numbers_differ) who += " (each with its own numbers, in its own report; here the first)";
-    items += "<li>" + escaped(who + ": " + warning.first) + "</li>\n";
+std::string first_of(std::vector<std::string> const& names) {
+  constexpr std::size_t most = 5;
+  std::span const named = std::span(names).first(std::min(names.size(), most));
+  std::string text = fmt::format("{}", fmt::join(named, ", "));
+  return named.size() < names.size() ? fmt::format("{} and {} more", text, names.size() - named.size()) : text;
+}
+
+/// Texts of members, each once with those that have it; of texts that differ in numbers alone, the first.
+class SharedTexts {
+ public:
+  void add(std::string const& member, std::string const& text) {
+    auto const [at, is_new] = place_.try_emplace(without_numbers(text), all_.size());
+    if (is_new) all_.push_back({text, false, {}});
+    SharedText& shared = all_[at->second];
+    shared.numbers_differ |= text != shared.first;
+    shared.members.push_back(member);
   }
-  return items.empty() ? "" : "<div class=\"warn\"><b>Warnings of members</b><ul>\n" + items + "</ul></div>\n";
+  std::string items() const {
+    std::string items;
+    for (SharedText const& text : all_)
+      items +=
+          "<li>" +
+          escaped(first_of(text.members) +
+                  (text.numbers_differ ? " (each with its own numbers, see study.csv; here the first): " : ": ") + text.first) +
+          "</li>\n";
+    return items;
+  }
+
+ private:
+  std::vector<SharedText> all_;
+  std::map<std::string, std::size_t> place_;
+};
+
+std::string box(char const* heading, std::string const& items) {
+  return items.empty() ? "" : fmt::format("<div class=\"warn\"><b>{}</b><ul>\n{}</ul></div>\n", heading, items);
+}
+
+std::string warnings(Study const& study, std::vector<MemberResult> const& members) {
+  SharedTexts texts;
+  for (MemberResult const& member : members)
+    for (std::string const& text : member.warnings) texts.add(member_name(study.groups[member.group], member.seed), text);
+  return box("Warnings of members", texts.items());
 }
 
 std::string problems(Study const& study, std::vector<MemberResult> const& members) {
-  std::string items;
+  SharedTexts texts;
   std::size_t waiting = 0;
   for (MemberResult const& member : members) {
     waiting += member.state == MemberState::waiting ? 1 : 0;
     if (member.state == MemberState::failed || member.state == MemberState::refused)
-      items += "<li>" + escaped(member_name(study.groups[member.group], member.seed) + ": " + member.message) + "</li>\n";
+      texts.add(member_name(study.groups[member.group], member.seed), member.message);
   }
+  std::string items = texts.items();
   if (waiting > 0) items += fmt::format("<li>{} members are not finished</li>\n", waiting);
-  return items.empty() ? "" : "<div class=\"warn\"><b>Members that are missing</b><ul>\n" + items + "</ul></div>\n";
+  return box("Members that are missing", items);
+}
+
+/// Which members have no peak yet: what the table and the curves call one is none there.
+std::string note_on_rising(Study const& study, std::vector<MemberResult> const& members) {
+  std::vector<std::string> rising;
+  std::size_t finished = 0;
+  for (MemberResult const& member : members) {
+    if (member.state != MemberState::finished) continue;
+    ++finished;
+    if (!member.peak) rising.push_back(member_name(study.groups[member.group], member.seed));
+  }
+  if (rising.empty()) return {};
+  return fmt::format(
+      "<p class=\"soft\">q still rises at the end of {} of {} members ({}): it has not fallen by {:.3g} % after its largest "
+      "value, so "
+      "a peak may lie beyond. What stands for their peak is the largest q so far; envelopes leave them out.</p>\n",
+      rising.size(), finished, escaped(first_of(rising)), (1 - share_past_peak) * percent);
 }
 
 std::vector<Column> result_columns() {
-  return {{"peak_q_Pa", "peak q", "MPa", mega},
+  return {{peak_number, "peak q", "MPa", mega},
           {"peak_eps1", "at ε₁", "%", percent},
           {"secant_modulus_Pa", "E₅₀", "MPa", mega},
           {"residual_q_Pa", "residual q", "MPa", mega},
@@ -173,11 +222,11 @@ void write_study_report(Study const& study, std::vector<MemberResult> const& mem
   std::string const title = "Study " + study.file.stem().string();
   std::string body = "<h1>" + escaped(title) + "</h1>\n";
   body += fmt::format(
-      "<p class=\"lead\">{} biaxial tests of {} groups, which differ in {}. Numbers are means over the seeds ± half of their 95 "
-      "% "
-      "confidence interval (Student t).</p>\n",
-      finished, groups.size(), escaped(varied_keys(study)));
-  body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group");
+      "<p class=\"lead\">{} finished members in {} group{}, which differ in {}. Numbers are means over the seeds ± half of their "
+      "95 % confidence interval (Student t).</p>\n",
+      finished, groups.size(), groups.size() == 1 ? "" : "s", escaped(varied_keys(study)));
+  body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group") +
+          note_on_rising(study, members);
   std::string overlays, multiples;
   for (ShownBand const& what : shown_bands) overlays += overlay(curves, what);
   body += "<h2>Curves</h2>\n" + side_by_side(overlays) + strength_part(envelopes_by_material(study, members));

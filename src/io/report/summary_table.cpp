@@ -84,7 +84,7 @@ std::vector<Quantity> cost_quantities() {
        [](Run r, Numbers) { return shown(r.number("/scene/run/rotational_inertia_factor"), "{:.3g}"); }},
       {"steps", "", [](Run r, Numbers) { return count(r.history["step"].back()); }},
       {"wall time of the shear", "s", [](Run r, Numbers) { return shown(r.number("/wall_seconds/shear"), "{:.4g}"); }},
-      {"disc-steps a second", "million",
+      {"particle-steps a second", "million",
        [](Run r, Numbers) { return shown(r.number("/disc_steps_per_second"), "{:.3g}", mega); }},
       {"seed", "", [](Run r, Numbers) { return shown(r.number("/seed"), "{:.0f}"); }},
       {"program", "",
@@ -124,18 +124,20 @@ std::string sentence_on_one(RunResults const& run) {
 std::string summary_sentence(std::vector<RunResults> const& runs) {
   if (runs.size() == 1) return sentence_on_one(runs.front());
   std::vector<double> saturations, stresses, peaks, strains;
+  std::size_t rising = 0;
   for (RunResults const& run : runs) {
     TestNumbers const n = test_numbers(run.history.curves());
     saturations.push_back(run.number("/scene/hydrate/saturation").value_or(0) * percent);
     stresses.push_back(run.number("/scene/test/confining_stress").value_or(0) * mega);
     peaks.push_back(n.peak_q * mega);
+    rising += n.passed_peak ? 0 : 1;
     strains.push_back(n.end_eps1 * percent);
   }
   return fmt::format(
       "{} specimens with a hydrate saturation of {} were compressed to an axial strain of {} under a lateral stress of {}: their "
-      "deviator stress peaked at {}.",
+      "largest deviator stress was {}{}.",
       runs.size(), range_text(saturations, "%", 3), range_text(strains, "%", 3), range_text(stresses, "MPa", 3),
-      range_text(peaks, "MPa", 3));
+      range_text(peaks, "MPa", 3), rising > 0 ? fmt::format("; it was still rising at the end of {} of them", rising) : "");
 }
 
 std::string summary_table(std::vector<RunResults> const& runs) {

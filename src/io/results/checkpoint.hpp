@@ -67,8 +67,8 @@ std::string no_checkpoint_text(std::vector<FileProblem> const& problems);
 void require_rows(std::filesystem::path const& run_folder, RunProgress const& progress);
 
 /// This rank's part of a checkpoint.
-/// @throws FileProblem bad_input where the content is no checkpoint of this version, or refused where it is one of another scene,
-/// with the keys that differ
+/// @throws FileProblem bad_input where the content is no checkpoint of this version, refused where it is of another precision,
+/// cannot_create where it is one of another scene, with the keys that differ
 TestState read_checkpoint(FoundCheckpoint const& checkpoint, Scene const& scene, Ranks const& ranks);
 
 /// The state hash that a checkpoint says it has.

@@ -159,7 +159,7 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
   try {
     std::string const different =
         scene_differences(about.at("scene").get<SceneTexts>(), scene, run_folder_of(path), Agreement::further);
-    if (!different.empty()) file.fail(ExitCode::refused, "is a checkpoint of another scene" + different);
+    if (!different.empty()) file.fail(ExitCode::cannot_create, "is a checkpoint of another scene" + different);
     about.at("test").get_to(state.numbers);
     about.at("preparation").get_to(state.preparation);
     about.at("warnings").get_to(state.warnings);

@@ -85,23 +85,23 @@ EarlierRun earlier_run(fs::path const& run_folder, Scene const& scene, InputDige
   if (!holds_results(run_folder) || (record.is_null() && goes_on)) return EarlierRun::unfinished;
   if (record.is_null())
     throw FileProblem(
-        ExitCode::refused, run_folder,
+        ExitCode::cannot_create, run_folder,
         "holds results of a run whose run.json is missing; --overwrite gives them up, --output names another folder");
   Differences const different = differences_from(record, run_folder, scene, digests);
   if (!is_finished) {
     if ((goes_on ? different.of_files : different.all).empty()) return EarlierRun::unfinished;
     throw FileProblem(
-        ExitCode::refused, run_folder,
+        ExitCode::cannot_create, run_folder,
         "holds the unfinished run of another scene; --overwrite gives it up, --output names another folder" + different.all);
   }
   if (different.all.empty()) return EarlierRun::finished;
   if (!different.to_go_on.empty() || !different.longer)
     throw FileProblem(
-        ExitCode::refused, run_folder,
+        ExitCode::cannot_create, run_folder,
         "holds the finished run of another scene; --resume would destroy it, choose another folder" + different.all);
   if (!goes_on)
     throw FileProblem(
-        ExitCode::refused, run_folder,
+        ExitCode::cannot_create, run_folder,
         "holds a finished run that kept no checkpoint to be extended from (output.keep_checkpoint)" + different.all);
   return EarlierRun::to_be_extended;
 }

@@ -16,9 +16,9 @@ namespace clathra {
 /// strain. `unfinished` is also a folder without a run.
 enum class EarlierRun { unfinished, finished, to_be_extended };
 
-/// @throws FileProblem bad_input where run.json is damaged: then nobody knows. Refused where the run is finished, or has results
-/// but no checkpoint, and is of another scene, with the keys that differ; where it read files of another content; where it has
-/// results and no run.json; or where it is finished and kept no checkpoint to be extended from
+/// @throws FileProblem bad_input where run.json is damaged: then nobody knows. cannot_create where the run is finished, or has
+/// results but no checkpoint, and is of another scene, with the keys that differ; where it read files of another content; where
+/// it has results and no run.json; or where it is finished and kept no checkpoint to be extended from
 EarlierRun earlier_run(std::filesystem::path const& run_folder, Scene const& scene, InputDigests const& digests);
 
 /// The version_text() of the program that a folder's run.json says has run last in it; nothing where there is none that can be

@@ -56,7 +56,7 @@ void require_own(std::filesystem::path const& folder, std::string_view verb) {
   std::string const marked = marked_as(folder);
   if (marked == fmt::format("clathra {}", verb)) return;
   if (!marked.empty())
-    throw FileProblem(ExitCode::refused, folder,
+    throw FileProblem(ExitCode::cannot_create, folder,
                       fmt::format("holds results of `{}`, not of `clathra {}`; choose another folder", marked, verb));
   std::error_code error;
   auto const entries = std::filesystem::directory_iterator(folder, error);
@@ -69,7 +69,7 @@ void require_own(std::filesystem::path const& folder, std::string_view verb) {
            (name == lock_name && entry.file_size() > 0);
   };
   if (std::any_of(begin(entries), end(entries), is_other))
-    throw FileProblem(ExitCode::refused, folder,
+    throw FileProblem(ExitCode::cannot_create, folder,
                       fmt::format("is not empty and not of an earlier `clathra {}`; choose another folder", verb));
 }
 
@@ -94,7 +94,7 @@ std::span<std::string_view const> result_files() { return results; }
 void claim_folder(std::filesystem::path const& folder, std::string_view verb) {
   std::error_code error;
   if (std::filesystem::is_symlink(folder, error))
-    throw FileProblem(ExitCode::refused, folder, "is a link; name the folder itself");
+    throw FileProblem(ExitCode::cannot_create, folder, "is a link; name the folder itself");
   bool const exists = std::filesystem::exists(folder, error);
   if (exists && !std::filesystem::is_directory(folder, error))
     throw FileProblem(ExitCode::cannot_create, folder, "is not a folder");

@@ -21,8 +21,8 @@ void claim_folder(std::filesystem::path const& folder, std::string_view verb);
 class OutputFolder {
  public:
   /// @param verb  "run", "study", ...
-  /// @throws FileProblem cannot_create (no right to write, another run is writing), or refused: the folder is a link, or holds
-  /// files but no marker of this verb
+  /// @throws FileProblem cannot_create: no right to write, another run is writing, the folder is a link, or holds files but no
+  /// marker of this verb
   OutputFolder(std::filesystem::path folder, std::string_view verb);
   ~OutputFolder();
   OutputFolder(OutputFolder const&) = delete;

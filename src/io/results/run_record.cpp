@@ -11,6 +11,7 @@
 #include "domain/parallel/ranks.hpp"
 #include "io/formats/digest.hpp"
 #include "io/formats/text_file.hpp"
+#include "io/results/stage_numbers.hpp"
 #include "io/scene/rolling_lever_text.hpp"
 #include "io/scene/schema.hpp"
 #include "kernels/real.hpp"
@@ -25,7 +26,8 @@ struct JsonValue {
   Scene& scene;
   template <class T>
   nlohmann::json operator()(T& (*at)(Scene&)) const {
-    return at(scene);
+    bool const given = !(at(scene) == T()) || key.takes_zero || (key.zero.empty() && key.kind != Kind::path);
+    return given ? nlohmann::json(at(scene)) : nlohmann::json();
   }
   nlohmann::json operator()(RollingLever& (*at)(Scene&)) const { return format_rolling_lever(at(scene)); }
   nlohmann::json operator()(ChoiceField const& field) const {
@@ -39,6 +41,7 @@ struct SetFromJson {
   nlohmann::json const& value;
   template <class T>
   void operator()(T& (*at)(Scene&)) const {
+    if (value.is_null()) return static_cast<void>(at(scene) = T());
     bool fits = value.is_string();
     if constexpr (std::is_same_v<T, bool>)
       fits = value.is_boolean();
@@ -74,17 +77,19 @@ Json program_json(RunRecord const& record) {
           {"threads", record.threads}};
 }
 
-/// What the keys do not say of themselves.
-Json meaning_json() {
-  return {{"stages.shear.residual_q_Pa", "mean of q over the records from residual_from_eps1 on"},
-          {"stages.shear.secant_modulus_Pa", "E50: half the peak of q over the axial strain where q first gets there"},
-          {"stages.prepare.rate_share",
-           "part of the rate of test.inertial_number to which test.max_platen_wave_stress has lowered it"},
-          {"wall_seconds.generate", "making the specimen"},
-          {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; checkpoints read where it was resumed"},
-          {"wall_seconds.shear", "steps, records and snapshots; neighbour_searches and checkpoints are parts of it"},
-          {"wall_seconds", "of all sessions of a run that was resumed; one that was killed had not said how long it took"},
-          {"disc_steps_per_second", "of the last session"}};
+/// What the numbers mean, by their path.
+Json meaning_json(RunRecord const& record) {
+  Json meaning = {
+      {"scene", "null where a key was not given and has no default"},
+      {"wall_seconds.generate", "making the specimen"},
+      {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; checkpoints read where it was resumed"},
+      {"wall_seconds.shear", "steps, records and snapshots; neighbour_searches and checkpoints are parts of it"},
+      {"wall_seconds", "of all sessions of a run that was resumed; one that was killed had not said how long it took"},
+      {"particle_steps", "particles times time steps, of the whole shear"},
+      {"particle_steps_per_second", "of the last session"}};
+  for (auto const& [stage, numbers] : record.stages)
+    for (auto const& [name, value] : numbers) meaning[fmt::format("stages.{}.{}", stage, name)] = meaning_of(stage, name);
+  return meaning;
 }
 
 Json input_json(RunRecord const& record) {
@@ -153,9 +158,9 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   json["stages"] = record.stages;
   if (!record.layer_void_ratios.empty()) json["layer_void_ratios"] = record.layer_void_ratios;
   json["wall_seconds"] = record.wall_seconds;
-  json["meaning"] = meaning_json();
-  json["disc_steps"] = record.disc_steps;
-  json["disc_steps_per_second"] = record.disc_steps_per_second;
+  json["meaning"] = meaning_json(record);
+  json["particle_steps"] = record.disc_steps;
+  json["particle_steps_per_second"] = record.disc_steps_per_second;
   json["warnings"] = record.warnings;
   if (record.state_hash) json["state_hash"] = hash_text(*record.state_hash);
   if (!record.result_digests.empty()) json["result_digests_xxh3_128"] = record.result_digests;

@@ -157,6 +157,12 @@ class Table {
 
 }  // namespace
 
+std::size_t GroupNumbers::without_peak() const {
+  auto const passed = values.find("peak_passed");
+  if (passed == values.end()) return 0;
+  return static_cast<std::size_t>(std::count(passed->second.begin(), passed->second.end(), 0.0));
+}
+
 void read_member(MemberResult& member, std::filesystem::path const& run_folder) {
   RunResults const run = read_run(run_folder);
   std::filesystem::path const history = run_folder / "history.csv";
@@ -172,7 +178,7 @@ void read_member(MemberResult& member, std::filesystem::path const& run_folder) 
   nlohmann::json const seconds = section_of(run.record, {"wall_seconds"}, run_folder);
   double wall_seconds = 0;
   for (char const* const stage : {"prepare", "shear", "generate"}) wall_seconds += number_at(seconds, stage, run_folder);
-  member.disc_steps_per_second = number_at(run.record, "disc_steps_per_second", run_folder);
+  member.disc_steps_per_second = number_at(run.record, "particle_steps_per_second", run_folder);
   member.wall_seconds = wall_seconds;
   member.numbers = std::move(numbers);
   TestNumbers const n = test_numbers(run.history.curves());

@@ -29,6 +29,9 @@ struct MemberResult {
   double wall_seconds = 0, disc_steps_per_second = 0;
 };
 
+/// By guards, and left out (--skip-refused).
+inline bool is_refused(MemberResult const& member) { return member.state == MemberState::refused; }
+
 /// Reads what a finished run left. @throws FileProblem, also where run.json has a text where a number belongs
 void read_member(MemberResult& member, std::filesystem::path const& run_folder);
 
@@ -38,6 +41,9 @@ struct GroupNumbers {
   std::vector<Setting> settings;
   std::vector<std::uint64_t> seeds;
   std::map<std::string, std::vector<double>> values;  ///< by name; of the seeds that have it
+
+  /// How many seeds did not pass a peak (TestNumbers::passed_peak).
+  std::size_t without_peak() const;
 };
 
 /// The finished members by group, in the order of the study. Groups without any are left out.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <map>
 #include <string_view>
 
 #include "io/scene/scene_guard.hpp"
@@ -32,6 +34,37 @@ std::string syntax_text(std::string_view description, std::string_view line) {
   if (number && after != from_number.npos && from_number[after] == ',')
     return fmt::format("a number has a decimal point: {}.{}", from_number.substr(0, after), from_number.substr(after + 1, 20));
   return "cannot be understood: " + std::string(description);
+}
+
+/// What a line states, without blanks and quotes: "[section]", or "section.key"; nothing where it is neither.
+/// @param section  in which the line stands, "section." or empty; becomes that which it begins
+std::string stated_in(std::string_view line, std::string& section) {
+  std::string plain;
+  std::copy_if(line.begin(), line.end(), std::back_inserter(plain),
+               [](char c) { return std::string_view(" \t\r\"'").find(c) == std::string_view::npos; });
+  if (plain.starts_with('[') && plain.ends_with(']')) {
+    section = plain.substr(1, plain.size() - 2) + ".";
+    return plain;
+  }
+  std::size_t const equals = plain.find('=');
+  return equals == std::string::npos ? std::string() : section + plain.substr(0, equals);
+}
+
+/// What is wrong where a line states what one above has stated, or nothing.
+std::string twice_text(std::string_view text, int last) {
+  std::map<std::string, int> lines;
+  std::string section;
+  for (int number = 1; number <= last; ++number) {
+    std::string const name = stated_in(text.substr(0, text.find('\n')), section);
+    text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
+    auto const [first, is_new] = lines.emplace(name, number);
+    if (number < last || is_new || name.empty()) continue;
+    return name.starts_with('[')
+               ? fmt::format("the section {} begins twice, in lines {} and {}: write the keys of both below one", name,
+                             first->second, last)
+               : fmt::format("'{}' is stated twice, in lines {} and {}: leave one of them out", name, first->second, last);
+  }
+  return {};
 }
 
 TomlNode tree_of(toml::node const& node);
@@ -81,7 +114,10 @@ std::optional<TomlTable> parse_guarded(std::string const& text, std::string cons
   } catch (toml::parse_error const& error) {
     auto const at = error.source().begin;
     int const line = static_cast<int>(at.line);
-    problems.push_back({file, line, static_cast<int>(at.column), syntax_text(error.description(), line_of(text, line))});
+    std::string const twice =
+        error.description().find("redefine") == std::string_view::npos ? "" : twice_text(guarded.text, line);
+    problems.push_back({file, line, twice.empty() ? static_cast<int>(at.column) : 1,
+                        twice.empty() ? syntax_text(error.description(), line_of(text, line)) : twice});
     return {};
   }
 }

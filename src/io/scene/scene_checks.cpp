@@ -31,7 +31,7 @@ struct Check {
   }
   void refusal(std::vector<std::string_view> keys, std::string text) {
     if (scene.run.ignore_guards)
-      found.warnings.push_back("guard ignored: " + text);
+      found.warnings.push_back(guard_ignored + text);
     else
       found.problems.push_back({std::move(keys), text + ignore_hint, Severity::refusal});
   }
@@ -118,6 +118,7 @@ std::optional<SpecimenDesign> check_design(Check& check) {
       check.error({"specimen.width", "specimen.height", "grading.d50"},
                   fmt::format("the box of {} x {} holds {} particles of this grading; between 16 and 1e9 are possible",
                               length_text(design.width), length_text(design.height), design.particles));
+    if (std::string text = far_void_ratio(scene, design); !text.empty()) check.warn(std::move(text));
     for (std::string& text : size_warnings(design.grading.sizes())) check.warn(std::move(text));
     return design;
   } catch (std::invalid_argument const& problem) {

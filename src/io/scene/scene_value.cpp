@@ -32,14 +32,13 @@ std::string limit_text(Key const& key, double value) {
 void check_range(Key const& key, double value, bool bare) {
   if (value == 0 && !key.zero.empty()) return;
   if (value >= key.least && value <= key.most) return;
-  std::string text = fmt::format("must lie between {} and {}, got {}", limit_text(key, key.least), limit_text(key, key.most),
+  std::string text = fmt::format("must lie between {} and {}{}, got {}", limit_text(key, key.least), limit_text(key, key.most),
+                                 key.takes_zero && key.least > 0 ? fmt::format(", or be 0 ({})", key.zero) : "",
                                  is_quantity(key) ? format_quantity(value, key.dimension) : format_number(value));
-  if (key.takes_zero && key.least > 0) text += fmt::format(" (0: {})", key.zero);
   if (is_quantity(key) && key.dimension == Dimension::ratio) {
     if (!bare) text += fmt::format(", which is {} %; {} % is the most", short_number(100 * value), short_number(100 * key.most));
     bool const is_share = key.most <= 1 && (key.least == 0 || key.least >= 1e-6);
-    if (bare && is_share && value >= 2 && value <= 100)
-      text += fmt::format("; this looks like percent: write {} or \"{} %\"", short_number(value / 100), format_number(value));
+    if (bare && is_share && value >= 2) text += percent_hint(value);
   } else if (is_quantity(key) && bare) {
     text +=
         fmt::format("; a number without unit is in {}; example: {}", bare_unit(key.dimension), quantity_example(key.dimension));
@@ -52,8 +51,6 @@ void set_quantity(Key const& key, Scene& scene, double value, bool bare) {
   check_range(key, value, bare);
   std::get<double& (*)(Scene&)>(key.field)(scene) = value + 0.0;  // "-0" is written back as "0"
 }
-
-bool is_bare(std::string_view text) { return text.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos; }
 
 void set_quantities(Key const& key, Scene& scene, std::vector<double> values, bool bare) {
   for (double const value : values) {
@@ -157,6 +154,19 @@ T const& read(T& (*at)(Scene&), Scene const& scene) {
 }
 
 }  // namespace
+
+bool is_bare(std::string_view text) { return text.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos; }
+
+std::string percent_hint(double value) {
+  if (!(value >= 1 && value <= 100)) return {};
+  return fmt::format("; this looks like percent: write {} or \"{} %\"", short_number(value / 100), format_number(value));
+}
+
+double parse_share(std::string_view text) {
+  double const share = parse_quantity(text, Dimension::ratio);
+  if (share >= 0 && share <= 1) return share;
+  refuse(fmt::format("must lie between 0 and 1, got {}{}", text, is_bare(text) ? percent_hint(share) : ""));
+}
 
 void set_from_text(Key const& key, Scene& scene, std::string_view text) {
   switch (key.kind) {

@@ -11,6 +11,15 @@ namespace clathra {
 /// @throws std::invalid_argument with a text that follows the key's name: "needs a pressure, got a length ('1 mm'); ..."
 void set_from_text(Key const& key, Scene& scene, std::string_view text);
 
+/// Whether a quantity has no unit.
+bool is_bare(std::string_view text);
+
+/// "; this looks like percent: write 0.41 or "41 %"" of a bare number that a share cannot be; nothing where it is no such.
+std::string percent_hint(double value);
+
+/// A number from 0 to 1, "0.02" or "2 %". @throws std::invalid_argument as above
+double parse_share(std::string_view text);
+
 /// Sets a key from a bare number, which is in SI units. @throws std::invalid_argument as above
 void set_from_number(Key const& key, Scene& scene, double value);
 void set_from_integer(Key const& key, Scene& scene, std::int64_t value);

@@ -141,23 +141,48 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 /// How far two names may be apart to be taken for a slip of the keyboard.
 bool is_near(std::size_t distance, std::string_view name) { return distance <= std::max<std::size_t>(1, name.size() / 3); }
 
-/// What papers and other programs call a key.
+/// What papers and other programs call a key, with its section where that makes a difference.
 struct Symbol {
-  std::string_view name, key;
+  std::string_view name, key, note = {};
 };
-constexpr Symbol symbols[] = {{"kn", "grains.normal_stiffness"},
+constexpr Names tangent = "the tangent of the angle", per_thickness = "of a contact, per metre thickness",
+                of_hydrate = "the stiffness of hydrate follows from its temperature, pore pressure and density",
+                or_strain_rate = "or 'strain_rate'";
+constexpr Symbol symbols[] = {{"bond.E", "hydrate.pore_pressure", of_hydrate},
+                              {"bond.young", "hydrate.pore_pressure", of_hydrate},
+                              {"bond.youngs_modulus", "hydrate.pore_pressure", of_hydrate},
+                              {"bond.stiffness", "hydrate.pore_pressure", of_hydrate},
+                              {"hydrate.pressure", "hydrate.pore_pressure"},
+                              {"hydrate.rho", "hydrate.density"},
+                              {"specimen.pressure", "specimen.preparation_stress"},
+                              {"specimen.size", "specimen.width", "and 'height'"},
+                              {"kn", "grains.normal_stiffness"},
                               {"k_n", "grains.normal_stiffness"},
+                              {"E", "grains.normal_stiffness", per_thickness},
+                              {"young", "grains.normal_stiffness", per_thickness},
+                              {"youngs_modulus", "grains.normal_stiffness", per_thickness},
                               {"ks", "grains.shear_stiffness"},
                               {"k_s", "grains.shear_stiffness"},
+                              {"nu", "grains.shear_stiffness", per_thickness},
+                              {"poisson", "grains.shear_stiffness", per_thickness},
+                              {"poisson_ratio", "grains.shear_stiffness", per_thickness},
                               {"mu", "grains.friction"},
+                              {"phi", "grains.friction", tangent},
+                              {"friction_angle", "grains.friction", tangent},
                               {"beta", "grains.rolling_width_factor"},
                               {"rho", "grains.density"},
+                              {"diameter", "grading.d50"},
+                              {"size", "grading.d50"},
                               {"discs", "specimen.particles"},
+                              {"box", "specimen.width", "and 'height'"},
                               {"porosity", "specimen.void_ratio"},
                               {"e", "specimen.void_ratio"},
                               {"e0", "specimen.void_ratio"},
+                              {"pressure", "test.confining_stress"},
                               {"sigma3", "test.confining_stress"},
                               {"sigma_3", "test.confining_stress"},
+                              {"speed", "test.inertial_number", or_strain_rate},
+                              {"velocity", "test.inertial_number", or_strain_rate},
                               {"alpha", "damping.local"},
                               {"dt", "run.time_step_safety"},
                               {"time_step", "run.time_step_safety"},
@@ -165,8 +190,6 @@ constexpr Symbol symbols[] = {{"kn", "grains.normal_stiffness"},
                               {"skin", "run.verlet_skin"},
                               {"strain", "test.axial_strain"},
                               {"force", "run.ignore_guards"}};
-
-std::string hint(std::string_view name) { return "; did you mean '" + std::string(name) + "'?"; }
 
 constexpr std::size_t longest_name = 60;  // a longer one resembles no key
 
@@ -195,43 +218,78 @@ std::string_view nearest(std::string_view name, std::span<std::string_view const
   return best.empty() || !is_near(least, name) ? std::string_view() : best;
 }
 
-/// The dotted key that was meant by "section.leaf" or "leaf"; nothing where none is near.
-std::string meant_key(std::string_view name) {
-  auto const dot = name.find('.');
-  std::string_view const section = name.substr(0, dot);
-  std::string_view const leaf = dot == std::string_view::npos ? std::string_view{} : name.substr(dot + 1);
-  for (Symbol const& symbol : symbols)
-    if (symbol.name == (leaf.empty() ? name : leaf)) return std::string(symbol.key);
-  std::vector<std::string_view> leaves, whole;
-  std::string_view elsewhere;
-  for (Key const& key : schema()) {
-    if (key.section() == section) leaves.push_back(key.leaf());
-    if (elsewhere.empty() && (key.leaf() == leaf || key.leaf() == name)) elsewhere = key.name;
-    whole.push_back(key.name);
-  }
-  if (!leaf.empty())
-    if (std::string_view const near = nearest(leaf, leaves); !near.empty()) return std::string(section) + "." + std::string(near);
-  return std::string(elsewhere.empty() ? nearest(name, whole) : elsewhere);
+/// Whether the words of the shorter of two names, with _ between them, are all in the longer one.
+bool shares_words(std::string_view a, std::string_view b) {
+  constexpr std::size_t least = 4;  // "at" stands in many
+  std::string_view const shorter = a.size() < b.size() ? a : b, longer = a.size() < b.size() ? b : a;
+  auto const with_bounds = [](std::string_view text) { return "_" + std::string(text) + "_"; };
+  return shorter.size() >= least && with_bounds(longer).find(with_bounds(shorter)) != std::string::npos;
 }
+
+/// Keys that may have been meant, and what is said of the first.
+struct Meant {
+  std::vector<Key const*> keys;
+  std::string_view note = {};
+};
+
+/// Keys of a section, or of all where it is empty, whose leaf is near a name, or has its words.
+std::vector<Key const*> like_leaf(std::string_view leaf, std::string_view section) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string_view> leaves;
+  std::vector<Key const*> of_words, found;
+  for (Key const& key : schema()) {
+    if (!section.empty() && key.section() != section) continue;
+    leaves.push_back(key.leaf());
+    if (of_words.size() < most && shares_words(key.leaf(), leaf)) of_words.push_back(&key);
+  }
+  std::string_view const near = nearest(leaf, leaves);
+  for (Key const& key : schema())
+    if (found.empty() && key.leaf() == near && (section.empty() || key.section() == section)) found.push_back(&key);
+  return found.empty() ? of_words : found;
+}
+
+/// What was meant by "section.leaf" or "leaf": its section is looked through first, if there is such a one.
+Meant meant_by(std::string_view name) {
+  auto const dot = name.find('.');
+  std::string_view const section = name.substr(0, dot), leaf = dot == std::string_view::npos ? name : name.substr(dot + 1);
+  for (std::string_view const symbol_name : {name, leaf})
+    for (Symbol const& symbol : symbols)
+      if (symbol.name == symbol_name) return {{find_key(symbol.key)}, symbol.note};
+  if (dot != std::string_view::npos && is_section(section)) {
+    if (Meant const here{like_leaf(leaf, section)}; !here.keys.empty()) return here;
+  } else {
+    std::vector<std::string_view> whole;
+    for (Key const& key : schema()) whole.push_back(key.name);
+    if (std::string_view const near = nearest(name, whole); !near.empty()) return {{find_key(near)}};
+  }
+  return {like_leaf(leaf, {})};
+}
+
+/// @param name_of  of a key, in quotes
+template <class NameOf>
+std::string suggestion(Meant const& meant, NameOf const& name_of) {
+  std::string names;
+  for (Key const* const key : meant.keys) names += (names.empty() ? "" : " or ") + name_of(*key);
+  return names.empty() ? names : "; did you mean " + names + (meant.note.empty() ? "?" : " (" + std::string(meant.note) + ")?");
+}
+
+std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 }  // namespace
 
 std::string name_suggestion(std::string_view name, std::span<std::string_view const> names) {
   std::string_view const best = nearest(name, names);
-  return best.empty() ? std::string() : hint(best);
+  return best.empty() ? std::string() : "; did you mean " + in_quotes(best) + "?";
 }
 
 std::string key_suggestion(std::string_view name) {
-  std::string const meant = meant_key(name);
-  return meant.empty() ? std::string() : hint(meant);
+  return suggestion(meant_by(name), [](Key const& key) { return in_quotes(key.name); });
 }
 
 std::string key_suggestion_in(std::string_view section, std::string_view name) {
-  std::string const meant = meant_key(std::string(section) + "." + std::string(name));
-  if (meant.empty()) return {};
-  Key const& key = *find_key(meant);
-  if (key.section() == section) return hint(key.leaf());
-  return "; did you mean '" + std::string(key.leaf()) + "' in [" + std::string(key.section()) + "]?";
+  return suggestion(meant_by(std::string(section) + "." + std::string(name)), [section](Key const& key) {
+    return in_quotes(key.leaf()) + (key.section() == section ? "" : " in [" + std::string(key.section()) + "]");
+  });
 }
 
 }  // namespace clathra

@@ -1,6 +1,7 @@
 #include "io/scene/study_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -20,12 +21,6 @@ namespace clathra {
 namespace {
 
 constexpr char stress_key[] = "test.confining_stress";
-
-/// Keys that each member has its own value of, or that say nothing of what is tested; with what to write instead.
-constexpr std::pair<std::string_view, char const*> other_keys[] = {
-    {"run.seed", "'seeds' of the study gives the seeds, or --seeds"},
-    {"output.folder", "'folder' of the study names the folder of all members, or --output"},
-    {"run.threads", "--threads gives the threads of a member"}};
 
 /// A piece of a file's name: "26 %" -> "26pct".
 std::string slug(std::string_view text) {
@@ -100,6 +95,8 @@ class StudyReader {
 
   void read_root(TomlTable const& root) {
     static constexpr std::string_view names[] = {"scene", "seeds", "folder", "precision_target", "max_seeds", "matrix", "groups"};
+    std::string of_a_scene;
+    TomlNode first;
     for (auto const& [name, line, column, node] : in_order(root)) {
       if (name == "scene")
         read_path(node, study_.scene);
@@ -115,15 +112,16 @@ class StudyReader {
         read_matrix(node);
       else if (name == "groups")
         read_groups(node);
+      else if (is_section(name) && node.as<TomlTable>())
+        of_a_scene += fmt::format("{}[{}]", of_a_scene.empty() ? "" : ", ", name), first = first.line ? first : node;
+      else if (std::string const hint = name_suggestion(name, names); hint.empty())
+        report(node, fmt::format("unknown key '{}'; a study has {}", name.substr(0, 60), fmt::join(names, ", ")));
       else
-        report(
-            node,
-            fmt::format(
-                "unknown key '{}'{}; a study has scene, seeds, folder, precision_target, max_seeds, [matrix] and [groups.NAME]",
-                name.substr(0, 60),
-                is_section(name) ? "; this is a section of a scene, which a study names: scene = \"my.toml\""
-                                 : name_suggestion(name, names)));
+        report(node, fmt::format("unknown key '{}'{}", name.substr(0, 60), hint));
     }
+    if (!of_a_scene.empty())
+      report(first, study_.scene.empty() ? fmt::format("{} belong to a scene, and this is one: clathra run {}", of_a_scene, file_)
+                                         : of_a_scene + " belong into the scene file, or their keys below [matrix]");
     if (study_.scene.empty() && problems_.empty())
       problems_.push_back({file_, 0, 0, "'scene' is missing: the scene file that all members share"});
     study_.seeds_stated = !study_.seeds.empty();
@@ -158,7 +156,7 @@ class StudyReader {
 
   void read_goal(TomlNode const& node) {
     auto const* const text = node.as<std::string>();
-    if (!text) return report(node, "'precision_target' needs a text like \"peak_q_Pa=2%\"");
+    if (!text) return report(node, "'precision_target' needs a text like \"peak_q=2%\"");
     try {
       study_.precision_target = study_goal(*text);
     } catch (std::invalid_argument const& problem) {
@@ -179,13 +177,19 @@ class StudyReader {
   void for_each_key(TomlNode const& section, char const* what, Found const& found) {
     auto const* const table = section.as<TomlTable>();
     if (!table) return report(section, fmt::format("'{}' is a section: write [{}] and keys of the scene below", what, what));
+    std::map<std::string, int> lines;
+    auto const take = [&](std::string const& name, TomlNode const& node) {
+      auto const [first, is_new] = lines.emplace(name, node.line);
+      if (is_new) return found(name, node);
+      report(node,
+             fmt::format("'{}' is stated twice, in lines {} and {}: leave one of them out", name, first->second, node.line));
+    };
     for (TomlEntry const& entry : in_order(*table)) {
       auto const* const nested = entry.node.as<TomlTable>();
-      if (!nested || is_range(*nested)) {
-        found(entry.name, entry.node);
-        continue;
-      }
-      for (TomlEntry const& leaf : in_order(*nested)) found(entry.name + "." + leaf.name, leaf.node);
+      if (!nested || is_range(*nested))
+        take(entry.name, entry.node);
+      else
+        for (TomlEntry const& leaf : in_order(*nested)) take(entry.name + "." + leaf.name, leaf.node);
     }
   }
 
@@ -227,8 +231,11 @@ class StudyReader {
       if (!key) return;
       Choices choices{name, {}};
       if (auto const* const list = node.as<TomlList>()) {
-        for (TomlNode const& item : *list)
-          if (auto value = value_of(*key, item)) choices.values.push_back(std::move(*value));
+        for (TomlNode const& item : *list) {
+          auto value = value_of(*key, item);
+          if (!value) return;  // what follows is most often wrong in the same way
+          choices.values.push_back(std::move(*value));
+        }
         if (list->empty()) report(node, fmt::format("'{}' has no value in its list", name));
       } else if (auto const* const range = node.as<TomlTable>()) {
         choices.values = range_of(*key, *range, node);
@@ -319,10 +326,12 @@ class StudyReader {
     for (Choices const& choices : matrix_) count = count > most_members ? count : count * choices.values.size();
     if (count > most_members)
       return problems_.push_back({file_, 0, 0, fmt::format("the study has more than {} members", most_members)});
-    for (StudyGroup const& group : named_)
-      for (Setting const& setting : group.settings)
-        if (std::any_of(matrix_.begin(), matrix_.end(), [&](Choices const& choices) { return choices.key == setting.first; }))
-          problems_.push_back({file_, 0, 0, fmt::format("'{}' is in [matrix] and in [groups.{}]", setting.first, group.name)});
+    for (Choices const& choices : matrix_)
+      for (StudyGroup const& group : named_)
+        if (value_in(group.settings, choices.key)) {
+          problems_.push_back({file_, 0, 0, fmt::format("'{}' is in [matrix] and in [groups.{}]", choices.key, group.name)});
+          break;  // the first of them says it
+        }
     std::vector<StudyGroup> groups = named_.empty() ? std::vector<StudyGroup>(1) : named_;
     for (Choices const& choices : matrix_) {
       std::vector<StudyGroup> finer;
@@ -364,36 +373,5 @@ class StudyReader {
 Study parse_study(std::string const& text, std::filesystem::path const& path) { return StudyReader(path).read(text); }
 
 Study load_study(std::filesystem::path const& path) { return parse_study(read_text_file(path, largest_scene_file + 1), path); }
-
-StudyGoal study_goal(std::string const& text) {
-  auto const equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw std::invalid_argument("needs the form NUMBER=WIDTH, as in peak_q_Pa=2%");
-  std::string const width = text.substr(std::min(text.size(), text.find_first_not_of(' ', equals + 1)));
-  auto const parts = parts_of(width);
-  std::string unit = parts ? parts->second : "";
-  std::erase(unit, ' ');
-  if (!parts || (unit != "%" && !unit.empty()))
-    throw std::invalid_argument(fmt::format("needs a width like 2%, got '{}'", width));
-  StudyGoal const goal{text.substr(0, equals), parts->first * (unit == "%" ? 0.01 : 1)};
-  if (!(goal.width > 0 && goal.width < 1))
-    throw std::invalid_argument(fmt::format("needs a width between 0 and 100 %, got '{}'", width));
-  return goal;
-}
-
-std::string const* value_in(std::vector<Setting> const& settings, std::string_view key) {
-  auto const found = std::find_if(settings.begin(), settings.end(), [&](Setting const& setting) { return setting.first == key; });
-  return found == settings.end() ? nullptr : &found->second;
-}
-
-void add_key(Study& study, std::string const& key) {
-  if (key != "run.ignore_guards" && std::find(study.keys.begin(), study.keys.end(), key) == study.keys.end())
-    study.keys.push_back(key);
-}
-
-char const* key_of_each_run(std::string_view name) {
-  for (auto const& [other, instead] : other_keys)
-    if (name == other) return instead;
-  return nullptr;
-}
 
 }  // namespace clathra

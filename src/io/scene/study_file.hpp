@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "io/scene/scene_file.hpp"
+#include "io/scene/study_goal.hpp"
 
 namespace clathra {
 
@@ -31,12 +32,6 @@ struct StudyGroup {
   std::string name;               ///< of letters, digits and ._+-: "dense_26pct_1MPa"
   std::vector<Setting> settings;  ///< those of the named set, then those of the matrix, in the order of the file
   std::string material;           ///< the name without the confining stress: groups of one material share an envelope
-};
-
-/// "peak_q_Pa=2%": seeds are added until the mean of a number is known to this part of itself.
-struct StudyGoal {
-  std::string number;
-  double width = 0;
 };
 
 struct Study {
@@ -60,9 +55,6 @@ Study load_study(std::filesystem::path const& path);
 
 /// The same from text. @param path  what the file would be called: paths in the text are relative to its folder
 Study parse_study(std::string const& text, std::filesystem::path const& path);
-
-/// @throws std::invalid_argument with what is wrong with the text
-StudyGoal study_goal(std::string const& text);
 
 /// Takes a key into those of the study. Left out is run.ignore_guards, which changes no result.
 void add_key(Study& study, std::string const& key);

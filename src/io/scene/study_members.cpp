@@ -15,6 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Keys that each member has its own value of, or that say nothing of what is tested; with what to write instead.
+constexpr std::pair<std::string_view, char const*> other_keys[] = {
+    {"run.seed", "'seeds' of the study gives the seeds, or --seeds"},
+    {"output.folder", "'folder' of the study names the folder of all members, or --output"},
+    {"run.threads", "--threads gives the threads of a member"}};
+
 /// A value as a scene would echo it, so that "50 %" and "0.5" are one.
 std::string echoed(std::string const& key_name, std::string const& text) {
   Key const* const key = find_key(key_name);
@@ -59,6 +65,22 @@ std::string quoted(std::string const& text) {
 std::string absolute_text(fs::path const& path) { return fs::absolute(path).lexically_normal().string(); }
 
 }  // namespace
+
+std::string const* value_in(std::vector<Setting> const& settings, std::string_view key) {
+  auto const found = std::find_if(settings.begin(), settings.end(), [&](Setting const& setting) { return setting.first == key; });
+  return found == settings.end() ? nullptr : &found->second;
+}
+
+void add_key(Study& study, std::string const& key) {
+  if (key != "run.ignore_guards" && std::find(study.keys.begin(), study.keys.end(), key) == study.keys.end())
+    study.keys.push_back(key);
+}
+
+char const* key_of_each_run(std::string_view name) {
+  for (auto const& [other, instead] : other_keys)
+    if (name == other) return instead;
+  return nullptr;
+}
 
 bool groups_differ_in(Study const& study, std::string const& key) {
   std::set<std::string> values;
@@ -112,10 +134,11 @@ LoadedScene member_scene(Study const& study, StudyGroup const& group, std::uint6
       bool const of_file =
           problem.file.starts_with(option) && !value_in(study.overridden, key_in(problem.file.substr(option.size())));
       if (of_file) {
-        problem.text = fmt::format("{}: {}", problem.file.substr(option.size()), problem.text);
+        std::string const stated = problem.file.substr(option.size());
+        if (!problem.text.starts_with("'" + key_in(stated) + "'")) problem.text = stated + ": " + problem.text;
         problem.file = study.file.string();
       }
-      problem.text += fmt::format(" (in the group {} of {})", group.name, study.file.string());
+      problem.text += fmt::format(" (in the group {}{})", group.name, of_file ? "" : " of " + study.file.string());
     }
     throw SceneProblems(std::move(named));
   }
