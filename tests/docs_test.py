@@ -48,7 +48,7 @@ class Docs(unittest.TestCase):
     def test_every_file_that_a_page_names_is_there(self):
         names = 0
         for page in PAGES:
-            for name in re.findall(r"`((?:docs|drivers|examples|perf|scripts|share|src|tests)/[\w./-]*)", page.read_text()):
+            for name in re.findall(r"`((?:docs|drivers|examples|packaging|perf|scripts|share|src|tests)/[\w./-]*)", page.read_text()):
                 names += 1
                 self.assertTrue((PROJECT / name.rstrip(".")).exists(), f"{page}: no {name}")
         self.assertGreater(names, 100)
