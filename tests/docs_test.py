@@ -50,7 +50,7 @@ class Docs(unittest.TestCase):
         for page in PAGES:
             for name in re.findall(r"`((?:docs|drivers|examples|packaging|perf|scripts|share|src|tests)/[\w./-]*)", page.read_text()):
                 names += 1
-                self.assertTrue((PROJECT / name.rstrip(".")).exists(), f"{page}: no {name}")
+                self.assertTrue("NAME" in name or (PROJECT / name.rstrip(".")).exists(), f"{page}: no {name}")
         self.assertGreater(names, 100)
 
     def test_every_page_that_the_sources_name_is_there(self):
@@ -62,7 +62,7 @@ class Docs(unittest.TestCase):
                 continue
             for name in re.findall(r"\b((?:docs|perf/reports)/[\w./-]+\.(?:md|svg|png))\b", file.read_text(errors="ignore")):
                 names += 1
-                self.assertTrue((PROJECT / name).exists(), f"{file}: no {name}")
+                self.assertTrue("NAME" in name or (PROJECT / name).exists(), f"{file}: no {name}")
         self.assertGreater(names, 20)
 
     def test_lines_fit_110_columns(self):
