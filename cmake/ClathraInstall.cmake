@@ -17,7 +17,8 @@ if(CLATHRA_IO)
 endif()
 
 install(
-  DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/share/paraview ${PROJECT_SOURCE_DIR}/share/python
+  DIRECTORY ${PROJECT_SOURCE_DIR}/examples ${PROJECT_SOURCE_DIR}/share/papers ${PROJECT_SOURCE_DIR}/share/paraview
+            ${PROJECT_SOURCE_DIR}/share/python
   DESTINATION ${CMAKE_INSTALL_DATADIR}/clathra
   COMPONENT program
   PATTERN __pycache__ EXCLUDE

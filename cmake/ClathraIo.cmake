@@ -12,6 +12,11 @@ if(PkgConfig_FOUND)
   pkg_check_modules(TOMLPLUSPLUS QUIET IMPORTED_TARGET tomlplusplus)
   pkg_check_modules(XXHASH QUIET IMPORTED_TARGET libxxhash)
 endif()
+# One that its own CMake has installed is headers only and has no entry for pkg-config.
+if(NOT TOMLPLUSPLUS_FOUND)
+  find_package(tomlplusplus CONFIG QUIET)
+  set(TOMLPLUSPLUS_FOUND ${tomlplusplus_FOUND})
+endif()
 
 set(missing "")
 foreach(library HDF5 PNG Eigen3 Boost fmt CLI11 nlohmann_json TOMLPLUSPLUS XXHASH)
@@ -45,11 +50,16 @@ endif()
 if(CLATHRA_IO)
   add_library(clathra_io_libraries INTERFACE)
   target_include_directories(clathra_io_libraries SYSTEM INTERFACE ${HDF5_INCLUDE_DIRS})
-  # TOML_HEADER_ONLY=0: the parser comes compiled, in the shared library, instead of once more in each of our sources.
-  target_compile_definitions(clathra_io_libraries INTERFACE ${HDF5_DEFINITIONS} TOML_HEADER_ONLY=0)
+  target_compile_definitions(clathra_io_libraries INTERFACE ${HDF5_DEFINITIONS})
   target_link_libraries(
-    clathra_io_libraries INTERFACE ${HDF5_C_LIBRARIES} PNG::PNG PkgConfig::TOMLPLUSPLUS PkgConfig::XXHASH fmt::fmt
-                                   nlohmann_json::nlohmann_json)
+    clathra_io_libraries INTERFACE ${HDF5_C_LIBRARIES} PNG::PNG PkgConfig::XXHASH fmt::fmt nlohmann_json::nlohmann_json)
+  if(TARGET PkgConfig::TOMLPLUSPLUS)
+    # TOML_HEADER_ONLY=0: the parser comes compiled, in the shared library, instead of once more in each of our sources.
+    target_compile_definitions(clathra_io_libraries INTERFACE TOML_HEADER_ONLY=0)
+    target_link_libraries(clathra_io_libraries INTERFACE PkgConfig::TOMLPLUSPLUS)
+  else()
+    target_link_libraries(clathra_io_libraries INTERFACE tomlplusplus::tomlplusplus)
+  endif()
   if(CLATHRA_DEVICE STREQUAL "CUDA")
     target_compile_definitions(clathra_io_libraries INTERFACE FMT_USE_CONSTEXPR=1) # fmt 9 does not expect it of nvcc
   endif()

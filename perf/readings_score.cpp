@@ -1,19 +1,20 @@
 /// Scores readings of Jiang et al. (2017) by its claims, from the members of studies that perf/readings/screen.py wrote.
-///   readings_score MEMBERS...
+///   readings_score share/papers/jiang-2017.toml MEMBERS...
 /// MEMBERS are folders of runs named <reading>_<saturation>pct_<stress>MPa-seed<n>; those of clean sand are named
 /// beta<shape factor>_<stress>MPa-seed<n>, and a reading that ends in "beta1" is compared with those of beta1. Prints CSV, best
 /// first: the mean over claims 2 to 9 of the share of their parts whose mean lies within the bounds, that of each claim, and
 /// the numbers that tell readings apart.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <regex>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "domain/scene/grading.hpp"
-#include "io/results/paper_numbers.hpp"
+#include "io/results/paper_file.hpp"
+#include "io/results/scored_claims.hpp"
 
 namespace clathra {
 namespace {
@@ -40,26 +41,34 @@ std::vector<Run> runs_in(fs::path const& members) {
   return runs;
 }
 
-/// The tests of one reading with their sands, as a study whose groups are named by paper_cell().
+/// The paper's group of a saturation [%] and a stress [MPa].
+StudyGroup const* group_at(Paper const& paper, int saturation, int stress) {
+  for (StudyGroup const& group : paper.groups) {
+    Scene const scene = stated_scene(paper, group);
+    if (std::lround(100 * scene.hydrate.saturation) == saturation && std::lround(1e-6 * scene.test.confining_stress) == stress)
+      return &group;
+  }
+  return nullptr;
+}
+
+/// The tests of one reading with their sands, as a study of the paper's groups.
 struct Tests {
   Study study;
   std::vector<MemberResult> members;
   std::vector<fs::path> folders;
-  std::set<int> saturations, stresses;
 
-  void add(Run const& run) {
-    StudyGroup const group{paper_cell(run.saturation, run.stress), {}, paper_material(run.saturation)};
+  void add(Paper const& paper, Run const& run) {
+    StudyGroup const* const group = group_at(paper, run.saturation, run.stress);
+    if (!group) throw std::runtime_error(run.folder.string() + ": the paper has no such test");
     auto found =
-        std::find_if(study.groups.begin(), study.groups.end(), [&](StudyGroup const& g) { return g.name == group.name; });
-    if (found == study.groups.end()) found = study.groups.insert(study.groups.end(), group);
+        std::find_if(study.groups.begin(), study.groups.end(), [&](StudyGroup const& g) { return g.name == group->name; });
+    if (found == study.groups.end()) found = study.groups.insert(study.groups.end(), *group);
     MemberResult member;
     member.group = static_cast<std::size_t>(found - study.groups.begin());
     member.seed = run.seed;
     read_member(member, run.folder);
     members.push_back(member);
     folders.push_back(run.folder);
-    if (run.saturation > 0) saturations.insert(run.saturation);
-    stresses.insert(run.stress);
   }
 };
 
@@ -74,13 +83,12 @@ double mean_of(SeedNumbers const& values) {
   return values.empty() ? NAN : sum / static_cast<double>(values.size());
 }
 
-Row row_of(std::string const& reading, Tests const& tests) {
-  PaperDesign design;
-  design.saturations.assign(tests.saturations.begin(), tests.saturations.end());
-  design.stresses.assign(tests.stresses.begin(), tests.stresses.end());
-  design.thicknesses.clear();
-  PaperNumbers const numbers = numbers_of_members(tests.study, tests.members, tests.folders);
-  std::vector<Claim> const claims = paper_claims(design, numbers, Grading::toyoura().d50());
+Row row_of(Paper paper, std::string const& reading, Tests const& tests) {
+  TestQuantities const numbers = quantities_of_members(tests.study, tests.members, tests.folders, paper.strains);
+  std::vector<std::string> made;
+  for (StudyGroup const& group : tests.study.groups) made.push_back(group.name);
+  keep_only(paper, made);
+  std::vector<Claim> const claims = scored_claims(paper, numbers, Grading::toyoura().d50());
   Row row{0, reading};
   std::string shares;
   char text[64];
@@ -91,37 +99,43 @@ Row row_of(std::string const& reading, Tests const& tests) {
   }
   std::snprintf(text, sizeof text, ",%.3f", row.score);
   row.text += text + shares;
-  for (int const saturation : design.saturations)
+  for (int const saturation : {26, 55})
     for (char const* const number : {"peak_q_Pa", "top_eps1"})
-      for (int const stress : design.stresses) {
-        double const value = mean_of(numbers.of(paper_cell(saturation, stress), number));
+      for (int const stress : {1, 3}) {
+        StudyGroup const* const group = group_at(paper, saturation, stress);
+        double const value = group ? mean_of(numbers.of(group->name, number)) : NAN;
         std::snprintf(text, sizeof text, ",%.2f", number[0] == 'p' ? value * 1e-6 : value * 100);
         row.text += text;
       }
   for (char const* const number : {"end_of_contraction_eps1", "q_share_at_6.71"}) {
-    std::snprintf(text, sizeof text, ",%.3f", mean_of(numbers.of(paper_cell(55, 3), number)));
+    StudyGroup const* const group = group_at(paper, 55, 3);
+    std::snprintf(text, sizeof text, ",%.3f", group ? mean_of(numbers.of(group->name, number)) : NAN);
     row.text += text;
   }
   for (int const saturation : {0, 26, 55}) {
-    std::snprintf(text, sizeof text, ",%.1f,%.2f", mean_of(numbers.of(paper_material(saturation), "peak_friction_angle_deg")),
-                  mean_of(numbers.of(paper_material(saturation), "peak_cohesion_Pa")) * 1e-6);
+    StudyGroup const* const group = group_at(paper, saturation, 1);
+    std::string const material = group ? group->material : "";
+    std::snprintf(text, sizeof text, ",%.1f,%.2f", mean_of(numbers.of(material, "peak_friction_angle_deg")),
+                  mean_of(numbers.of(material, "peak_cohesion_Pa")) * 1e-6);
     row.text += text;
   }
   return row;
 }
 
 int run(int argc, char** argv) {
+  if (argc < 3) return std::fputs("usage: readings_score PAPER MEMBERS...\n", stderr), 64;
+  Paper const paper = load_paper(argv[1]);
   std::vector<Run> runs;
-  for (int i = 1; i < argc; ++i)
+  for (int i = 2; i < argc; ++i)
     for (Run& one : runs_in(argv[i])) runs.push_back(std::move(one));
   std::map<std::string, Tests> readings;
   for (Run const& one : runs)
-    if (one.saturation > 0) readings[one.reading].add(one);
+    if (one.saturation > 0) readings[one.reading].add(paper, one);
   for (auto& [reading, tests] : readings)
     for (Run const& one : runs)
-      if (one.saturation == 0 && reading.ends_with(one.reading)) tests.add(one);
+      if (one.saturation == 0 && reading.ends_with(one.reading)) tests.add(paper, one);
   std::vector<Row> rows;
-  for (auto const& [reading, tests] : readings) rows.push_back(row_of(reading, tests));
+  for (auto const& [reading, tests] : readings) rows.push_back(row_of(paper, reading, tests));
   std::stable_sort(rows.begin(), rows.end(), [](Row const& a, Row const& b) { return a.score > b.score; });
   std::puts(
       "reading,score,c1,c2,c3,c4,c5,c6,c7,c8,c9,c10,c11a,c11b,c12,c13,c14,c15,c16,q and strain [MPa, %] of each saturation,"

@@ -1,7 +1,8 @@
 #pragma once
-/// What files of a test hold.
+/// What files of a test hold, and which there are.
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +17,16 @@ inline std::string content(std::filesystem::path const& path) {
 }
 
 inline void put(std::filesystem::path const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
+
+/// The scenes of examples/, which has studies and papers, too.
+inline std::set<std::filesystem::path> example_scenes() {
+  std::set<std::filesystem::path> scenes;
+  for (auto const& entry : std::filesystem::recursive_directory_iterator(CLATHRA_EXAMPLES)) {
+    std::string const folder = entry.path().parent_path().filename();
+    if (entry.path().extension() == ".toml" && folder != "studies" && folder != "papers") scenes.insert(entry.path());
+  }
+  return scenes;
+}
 
 /// Rows of a CSV file without quotes, the header among them.
 inline std::vector<std::vector<std::string>> csv_rows(std::string const& text) {

@@ -186,7 +186,7 @@ TEST_F(StudyPage, CutsItsBandsWhereNoValuesArePossible) {
             std::string::npos);
   std::vector<SeedBand> const bands = seed_bands({folder / "first", folder / "second"});
   constexpr std::size_t q = 0, broken_shear = 6;
-  ASSERT_STREQ(band_columns[broken_shear], "broken_shear");
+  ASSERT_STREQ(curve_columns[broken_shear], "broken_shear");
   EXPECT_EQ(bands[broken_shear].low.back(), 0);
   EXPECT_GT(bands[broken_shear].high.back(), 3.0 * made_up_records);
   EXPECT_TRUE(bands[broken_shear].cut);

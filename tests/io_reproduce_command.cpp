@@ -85,6 +85,47 @@ TEST_F(ReproduceCommand, DrawsPointsOfALaboratoryAndNamesMistakesInThem) {
   EXPECT_NE(wrong.output.find("line 3: column 'x' must be a number, got 'two'"), std::string::npos) << wrong.output;
 }
 
+TEST_F(ReproduceCommand, ASecondPaperIsASecondFile) {
+  std::string const paper =
+      "reproduce --paper " CLATHRA_EXAMPLES "/papers/tiny.toml --output '" + (folder / "tiny").string() + "'";
+  CommandResult const result = run_clathra(paper);
+  ASSERT_EQ(result.code, 0) << result.output;
+  nlohmann::json const card = nlohmann::json::parse(content("tiny/scorecard.json"));
+  EXPECT_EQ(card.at("title"), "Clean sand, claim by claim");
+  std::vector<std::string> verdicts, parts;
+  for (nlohmann::json const& claim : card.at("claims")) {
+    verdicts.push_back(claim.at("verdict"));
+    for (nlohmann::json const& part : claim.at("parts"))
+      parts.push_back(part.at("what").get<std::string>() + " [" + part.at("unit").get<std::string>() + "]");
+  }
+  EXPECT_EQ(verdicts, (std::vector<std::string>{"pass", "pass", "fail"}));
+  EXPECT_EQ(parts, (std::vector<std::string>{"peak q, 3 less 1 MPa [MPa]", "slope of peak q [MPa/MPa]",
+                                             "peak q, 1 MPa less 3 MPa [MPa]"}));
+  std::string const page = content("tiny/reproduce.html");
+  for (char const* const shown :
+       {"<h1>Clean sand, claim by claim</h1>", "Table 1: Parameters", "<td>2.6 g/cm3</td><td>2.6 g/cm3</td>",
+        "Figure 1: Stress and strain", "The paper: the strength grows with the confining stress."})
+    EXPECT_NE(page.find(shown), std::string::npos) << shown;
+  EXPECT_EQ(page.find("Jiang"), std::string::npos);
+  CommandResult const quick = run_clathra(paper + " --quick");
+  EXPECT_EQ(quick.code, 65);
+  EXPECT_NE(quick.output.find("tiny.toml: has no 'quick': particles and seeds for a first look"), std::string::npos)
+      << quick.output;
+}
+
+TEST_F(ReproduceCommand, RefusesAPaperWithMistakes) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "mine.toml") << "title = \"Mine\"\nparticles = 300\nseeds = 2\n[groups.a]\n\"hydrate.saturation\" = 2\n"
+                                         "[series.x]\ngroups = [\"b\"]\n";
+  CommandResult const result =
+      run_clathra("reproduce --paper '" + (folder / "mine.toml").string() + "' --output '" + (folder / "mine").string() + "'");
+  EXPECT_EQ(result.code, 65);
+  EXPECT_NE(result.output.find("mine.toml:5:24: error: 'hydrate.saturation' "), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("mine.toml:7:10: error: there is no group or material 'b'; there are a"), std::string::npos)
+      << result.output;
+  EXPECT_FALSE(fs::exists(folder / "mine")) << "nothing is written";
+}
+
 TEST_F(ReproduceCommand, SaysBeforeWhatItWillCost) {
   CommandResult const result = reproduce("one", "--seeds 2 --dry-run");
   EXPECT_EQ(result.code, 0);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "domain/scene/specimen_design.hpp"
+#include "file_content.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
@@ -355,11 +356,9 @@ TEST(SceneFile, ANegativeZeroIsZero) {
 
 TEST(SceneFile, EveryExampleIsRight) {
   int count = 0;
-  for (auto const& entry : std::filesystem::recursive_directory_iterator(CLATHRA_EXAMPLES)) {
-    if (entry.path().parent_path().filename() == "studies") continue;  // no scenes, see io_study_file.cpp
-    if (entry.path().extension() != ".toml") continue;
-    LoadedScene const loaded = load_scene(entry.path());
-    EXPECT_TRUE(loaded.warnings.empty()) << entry.path() << ": " << loaded.warnings.front();
+  for (std::filesystem::path const& path : example_scenes()) {
+    LoadedScene const loaded = load_scene(path);
+    EXPECT_TRUE(loaded.warnings.empty()) << path << ": " << loaded.warnings.front();
     ++count;
   }
   EXPECT_GE(count, 17);

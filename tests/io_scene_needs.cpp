@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "command.hpp"
 #include "domain/biaxial/scene_needs.hpp"
+#include "file_content.hpp"
 #include "io/scene/scene_file.hpp"
 
 namespace clathra {
@@ -19,11 +19,8 @@ namespace fs = std::filesystem;
 
 /// A line a scene: bytes a disc and an entry, fields beside those of every scene, and what the contact kernel does.
 std::string needs_of_examples() {
-  std::set<fs::path> scenes;
-  for (fs::directory_entry const& entry : fs::recursive_directory_iterator(CLATHRA_EXAMPLES))
-    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "studies") scenes.insert(entry.path());
   std::ostringstream text;
-  for (fs::path const& path : scenes) {
+  for (fs::path const& path : example_scenes()) {
     SceneNeeds const needs = needs_of(load_scene(path).scene);
     text << fs::relative(path, CLATHRA_EXAMPLES).string() << ": " << needs.bytes(FieldOf::disc) << " a particle, "
          << needs.bytes(FieldOf::entry) << " an entry;";

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "command.hpp"
+#include "file_content.hpp"
 #include "io/results/run_record.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reference.hpp"
@@ -24,16 +25,9 @@ std::string content_of(fs::path const& path) {
   return text.str();
 }
 
-std::vector<fs::path> example_files() {
-  std::vector<fs::path> files;
-  for (auto const& entry : fs::recursive_directory_iterator(CLATHRA_EXAMPLES))
-    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "studies") files.push_back(entry.path());
-  return files;
-}
-
 TEST(SceneReference, ACommentedSceneLoadsToTheSameScene) {
-  ASSERT_GE(example_files().size(), 12u);
-  for (fs::path const& file : example_files()) {
+  ASSERT_GE(example_scenes().size(), 12u);
+  for (fs::path const& file : example_scenes()) {
     LoadedScene const original = load_scene(file);
     for (std::string const& source : {original.source, std::string()}) {
       std::string const text = commented_scene(original.scene, original.stated, "# opening\n", source);
@@ -108,7 +102,7 @@ TEST(InitCommand, WritesASceneThatIsRightAndNeverOverwrites) {
   EXPECT_EQ(run_clathra("init -o a.toml").code, 64);
   CommandResult const list = run_clathra("init");
   EXPECT_EQ(run_clathra("init --list").output, list.output);
-  for (fs::path const& example : example_files())
+  for (fs::path const& example : example_scenes())
     EXPECT_NE(list.output.find(fs::relative(example, CLATHRA_EXAMPLES).replace_extension().string()), std::string::npos)
         << example;
 }

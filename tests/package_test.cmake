@@ -24,6 +24,8 @@ foreach(
   share/clathra/python/curves.py
   lib/python3/dist-packages/clathra/__init__.py
   share/clathra/examples/paper/s55-1mpa.toml
+  share/clathra/examples/papers/tiny.toml
+  share/clathra/papers/jiang-2017.toml
   share/doc/clathra/copyright
   share/doc/clathra/README.md)
   if(NOT contents MATCHES " \\./usr/${path}\n")

@@ -7,8 +7,7 @@
 #include "domain/scene/specimen_design.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/paper_report.hpp"
-#include "io/results/paper_numbers.hpp"
-#include "io/results/scorecard.hpp"
+#include "io/results/scored_claims.hpp"
 #include "machine/own_program.hpp"
 #include "study/study_outcome.hpp"
 #include "terminal/print.hpp"
@@ -25,11 +24,14 @@ std::map<std::string, std::string> facts_of(ReproductionOutcome const& outcome, 
   for (std::uint64_t const seed : plan.study.seeds) seeds += fmt::format("{}{}", seeds.empty() ? "" : ", ", seed);
   double cost = 0;
   for (MemberResult const& member : plan.members) cost += member.wall_seconds;
-  return {{"particles", fmt::format("{}", outcome.size.discs)},
-          {"seeds", seeds},
-          {"settings", settings.empty() ? "the defaults" : settings},
-          {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
-          {"program", "clathra " + own_version()}};
+  std::map<std::string, std::string> facts{
+      {"particles", fmt::format("{}", outcome.size.tests.particles)},
+      {"seeds", seeds},
+      {"settings", settings.empty() ? "the defaults" : settings},
+      {"cost", fmt::format("{} of shearing, were one test sheared after the other", duration_text(cost))},
+      {"program", "clathra " + own_version()}};
+  if (!outcome.paper.citation.empty()) facts["paper"] = outcome.paper.citation;
+  return facts;
 }
 
 }  // namespace
@@ -40,8 +42,9 @@ ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, Pro
   std::size_t const last = plan.study.groups.size() - 1;
   Scene const scene = member_scene(plan.study, plan.study.groups[last], plan.study.seeds.front()).scene;
   double const d50 = design_sample(scene).grading.d50();
-  Scorecard const card{"Jiang et al. (2017), claim by claim", facts_of(outcome, plan),
-                       paper_claims(outcome.design, numbers_of_members(plan.study, plan.members, folders), d50)};
+  TestQuantities const numbers = quantities_of_members(plan.study, plan.members, folders, outcome.paper.strains);
+  Scorecard const card{outcome.paper.title + ", claim by claim", facts_of(outcome, plan),
+                       scored_claims(outcome.paper, numbers, d50)};
   fs::path const& out = plan.study.folder;
   replace_text_file(out / "study.csv", study_csv(plan.study, plan.members));
   replace_text_file(out / "scorecard.md", scorecard_markdown(card));
@@ -49,7 +52,7 @@ ExitCode conclude(StudyPlan const& plan, ReproductionOutcome const& outcome, Pro
   auto const finished = std::count_if(plan.members.begin(), plan.members.end(),
                                       [](MemberResult const& m) { return m.state == MemberState::finished; });
   if (finished > 0)
-    write_paper_report({plan.study, plan.members, folders, outcome.design, card, scene, d50, outcome.data},
+    write_paper_report({plan.study, plan.members, folders, outcome.paper, card, scene, d50, outcome.data},
                        out / "reproduce.html");
   line.repeat_warnings();
   std::string text = fmt::format("members   {} of {} finished\n", finished, plan.members.size());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/results/laboratory_data.hpp"
-#include "io/results/paper_claims.hpp"
+#include "io/results/paper.hpp"
 #include "reproduce/reproduction.hpp"
 #include "study/study_plan.hpp"
 #include "terminal/progress_line.hpp"
@@ -13,7 +13,7 @@
 namespace clathra {
 
 struct ReproductionOutcome {
-  PaperDesign design;
+  Paper paper;
   ReproductionSize size;
   std::vector<std::string> overrides;  ///< of all tests
   std::optional<LaboratoryData> data;  ///< drawn into the figures

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "domain/biaxial/scene_cost.hpp"
 #include "domain/scene/specimen_design.hpp"

@@ -1,5 +1,6 @@
 #pragma once
-/// The scenes and studies of the folder examples/, built into the program.
+/// Files that are built into the program: the scenes and studies of the folder examples/ and the paper that `reproduce` makes
+/// unless told otherwise.
 #include <span>
 #include <string_view>
 
@@ -10,7 +11,10 @@ struct Example {
   std::string_view text;  ///< the file
 };
 
-/// Sorted by name. Their source is made by drivers/verbs/examples.cmake.
+/// Sorted by name. The source of both is made by drivers/verbs/examples.cmake.
 std::span<Example const> examples();
+
+/// share/papers/jiang-2017.toml
+std::string_view built_in_paper();
 
 }  // namespace clathra

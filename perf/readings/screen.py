@@ -3,7 +3,7 @@
 
   perf/readings/screen.py OUT
   for study in sand screen others; do clathra study OUT/$study.toml --output OUT/$study; done
-  build/release/perf/readings_score OUT/*/members
+  build/release/perf/readings_score share/papers/jiang-2017.toml OUT/*/members
 
 144 readings in screen.toml, 16 in others.toml, their clean sands in sand.toml: 2,000 discs, four cells, one seed, an hour on two cores.
 """

@@ -49,6 +49,8 @@ struct Claim {
   std::string id;     ///< "7"
   std::string words;  ///< what is claimed, in a sentence
   std::vector<ClaimPart> parts;
+  std::string where = {};  ///< it stands: "section 5.1, Fig. 11"
+  bool ours = false;       ///< what we take from there, not what is stated
   /// pass or fail where all parts do; partial where parts do both; else undetermined.
   Verdict verdict() const;
   /// Share of the parts whose mean lies within the bounds: what readings are compared by, whose tests are few.

@@ -39,7 +39,7 @@ bool says_something(GroupCurves const& group, ShownBand const& what) {
 
 /// Shares end at 100 %.
 Axis axis_of(ShownBand const& what, Range const& values) {
-  bool const share = possible_range(band_columns[what.column]).most == percent;
+  bool const share = possible_range(curve_columns[what.column]).most == percent;
   return share ? Axis{what.axis, 0, percent} : values.axis(what.axis);
 }
 

@@ -14,7 +14,7 @@ inline constexpr char strain_axis[] = "axial strain ε₁ [%]";
 
 /// What is shown of a band.
 struct ShownBand {
-  std::size_t column;  ///< in band_columns
+  std::size_t column;  ///< in curve_columns
   char const *heading, *axis, *caption;
   double factor;
 };
@@ -29,8 +29,8 @@ inline constexpr ShownBand shown_bands[] = {
     {6, "Broken in shear", "bonds broken in shear", "Those of the consolidation included.", 1},
     {7, "Broken in rolling", "bonds broken in rolling", "Those of the consolidation included.", 1}};
 
-/// The paper's measure of intact bonds, which its own page shows.
-inline constexpr ShownBand paper_intact_band{8, "Intact bonds", "bonded [% of all contacts]", "", 1};
+/// Another measure of intact bonds, which pages on papers can show.
+inline constexpr ShownBand contacts_band{8, "Intact bonds", "bonded [% of all contacts]", "", 1};
 
 /// A group with the curves of its finished members.
 struct GroupCurves {

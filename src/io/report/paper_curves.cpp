@@ -1,8 +1,8 @@
-/// Figures of curves on the page on Jiang et al. (2017).
+/// Figures of curves on the page on a paper.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
 
 #include "domain/scene/hydrate.hpp"
 #include "io/report/markup.hpp"
@@ -12,193 +12,128 @@
 namespace clathra {
 namespace {
 
-constexpr double percent = 100, mega = 1e-6, micro = 1e6;
-constexpr ShownBand const& stress_band = shown_bands[0];
-constexpr ShownBand const& volume_band = shown_bands[1];
-
-/// A figure of the paper: tests laid over each other.
-struct TestFigure {
-  std::string number, words;
-  ShownBand const& what;
-  std::vector<std::string> cells;
-};
+constexpr double percent = 100, mega = 1e-6;
 
 /// The groups of these names in this order, with strokes of their own.
-std::vector<GroupCurves> chosen(std::vector<GroupCurves> const& curves, std::vector<std::string> const& cells) {
+std::vector<GroupCurves> chosen(Reproduction const& r, std::vector<GroupCurves> const& all, PaperSeries const& series) {
   std::vector<GroupCurves> groups;
-  for (std::string const& cell : cells) {
-    auto const found = std::find_if(curves.begin(), curves.end(), [&](GroupCurves const& g) { return g.name == cell; });
-    if (found == curves.end()) continue;
+  for (std::string const& name : series.groups) {
+    auto const found = std::find_if(all.begin(), all.end(), [&](GroupCurves const& g) { return g.name == name; });
+    if (found == all.end()) continue;
     groups.push_back(*found);
     groups.back().stroke = run_stroke(groups.size() - 1);
-    groups.back().name = paper_label(cell);
+    groups.back().name = label_of(r.paper, name);
   }
   return groups;
 }
 
-/// Points of the user's laboratory of these tests.
-std::vector<Curve> laboratory_curves(Reproduction const& r, TestFigure const& figure) {
+Curve points_of(LaboratorySeries const& series, double x_factor, double y_factor) {
+  return {series.name, scaled(series.x, x_factor), scaled(series.y, y_factor), {colours::black, "1 4"}, true};
+}
+
+/// Points of the user's laboratory of these tests: of their saturation to half a percent and their stress to a twentieth.
+std::vector<Curve> laboratory_curves(Reproduction const& r, ShownBand const& what, PaperSeries const& series) {
   std::vector<Curve> curves;
   if (!r.data) return curves;
-  bool const stress = figure.what.column == stress_band.column;
-  for (LaboratorySeries const& series : r.data->series) {
-    if (series.figure != (stress ? "q" : "eps_v")) continue;
-    int const saturation = static_cast<int>(series.saturation + 0.5),
-              confining = static_cast<int>(series.confining_stress * mega + 0.5);
-    if (std::find(figure.cells.begin(), figure.cells.end(), paper_cell(saturation, confining)) == figure.cells.end()) continue;
-    curves.push_back(
-        {series.name, scaled(series.x, percent), scaled(series.y, figure.what.factor), {colours::black, "1 4"}, true});
+  for (LaboratorySeries const& points : r.data->series) {
+    if (points.figure != (what.column == shown_bands[0].column ? "q" : "eps_v")) continue;
+    bool const of_series = std::any_of(series.groups.begin(), series.groups.end(), [&](std::string const& name) {
+      Scene const scene = stated_scene(r.paper, *group_of(r.paper, name));
+      double const stress = scene.test.confining_stress;
+      return std::abs(points.saturation - percent * scene.hydrate.saturation) <= 0.5 &&
+             std::abs(points.confining_stress - stress) <= 0.05 * stress;
+    });
+    if (of_series) curves.push_back(points_of(points, percent, what.factor));
   }
   return curves;
-}
-
-std::string heading_of(TestFigure const& figure) { return "Figure " + figure.number + ": " + figure.what.heading; }
-
-std::string drawn(Reproduction const& r, std::vector<GroupCurves> const& curves, TestFigure const& wanted) {
-  ShownBand what = wanted.what;
-  std::string const heading = heading_of(wanted), caption = beside_words(wanted.words, "");
-  what.heading = heading.c_str();
-  what.caption = caption.c_str();
-  return overlay(chosen(curves, wanted.cells), what, laboratory_curves(r, wanted));
-}
-
-std::vector<std::string> cells_over_saturation(PaperDesign const& design, int stress) {
-  std::vector<std::string> cells{paper_cell(0, stress)};
-  for (int const saturation : design.saturations) cells.push_back(paper_cell(saturation, stress));
-  return cells;
-}
-
-std::vector<std::string> cells_over_stress(PaperDesign const& design, int saturation) {
-  std::vector<std::string> cells;
-  for (int const stress : design.stresses) cells.push_back(paper_cell(saturation, stress));
-  return cells;
-}
-
-std::vector<std::string> cells_over_thickness(Reproduction const& r) {
-  std::vector<std::pair<double, std::string>> places;
-  for (int const s : r.design.saturations) places.emplace_back(critical_thickness_ratio(s / percent) * r.d50, paper_cell(s, 1));
-  for (double const h : r.design.thicknesses) places.emplace_back(h, paper_cell(h));
-  std::sort(places.begin(), places.end());
-  std::vector<std::string> cells;
-  for (auto const& [thickness, cell] : places) cells.push_back(cell);
-  return cells;
-}
-
-/// Strength over the normal force of a bond without gap between grains of d50.
-std::string strength_curves(Reproduction const& r, std::string const& title, std::string const& axis,
-                            std::function<double(BondCard const&)> const& strength) {
-  constexpr int points = 200;
-  Plot plot;
-  Range forces, strengths;
-  for (int const saturation : r.design.saturations) {
-    Scene scene = r.scene;
-    scene.hydrate.saturation = saturation / percent;
-    scene.bond.critical_thickness_from = CriticalThicknessFrom::saturation;
-    Curve curve{fmt::format("{} %", saturation), {}, {}, run_stroke(plot.curves.size())};
-    BondCard const card = evaluate_bond(scene, r.d50, r.d50 / 2, r.d50 / 2, 0, 0);
-    for (int i = 0; i <= points; ++i) {
-      double const normal = -card.R_t + (card.R_t + card.R_c) * i / points;
-      curve.x.push_back(normal);
-      curve.y.push_back(strength(evaluate_bond(scene, r.d50, r.d50 / 2, r.d50 / 2, 0, normal)));
-    }
-    forces.include(curve.x);
-    strengths.include(curve.y);
-    plot.curves.push_back(std::move(curve));
-  }
-  plot.title = title;
-  plot.x = forces.axis("normal force of the bond [N/m]");
-  plot.y = strengths.axis(axis);
-  return figure(title, svg(plot) + legend(plot.curves),
-                beside_words("in the laboratory strength first rises with the normal force, then falls to nothing.",
-                             "a bond across no gap between two grains of d50, by the law of these tests."));
 }
 
 }  // namespace
 
 std::string beside_words(std::string const& words, std::string const& ours) {
-  return "The paper: " + words + (ours.empty() ? "" : " Here: " + ours);
+  return (words.empty() ? "" : "The paper: " + words) + (words.empty() || ours.empty() ? "" : " ") +
+         (ours.empty() ? "" : "Here: " + ours);
 }
 
-std::string critical_thickness_figure() {
+std::string curves_figure(Reproduction const& r, PaperFigure const& f, PaperSeries const& series,
+                          std::vector<GroupCurves> const& all) {
+  auto const* const band =
+      std::find_if(std::begin(shown_bands), std::end(shown_bands), [&](ShownBand const& one) { return one.column == f.column; });
+  ShownBand what = band == std::end(shown_bands) ? contacts_band : *band;
+  std::string const heading = filled(f.title, {{"series", series.label}}), caption = beside_words(f.words, f.ours);
+  what.heading = heading.c_str();
+  what.caption = caption.c_str();
+  PaperSeries const in_order = placed(r.paper, series, r.d50);
+  return overlay(chosen(r, all, in_order), what, laboratory_curves(r, what, in_order));
+}
+
+std::string critical_thickness_figure(Reproduction const& r, PaperFigure const& f) {
   Plot plot;
-  Curve law{"Eq. 3", {}, {}, run_stroke(0)};
+  Curve law{"Eq. 3", {}, {}, run_stroke(0)}, images{"images", {}, {}, {colours::vermilion, "1 6"}, true};
   for (int i = 0; i <= 500; ++i) {
     law.x.push_back(0.2 * i);
     law.y.push_back(critical_thickness_ratio(i / 500.0));
   }
-  Curve const images{"three images", {30, 50, 86.3}, {8.13 / 200, 15.6 / 200, 30.7 / 320}, {colours::vermilion, "1 6"}, true};
-  plot.title = "Figure 6: Critical thickness";
+  for (ThicknessImage const& image : r.paper.images) {
+    images.x.push_back(percent * image.saturation);
+    images.y.push_back(image.thickness / image.d50);
+  }
+  plot.title = f.title;
   plot.description = "Critical thickness over d50 against saturation.";
   plot.x = {"saturation [%]", 0, 100};
   plot.y = {"h_max / d50", 0, 0.12};
   plot.curves = {law, images};
-  return figure(plot.title, svg(plot) + legend(plot.curves),
-                beside_words("it rises with saturation up to a constant value, from none at 20 %.", "Eq. 3 as printed."));
+  return figure(plot.title, svg(plot) + legend(plot.curves), beside_words(f.words, f.ours));
 }
 
-std::string envelope_figure(Reproduction const& r) {
-  return strength_curves(r, "Figure 8b: Shear strength of a bond", "R_s [N/m]", [](BondCard const& c) { return c.R_s; }) +
-         strength_curves(r, "Figure 8c: Rolling strength of a bond", "R_r [N m/m]",
-                         [](BondCard const& c) { return c.R_r_per_length * c.moment_length; });
-}
-
-std::string test_curve_figures(Reproduction const& r, std::vector<GroupCurves> const& curves) {
-  std::vector<TestFigure> wanted{
-      {"11", "peak q rises with saturation, and softening becomes more obvious; at 1 MPa the peak is at about 2 %.", stress_band,
-       cells_over_saturation(r.design, 1)}};
-  for (int const s : r.design.saturations)
-    wanted.push_back(
-        {fmt::format("12 ({} %)", s), "q rises with the confining stress.", stress_band, cells_over_stress(r.design, s)});
-  for (int const stress : r.design.stresses)
-    wanted.push_back({fmt::format("15 ({} MPa)", stress), "contraction, then dilation, the more obvious the more hydrate.",
-                      volume_band, cells_over_saturation(r.design, stress)});
-  for (int const s : r.design.saturations)
-    wanted.push_back({fmt::format("16 ({} %)", s), "less dilation at a higher confining stress.", volume_band,
-                      cells_over_stress(r.design, s)});
-  if (!r.design.thicknesses.empty()) {
-    std::vector<std::string> const cells = cells_over_thickness(r);
-    wanted.push_back({"17a", "the peak rises with the critical thickness, ever less; residual q stays.", stress_band, cells});
-    wanted.push_back({"17b", "dilation rises with the critical thickness.", volume_band, cells});
+std::string bond_strength_figure(Reproduction const& r, PaperFigure const& f, PaperSeries const& series) {
+  constexpr int points = 200;
+  Plot plot;
+  Range forces, strengths;
+  for (std::size_t k = 0; k < series.groups.size(); ++k) {
+    auto const group = std::find_if(r.study.groups.begin(), r.study.groups.end(),
+                                    [&](StudyGroup const& one) { return one.name == series.groups[k]; });
+    if (group == r.study.groups.end()) continue;
+    Scene const scene = member_scene(r.study, *group, r.study.seeds.front()).scene;
+    Curve curve{place_name(r.paper, series, k) + " " + series.unit, {}, {}, run_stroke(plot.curves.size())};
+    BondCard const card = evaluate_bond(scene, r.d50, r.d50 / 2, r.d50 / 2, 0, 0);
+    for (int i = 0; i <= points; ++i) {
+      double const normal = -card.R_t + (card.R_t + card.R_c) * i / points;
+      BondCard const bond = evaluate_bond(scene, r.d50, r.d50 / 2, r.d50 / 2, 0, normal);
+      curve.x.push_back(normal);
+      curve.y.push_back(f.kind == FigureKind::bond_shear_strength ? bond.R_s : bond.R_r_per_length * bond.moment_length);
+    }
+    forces.include(curve.x);
+    strengths.include(curve.y);
+    plot.curves.push_back(std::move(curve));
   }
-  std::string figures;
-  for (TestFigure const& one : wanted) figures += drawn(r, curves, one);
-  return figures;
+  if (plot.curves.empty()) return "";
+  plot.title = f.title;
+  plot.x = forces.axis("normal force of the bond [N/m]");
+  plot.y = strengths.axis(f.axis);
+  return figure(f.title, svg(plot) + legend(plot.curves), beside_words(f.words, f.ours));
 }
 
-std::string strength_part(Reproduction const& r) {
+std::string mohr_circles(Reproduction const& r) {
   std::vector<RunResults> first;
   for (std::size_t i = 0; i < r.members.size(); ++i) {
-    std::string const& cell = r.study.groups[r.members[i].group].name;
-    if (r.members[i].state == MemberState::finished && r.members[i].seed == r.study.seeds.front() && !cell.starts_with("h"))
+    StudyGroup const& group = r.study.groups[r.members[i].group];
+    auto const of_material = std::count_if(r.study.groups.begin(), r.study.groups.end(),
+                                           [&](StudyGroup const& other) { return other.material == group.material; });
+    if (r.members[i].state == MemberState::finished && r.members[i].seed == r.study.seeds.front() && of_material > 1)
       first.push_back(read_run(r.folders[i]));
   }
-  auto const points = [&](char const* which, double factor) {
-    std::vector<Curve> curves;
-    if (r.data)
-      for (LaboratorySeries const& s : r.data->series)
-        if (s.figure == which) curves.push_back({s.name, s.x, scaled(s.y, factor), {colours::black, "1 4"}, true});
-    return curves;
-  };
-  std::vector<GroupNumbers> materials = envelopes_by_material(r.study, r.members);
-  std::erase_if(materials, [](GroupNumbers const& m) { return m.name.starts_with("h"); });
-  return strength_figures(first) +
-         strength_figure(materials, "peak_cohesion_Pa", "Figure 14: Cohesion", "cohesion c [MPa]", mega, points("c", mega)) +
-         strength_figure(materials, "peak_friction_angle_deg", "Figure 14: Friction angle", "friction angle φ [°]", 1,
-                         points("phi", 1));
+  return strength_figures(first);
 }
 
-std::string one_test_figures(Reproduction const& r) {
-  std::string figures;
-  std::vector<GroupCurves> curves = curves_of_groups(r.study, r.members, r.folders);
-  for (TestFigure const& one :
-       {TestFigure{"18a",
-                   "the peak, at 3.38 %, is where contraction turns into dilation; 15.04 % is the critical state.",
-                   stress_band,
-                   {paper_cell(55, 3)}},
-        TestFigure{"18a, volume", "contraction up to the peak, dilation after it.", volume_band, {paper_cell(55, 3)}},
-        TestFigure{"19", "q falls from its peak as intact bonds become fewer.", paper_intact_band, {paper_cell(55, 3)}}})
-    figures += drawn(r, curves, one);
-  return figures;
+std::string envelopes_figure(Reproduction const& r, PaperFigure const& f) {
+  std::vector<Curve> points;
+  bool const stress = f.number.quantity->unit == "Pa";
+  if (r.data)
+    for (LaboratorySeries const& series : r.data->series)
+      if (series.figure == (stress ? "c" : "phi")) points.push_back(points_of(series, 1, stress ? f.number.factor : 1));
+  return strength_figure(envelopes_by_material(r.study, r.members), f.number.name().c_str(), f.title, f.axis, f.number.factor,
+                         points);
 }
 
 }  // namespace clathra

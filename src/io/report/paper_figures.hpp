@@ -1,24 +1,34 @@
 #pragma once
-/// The figures of the page on Jiang et al. (2017). HTML; empty where there are no tests for one.
+/// The kinds of figures that the page on a paper can show. HTML; empty where there are no tests for one.
+#include <map>
 #include <string>
 
+#include "domain/measurement/snapshot.hpp"
 #include "io/report/group_curves.hpp"
 #include "io/report/paper_report.hpp"
 
 namespace clathra {
 
-/// Fig. 6: critical thickness over saturation with the three images.
-std::string critical_thickness_figure();
-/// Fig. 8: strength of a bond without gap in shear and rolling over the normal force, of the first bonded test's scene.
-std::string envelope_figure(Reproduction const& r);
-/// Figs. 11, 12, 15, 16, 17: q and volumetric strain, by saturation, by stress, by critical thickness.
-std::string test_curve_figures(Reproduction const& r, std::vector<GroupCurves> const& curves);
-/// Figs. 13, 14: Mohr circles with envelopes of the first seed; c and phi over saturation.
-std::string strength_part(Reproduction const& r);
-/// Figs. 18a, 19: q, volumetric strain and intact bonds of 55 % at 3 MPa.
-std::string one_test_figures(Reproduction const& r);
-/// Figs. 9, 10, 18b, 20, 21: grading, specimen, bonds, shear strain and contact directions of 55 % at 3 MPa, first seed.
-std::string picture_figures(Reproduction const& r);
+/// The snapshots of the first member of a group that has some at the paper's strains.
+struct ShownTest {
+  Snapshot start;
+  std::vector<Snapshot> at;  ///< the paper's strains, ascending; empty where there are none
+};
+ShownTest shown_test(Reproduction const& r, std::string const& group);
+
+/// q, volumetric strain or another column of the tests of a series, laid over each other.
+std::string curves_figure(Reproduction const& r, PaperFigure const& f, PaperSeries const& series,
+                          std::vector<GroupCurves> const& all);
+/// Eq. 3 with the paper's images.
+std::string critical_thickness_figure(Reproduction const& r, PaperFigure const& f);
+/// Strength in shear or rolling of a bond without gap between grains of d50 over its normal force, by the scenes of a series.
+std::string bond_strength_figure(Reproduction const& r, PaperFigure const& f, PaperSeries const& series);
+/// Mohr circles with envelopes of the first seed.
+std::string mohr_circles(Reproduction const& r);
+/// A number of the envelopes over saturation.
+std::string envelopes_figure(Reproduction const& r, PaperFigure const& f);
+/// What the snapshots of a test show: grading, specimen, bonds, shear_strain or contact_directions.
+std::string picture_figure(PaperFigure const& f, ShownTest const& test);
 
 /// The paper's words on a figure with what is ours, as a caption.
 std::string beside_words(std::string const& words, std::string const& ours);

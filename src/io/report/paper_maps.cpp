@@ -1,4 +1,4 @@
-/// Pictures on the page on Jiang et al. (2017): one test, 55 % at 3 MPa, of the first seed that has it.
+/// Pictures of one test on the page on a paper.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,56 +20,30 @@ namespace {
 constexpr double percent = 100, degrees = 180 / 3.14159265358979323846;
 constexpr std::size_t picture_bytes = 220'000;
 
-/// The snapshots of the test at the strains that the paper shows.
-struct Looked {
-  Snapshot start;
-  std::vector<Snapshot> at;  ///< 2.54, 3.38, 6.71, 15.04 %
-};
-
-std::optional<Looked> looked_at(Reproduction const& r) {
-  for (std::size_t i = 0; i < r.members.size(); ++i) {
-    if (r.members[i].state != MemberState::finished || r.study.groups[r.members[i].group].name != paper_cell(55, 3)) continue;
-    Looked looked;
-    for (std::filesystem::path const& file : snapshot_files(r.folders[i])) {
-      Snapshot snapshot = read_snapshot(file);
-      constexpr double near = 5e-4;
-      bool const shown = std::any_of(std::begin(paper_strains), std::end(paper_strains),
-                                     [&](double strain) { return std::abs(snapshot.eps1 - strain) < near; });
-      if (snapshot.eps1 == 0)
-        looked.start = std::move(snapshot);
-      else if (shown)
-        looked.at.push_back(std::move(snapshot));
-    }
-    if (!looked.start.x.empty() && !looked.at.empty()) return looked;
-  }
-  return {};
+std::string grading_of(PaperFigure const& f, ShownTest const& test) {
+  return grading_figure(f.title, {grading_curve(test.start.radius, "our particles", run_stroke(0))});
 }
 
-std::string grading_of(Looked const& looked) {
-  return grading_figure("Figure 9: Grading", {grading_curve(looked.start.radius, "our particles", run_stroke(0))});
-}
-
-std::string specimen_of(Looked const& looked) {
-  Snapshot const& s = looked.start;
+std::string specimen_of(PaperFigure const& f, ShownTest const& test) {
+  Snapshot const& s = test.start;
   std::string const image = drawn({view_of({&s}), mean_diameter(s), "Grains of the specimen by size",
                                    [&](MapView const& view) { return grain_map(s, view); }},
                                   picture_bytes);
-  return figure(
-      "Figure 10: Specimen", strip(image),
-      beside_words("20,000 particles, 26.5 mm by 53 mm.",
-                   fmt::format("{} particles, {:.3g} mm by {:.3g} mm under 3 MPa.", grouped(static_cast<double>(s.x.size())),
-                               1e3 * (s.right - s.left), 1e3 * (s.top - s.bottom))));
+  return figure(f.title, strip(image),
+                beside_words(f.words, filled(f.ours, {{"particles", grouped(static_cast<double>(s.x.size()))},
+                                                      {"width", fmt::format("{:.3g} mm", 1e3 * (s.right - s.left))},
+                                                      {"height", fmt::format("{:.3g} mm", 1e3 * (s.top - s.bottom))}})));
 }
 
-std::string bonds_of(Looked const& looked) {
+std::string bonds_of(PaperFigure const& f, ShownTest const& test) {
   std::string pictures;
-  for (Snapshot const& s : looked.at)
+  for (Snapshot const& s : test.at)
     pictures += titled(drawn({view_of({&s}), mean_diameter(s), "Intact and broken bonds at " + strain_text(s),
                               [&](MapView const& view) { return bond_map(s, view); }},
                              picture_bytes),
                        strain_text(s));
-  return figure("Figure 18b: Bonds", strip(pictures) + legend(patch_entry(colours::grey, "intact bond") + mode_entries()),
-                beside_words("a shear band develops in which most bonds break as the strain grows.", ""), true);
+  return figure(f.title, strip(pictures) + legend(patch_entry(colours::grey, "intact bond") + mode_entries()),
+                beside_words(f.words, f.ours), true);
 }
 
 /// A field of shear strain at each of the strains, and the bands fitted to it where the grains were at first.
@@ -79,19 +53,19 @@ struct ShownField {
   std::vector<BandAt> bands;
 };
 
-ShownField grain_field(Looked const& looked) {
+ShownField grain_field(ShownTest const& test) {
   ShownField field{"grain by grain", {}, {}};
-  for (Snapshot const& s : looked.at) {
-    StrainGrid const grid = grain_strain(looked.start, s);
+  for (Snapshot const& s : test.at) {
+    StrainGrid const grid = grain_strain(test.start, s);
     field.at_discs.push_back(shear_at_discs(grid, s));
     field.bands.push_back({s.eps1, fit_band(grid.x, grid.y, grid.shear, s.d50, grid.smoothing)});
   }
   return field;
 }
 
-ShownField averaged_field(Looked const& looked) {
+ShownField averaged_field(ShownTest const& test) {
   ShownField field{fmt::format("over {:g} grain diameters", strain_window), {}, {}};
-  for (Snapshot const& s : looked.at) {
+  for (Snapshot const& s : test.at) {
     field.at_discs.push_back(shear_strain(s));
     std::vector<double> x = s.x, y = s.y;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] -= double(s.ux[i]), y[i] -= double(s.uy[i]);
@@ -101,12 +75,12 @@ ShownField averaged_field(Looked const& looked) {
 }
 
 /// The field at all strains in the colours of the last one.
-std::string field_strip(Looked const& looked, ShownField const& field) {
+std::string field_strip(ShownTest const& test, ShownField const& field) {
   double const most = upper_end(field.at_discs.back());
   if (!(most > 0)) return "";
   std::string pictures;
-  for (std::size_t i = 0; i < looked.at.size(); ++i) {
-    Snapshot const& s = looked.at[i];
+  for (std::size_t i = 0; i < test.at.size(); ++i) {
+    Snapshot const& s = test.at[i];
     pictures += titled(drawn({view_of({&s}), mean_diameter(s), "Shear strain " + field.name + " at " + strain_text(s),
                               [&](MapView const& view) { return value_map(s, field.at_discs[i], most, view); }},
                              picture_bytes),
@@ -138,38 +112,31 @@ std::string onset_text(ShownField const& field) {
   return field.name + (onset ? fmt::format(" from ε₁ = {:.2g} % on", *onset * percent) : " none");
 }
 
-std::string strains_of(Looked const& looked) {
-  std::vector<ShownField> const fields{grain_field(looked), averaged_field(looked)};
+std::string strains_of(PaperFigure const& f, ShownTest const& test) {
+  std::vector<ShownField> const fields{grain_field(test), averaged_field(test)};
   std::string pictures;
-  for (ShownField const& field : fields) pictures += field_strip(looked, field);
+  for (ShownField const& field : fields) pictures += field_strip(test, field);
   if (pictures.empty()) return "";
-  return figure(
-      "Figure 20: Shear strain", pictures + bands_table(fields, looked.start.d50),
-      beside_words(
-          "a concentrated band forms and grows thicker.",
-          fmt::format(
-              "above, as in the paper, nodes d50 apart ride on the nearest grain and turn with it: E₁ − E₂ of "
-              "Green's strain. Below, the difference of the principal natural strains, fitted over {:g} grain "
-              "diameters. The table has the best band of each, measured where the grains were at first. A band that lasts, "
-              "with twice the strain beside it or more and its direction until the end: {}, {}.",
-              strain_window, onset_text(fields[0]), onset_text(fields[1]))),
-      true);
+  return figure(f.title, pictures + bands_table(fields, test.start.d50),
+                beside_words(f.words, filled(f.ours, {{"window", fmt::format("{:g}", strain_window)},
+                                                      {"bands", onset_text(fields[0]) + ", " + onset_text(fields[1])}})),
+                true);
 }
 
 constexpr std::pair<ContactSet, char const*> contact_sets[] = {
     {ContactSet::touching, "touching"}, {ContactSet::mechanical, "touching or bonded"}, {ContactSet::bonded, "bonded"}};
 
-/// Start, 2.54 % and the end: the strains of the paper's Fig. 21.
-std::vector<Snapshot const*> fabric_snapshots(Looked const& looked) {
-  std::vector<Snapshot const*> shown{&looked.start, &looked.at.front()};
-  if (looked.at.size() > 1) shown.push_back(&looked.at.back());
+/// Start, the first of the strains and the last.
+std::vector<Snapshot const*> fabric_snapshots(ShownTest const& test) {
+  std::vector<Snapshot const*> shown{&test.start, &test.at.front()};
+  if (test.at.size() > 1) shown.push_back(&test.at.back());
   return shown;
 }
 
-std::string fabric_table(Looked const& looked) {
+std::string fabric_table(ShownTest const& test) {
   std::vector<std::vector<std::string>> rows;
   for (auto const& [set, name] : contact_sets)
-    for (Snapshot const* const s : fabric_snapshots(looked)) {
+    for (Snapshot const* const s : fabric_snapshots(test)) {
       Rose const rose = rose_of(*s, set);
       if (rose.pairs == 0) continue;
       rows.push_back({name, fmt::format("{:.2f} %", s->eps1 * percent), grouped(static_cast<double>(rose.pairs)),
@@ -179,25 +146,39 @@ std::string fabric_table(Looked const& looked) {
   return table({"pairs", "ε₁", "number", "a", "F₁ − F₂", "θₐ"}, rows);
 }
 
-std::string roses_of(Looked const& looked) {
-  Rose const before = rose_of(looked.start, ContactSet::touching);
+std::string roses_of(PaperFigure const& f, ShownTest const& test) {
+  Rose const before = rose_of(test.start, ContactSet::touching);
   std::string roses;
-  for (Snapshot const* const s : fabric_snapshots(looked))
+  for (Snapshot const* const s : fabric_snapshots(test))
     roses += titled(normal_rose(rose_of(*s, ContactSet::touching), before, strain_text(*s)), strain_text(*s));
-  return figure(
-      "Figure 21: Directions of contacts", strip(roses) + fabric_table(looked),
-      beside_words("contacts turn to the vertical as the strain grows.",
-                   "grains that touch, fitted by 1 + a cos 2(θ − θₐ); 90° is vertical, dashed is the start. The table adds "
-                   "bonds across a gap, which claim 15 counts as the paper does, and bonds alone; F is the mean of n ⊗ n."),
-      true);
+  return figure(f.title, strip(roses) + fabric_table(test), beside_words(f.words, f.ours), true);
 }
 
 }  // namespace
 
-std::string picture_figures(Reproduction const& r) {
-  std::optional<Looked> const looked = looked_at(r);
-  if (!looked) return "";
-  return side_by_side(grading_of(*looked) + specimen_of(*looked)) + bonds_of(*looked) + strains_of(*looked) + roses_of(*looked);
+ShownTest shown_test(Reproduction const& r, std::string const& group) {
+  for (std::size_t i = 0; i < r.members.size(); ++i) {
+    if (r.members[i].state != MemberState::finished || r.study.groups[r.members[i].group].name != group) continue;
+    ShownTest test;
+    for (std::filesystem::path const& file : snapshot_files(r.folders[i])) {
+      Snapshot snapshot = read_snapshot(file);
+      std::vector<double> const& strains = r.paper.strains;
+      if (snapshot.eps1 == 0)
+        test.start = std::move(snapshot);
+      else if (std::any_of(strains.begin(), strains.end(), [&](double strain) { return is_near(snapshot.eps1, strain); }))
+        test.at.push_back(std::move(snapshot));
+    }
+    if (!test.start.x.empty() && !test.at.empty()) return test;
+  }
+  return {};
+}
+
+std::string picture_figure(PaperFigure const& f, ShownTest const& test) {
+  if (test.at.empty()) return "";
+  if (f.kind == FigureKind::grading) return grading_of(f, test);
+  if (f.kind == FigureKind::specimen) return specimen_of(f, test);
+  if (f.kind == FigureKind::bonds) return bonds_of(f, test);
+  return f.kind == FigureKind::shear_strain ? strains_of(f, test) : roses_of(f, test);
 }
 
 }  // namespace clathra

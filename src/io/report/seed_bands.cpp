@@ -36,7 +36,7 @@ PossibleRange possible_range(std::string_view name) {
 std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_folders) {
   std::vector<RunResults> const runs = read_runs(run_folders);
   std::vector<SeedBand> bands;
-  for (char const* const column : band_columns) {
+  for (char const* const column : curve_columns) {
     SeedBand band;
     bool const known =
         !runs.empty() && std::all_of(runs.begin(), runs.end(), [&](RunResults const& run) { return run.history.has(column); });

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/results/run_results.hpp"
+
 namespace clathra {
 
 /// A column of history.csv against axial strain, at the same strains for all seeds.
@@ -26,12 +28,7 @@ struct PossibleRange {
 /// Of a column of history.csv or a number of study.csv, by its name: shares lie between 0 and 100 %, counts and ratios above 0.
 PossibleRange possible_range(std::string_view name);
 
-/// Columns that a study's page shows.
-inline constexpr char const* band_columns[] = {
-    "q_Pa",         "eps_v",          "bonds_intact_pct",   "mechanical_coordination", "broken_tension", "broken_compression",
-    "broken_shear", "broken_rolling", "bonded_contacts_pct"};
-
-/// One band for each of band_columns; empty where a run has no such column. Between records curves are straight.
+/// One band for each of curve_columns; empty where a run has no such column. Between records curves are straight.
 /// @throws FileProblem
 std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_folders);
 

@@ -44,6 +44,11 @@ class HistoryTable {
   std::size_t rows_ = 0;
 };
 
+/// The columns of histories that pages show as curves over the axial strain.
+inline constexpr char const* curve_columns[] = {
+    "q_Pa",         "eps_v",          "bonds_intact_pct",   "mechanical_coordination", "broken_tension", "broken_compression",
+    "broken_shear", "broken_rolling", "bonded_contacts_pct"};
+
 /// A folder that `clathra run` wrote.
 struct RunResults {
   std::string name;  ///< of the folder

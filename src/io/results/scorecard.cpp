@@ -38,6 +38,11 @@ std::string mean_text(ClaimPart const& part) {
   return fmt::format("{:.{}f} ± {:.{}f}", m->mean, digits, half, digits);
 }
 
+std::string source_text(Claim const& claim) {
+  if (claim.where.empty()) return claim.ours ? "Ours." : "";
+  return (claim.ours ? "Ours, after " : "Stated in ") + claim.where + ".";
+}
+
 std::string bounds_text(ClaimPart const& part) {
   bool const low = std::isfinite(part.low), high = std::isfinite(part.high);
   if (low && high) return fmt::format("{:g} to {:g}", part.low, part.high);
@@ -65,9 +70,10 @@ std::string scorecard_markdown(Scorecard const& card) {
     text += fmt::format("| {} | {} | {} of {} |\n", title_line(claim), name_of(claim.verdict()), inside, claim.parts.size());
   }
   for (Claim const& claim : card.claims) {
+    std::string const source = source_text(claim);
     text += fmt::format(
-        "\n## {}\n\n| number | mean and 95 % interval | unit | claimed | seeds | verdict |\n|---|---|---|---|---|---|\n",
-        title_line(claim));
+        "\n## {}\n\n{}| number | mean and 95 % interval | unit | claimed | seeds | verdict |\n|---|---|---|---|---|---|\n",
+        title_line(claim), source.empty() ? "" : source + "\n\n");
     for (ClaimPart const& part : claim.parts)
       text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", part.what, mean_text(part), part.unit, bounds_text(part),
                           part.exact ? "-" : std::to_string(part.values.size()), name_of(part.verdict()));
@@ -82,6 +88,8 @@ std::string scorecard_json(Scorecard const& card) {
     for (ClaimPart const& part : claim.parts) parts.push_back(part_json(part));
     json["claims"].push_back({{"id", claim.id},
                               {"words", claim.words},
+                              {"where", claim.where},
+                              {"ours", claim.ours},
                               {"verdict", name_of(claim.verdict())},
                               {"share_inside", claim.share_inside()},
                               {"parts", parts}});

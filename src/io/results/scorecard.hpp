@@ -20,6 +20,8 @@ std::string scorecard_markdown(Scorecard const& card);
 std::string scorecard_json(Scorecard const& card);
 /// "3 pass, 1 partial, 2 fail, 11 undetermined"
 std::string tally(std::vector<Claim> const& claims);
+/// "Stated in section 5.1, Fig. 11.", "Ours, after section 5.1."; empty where nothing is known of it
+std::string source_text(Claim const& claim);
 /// "0.31 ± 0.05", "0.31" of one seed, a dash without numbers
 std::string mean_text(ClaimPart const& part);
 /// ">= 0", "<= 0.85", "1.5 to 2.5"

@@ -16,6 +16,7 @@
 #include "io/scene/scene_guard.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/settings_reader.hpp"
 
 namespace clathra {
 namespace {
@@ -31,15 +32,6 @@ std::string slug(std::string_view text) {
     if (c == '/' || c == '_') name += '-';
   }
   return name;
-}
-
-constexpr std::size_t most_letters = 200;
-
-/// Whether a text can be the name of a group and of its members' folders, which are not to be hidden.
-bool is_name(std::string_view text) {
-  return !text.starts_with('.') && std::all_of(text.begin(), text.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '_' || c == '+' || c == '-';
-  });
 }
 
 /// What a value is called in names: with the key where the value is a bare number or truth value.
@@ -66,33 +58,22 @@ struct Choices {
   bool named = true;  ///< they are part of the groups' names
 };
 
-class StudyReader {
+class StudyReader : private SettingsReader {
  public:
-  explicit StudyReader(std::filesystem::path const& path) : file_(path.string()) {
+  explicit StudyReader(std::filesystem::path const& path) : SettingsReader(path) {
     study_.file = path;
     study_.folder = std::filesystem::path("out") / path.stem();
   }
 
   Study read(std::string const& text) {
-    std::optional<TomlTable> const root = parse_guarded(text, file_, problems_);
+    std::optional<TomlTable> const root = parse_guarded(text, file(), problems);
     if (root) read_root(*root);
-    if (problems_.empty()) make_groups();
-    if (!problems_.empty()) throw SceneProblems(std::move(problems_));
+    if (problems.empty()) make_groups();
+    if (!problems.empty()) throw SceneProblems(std::move(problems));
     return std::move(study_);
   }
 
  private:
-  void report(TomlNode const& node, std::string text) { problems_.push_back({file_, node.line, node.column, std::move(text)}); }
-
-  /// The entries of a table in the order of the file.
-  static std::vector<TomlEntry> in_order(TomlTable const& table) {
-    std::vector<TomlEntry> entries = table.entries;
-    std::stable_sort(entries.begin(), entries.end(), [](TomlEntry const& a, TomlEntry const& b) {
-      return std::pair(a.node.line, a.node.column) < std::pair(b.node.line, b.node.column);
-    });
-    return entries;
-  }
-
   void read_root(TomlTable const& root) {
     static constexpr std::string_view names[] = {"scene", "seeds", "folder", "precision_target", "max_seeds", "matrix", "groups"};
     std::string of_a_scene;
@@ -111,7 +92,7 @@ class StudyReader {
       else if (name == "matrix")
         read_matrix(node);
       else if (name == "groups")
-        read_groups(node);
+        named_ = read_groups(node, [](auto const&...) { return false; });
       else if (is_section(name) && node.as<TomlTable>())
         of_a_scene += fmt::format("{}[{}]", of_a_scene.empty() ? "" : ", ", name), first = first.line ? first : node;
       else if (std::string const hint = name_suggestion(name, names); hint.empty())
@@ -120,10 +101,11 @@ class StudyReader {
         report(node, fmt::format("unknown key '{}'{}", name.substr(0, 60), hint));
     }
     if (!of_a_scene.empty())
-      report(first, study_.scene.empty() ? fmt::format("{} belong to a scene, and this is one: clathra run {}", of_a_scene, file_)
-                                         : of_a_scene + " belong into the scene file, or their keys below [matrix]");
-    if (study_.scene.empty() && problems_.empty())
-      problems_.push_back({file_, 0, 0, "'scene' is missing: the scene file that all members share"});
+      report(first, study_.scene.empty()
+                        ? fmt::format("{} belong to a scene, and this is one: clathra run {}", of_a_scene, file())
+                        : of_a_scene + " belong into the scene file, or their keys below [matrix]");
+    if (study_.scene.empty() && problems.empty())
+      problems.push_back({file(), 0, 0, "'scene' is missing: the scene file that all members share"});
     study_.seeds_stated = !study_.seeds.empty();
     if (study_.seeds.empty())
       for (int seed = 1; seed <= usual_seeds; ++seed) study_.seeds.push_back(static_cast<std::uint64_t>(seed));
@@ -168,61 +150,6 @@ class StudyReader {
     auto const* const most = node.as<std::int64_t>();
     if (!most || *most < 2 || *most > 10000) return report(node, "'max_seeds' is a whole number between 2 and 10000");
     study_.max_seeds = static_cast<int>(*most);
-  }
-
-  static bool is_range(TomlTable const& table) { return table.find("from") || table.find("to") || table.find("count"); }
-
-  /// Calls found(key, node) for the values of a section, whose keys may be written "a.b" = or a.b =.
-  template <class Found>
-  void for_each_key(TomlNode const& section, char const* what, Found const& found) {
-    auto const* const table = section.as<TomlTable>();
-    if (!table) return report(section, fmt::format("'{}' is a section: write [{}] and keys of the scene below", what, what));
-    std::map<std::string, int> lines;
-    auto const take = [&](std::string const& name, TomlNode const& node) {
-      auto const [first, is_new] = lines.emplace(name, node.line);
-      if (is_new) return found(name, node);
-      report(node,
-             fmt::format("'{}' is stated twice, in lines {} and {}: leave one of them out", name, first->second, node.line));
-    };
-    for (TomlEntry const& entry : in_order(*table)) {
-      auto const* const nested = entry.node.as<TomlTable>();
-      if (!nested || is_range(*nested))
-        take(entry.name, entry.node);
-      else
-        for (TomlEntry const& leaf : in_order(*nested)) take(entry.name + "." + leaf.name, leaf.node);
-    }
-  }
-
-  /// The key of a scene, where it may stand in a study.
-  Key const* known(std::string const& name, TomlNode const& node) {
-    if (char const* const instead = key_of_each_run(name))
-      return report(node, fmt::format("'{}' cannot be varied here: {}", name, instead)), nullptr;
-    Key const* const key = find_key(name);
-    if (!key) report(node, fmt::format("unknown key '{}' of a scene{}", name.substr(0, 100), key_suggestion(name)));
-    return key;
-  }
-
-  /// A single value as text, checked against its key.
-  std::optional<std::string> value_of(Key const& key, TomlNode const& node) {
-    std::string text;
-    if (auto const* const quoted = node.as<std::string>())
-      text = *quoted;
-    else if (auto const* const whole = node.as<std::int64_t>())
-      text = fmt::format("{}", *whole);
-    else if (auto const* const number = node.as<double>())
-      text = fmt::format("{}", *number);
-    else if (auto const* const truth = node.as<bool>())
-      text = *truth ? "true" : "false";
-    else
-      return report(node, fmt::format("'{}' needs one value here", key.name)), std::nullopt;
-    try {
-      Scene scratch;
-      set_stated(key, scratch, text);
-    } catch (std::invalid_argument const& problem) {
-      return report(node, fmt::format("'{}' {}", key.name, problem.what())), std::nullopt;
-    }
-    if (key.kind == Kind::path && !text.empty()) text = (study_.file.parent_path() / text).lexically_normal().string();
-    return text;
   }
 
   void read_matrix(TomlNode const& section) {
@@ -276,60 +203,15 @@ class StudyReader {
     return values;
   }
 
-  void read_groups(TomlNode const& section) {
-    auto const* const groups = section.as<TomlTable>();
-    if (!groups) return report(section, "'groups' holds sections: write [groups.NAME] and keys of the scene below");
-    for (auto const& [name, line, column, node] : in_order(*groups)) {
-      if (name.empty() || !is_name(name) || name.size() > most_letters) {
-        report(node,
-               fmt::format("'{}' is no name of a group: letters, digits and ._+- only, {} at most, none of them a dot in front",
-                           name.substr(0, most_letters), most_letters));
-        continue;
-      }
-      StudyGroup group{name, {}, ""};
-      for_each_key(node, "groups.NAME", [&](std::string const& key_name, TomlNode const& value_node) {
-        if (key_name == "material") return read_material(value_node, group);
-        if (Key const* const key = known(key_name, value_node))
-          if (auto value = value_of(*key, value_node)) group.settings.emplace_back(key_name, std::move(*value));
-      });
-      named_.push_back(std::move(group));
-    }
-    name_materials();
-  }
-
-  /// Groups whose material is not stated and that differ in nothing but the confining stress are tests of one material.
-  void name_materials() {
-    auto const without_stress = [](StudyGroup const& group) {
-      std::map<std::string, std::string> settings(group.settings.begin(), group.settings.end());
-      settings.erase(stress_key);
-      return settings;
-    };
-    std::map<std::map<std::string, std::string>, std::string> names;
-    for (StudyGroup const& group : named_) {
-      if (!group.material.empty()) continue;
-      std::string& name = names[without_stress(group)];
-      if (name.size() + group.name.size() < most_letters) name += (name.empty() ? "" : "+") + group.name;
-    }
-    for (StudyGroup& group : named_)
-      if (group.material.empty()) group.material = names.at(without_stress(group));
-  }
-
-  void read_material(TomlNode const& node, StudyGroup& group) {
-    auto const* const text = node.as<std::string>();
-    if (!text || text->empty() || text->size() > most_letters)
-      return report(node, fmt::format("'material' needs a name in quotes, {} letters at most", most_letters));
-    group.material = *text;
-  }
-
   void make_groups() {
     std::size_t count = study_.seeds.size() * std::max<std::size_t>(1, named_.size());
     for (Choices const& choices : matrix_) count = count > most_members ? count : count * choices.values.size();
     if (count > most_members)
-      return problems_.push_back({file_, 0, 0, fmt::format("the study has more than {} members", most_members)});
+      return problems.push_back({file(), 0, 0, fmt::format("the study has more than {} members", most_members)});
     for (Choices const& choices : matrix_)
       for (StudyGroup const& group : named_)
         if (value_in(group.settings, choices.key)) {
-          problems_.push_back({file_, 0, 0, fmt::format("'{}' is in [matrix] and in [groups.{}]", choices.key, group.name)});
+          problems.push_back({file(), 0, 0, fmt::format("'{}' is in [matrix] and in [groups.{}]", choices.key, group.name)});
           break;  // the first of them says it
         }
     std::vector<StudyGroup> groups = named_.empty() ? std::vector<StudyGroup>(1) : named_;
@@ -347,8 +229,8 @@ class StudyReader {
     std::set<std::string> names;
     for (StudyGroup const& group : groups)
       if (!names.insert(group.name).second)
-        problems_.push_back(
-            {file_, 0, 0,
+        problems.push_back(
+            {file(), 0, 0,
              fmt::format("two groups have the name '{}': their values differ in blanks and signs only", group.name)});
     study_.groups = std::move(groups);
   }
@@ -361,11 +243,9 @@ class StudyReader {
     return group;
   }
 
-  std::string file_;
   Study study_;
   std::vector<StudyGroup> named_;
   std::vector<Choices> matrix_;
-  std::vector<Problem> problems_;
 };
 
 }  // namespace

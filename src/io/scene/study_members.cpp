@@ -56,12 +56,6 @@ std::string problem_of(Study const& study, std::string const& text) {
   return {};
 }
 
-/// A basic string of TOML is one of JSON.
-std::string quoted(std::string const& text) {
-  using Json = nlohmann::json;
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string absolute_text(fs::path const& path) { return fs::absolute(path).lexically_normal().string(); }
 
 }  // namespace
@@ -80,6 +74,12 @@ char const* key_of_each_run(std::string_view name) {
   for (auto const& [other, instead] : other_keys)
     if (name == other) return instead;
   return nullptr;
+}
+
+/// A basic string of TOML is one of JSON.
+std::string in_quotes(std::string const& text) {
+  using Json = nlohmann::json;
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 bool groups_differ_in(Study const& study, std::string const& key) {
@@ -170,18 +170,18 @@ std::string si_text(Setting const& setting) {
 
 std::string resolved_study(Study const& study) {
   std::string text = fmt::format("# {} with what the command line said.\n", study.file.filename().string());
-  text +=
-      fmt::format("scene = {}\nfolder = {}\nseeds = [", quoted(absolute_text(study.scene)), quoted(absolute_text(study.folder)));
+  text += fmt::format("scene = {}\nfolder = {}\nseeds = [", in_quotes(absolute_text(study.scene)),
+                      in_quotes(absolute_text(study.folder)));
   for (std::size_t i = 0; i < study.seeds.size(); ++i) text += fmt::format("{}{}", i == 0 ? "" : ", ", study.seeds[i]);
   text += "]\n";
   if (study.precision_target)
     text += fmt::format("precision_target = \"{}={}\"\nmax_seeds = {}\n", study.precision_target->number,
                         study.precision_target->width, study.max_seeds);
   for (StudyGroup const& group : study.groups) {
-    text += fmt::format("\n[groups.{}]\nmaterial = {}\n", quoted(group.name), quoted(group.material));
+    text += fmt::format("\n[groups.{}]\nmaterial = {}\n", in_quotes(group.name), in_quotes(group.material));
     for (auto const& [key, value] : group.settings) {
       bool const path = find_key(key)->kind == Kind::path && !value.empty();
-      text += fmt::format("{} = {}\n", quoted(key), quoted(path ? absolute_text(value) : value));
+      text += fmt::format("{} = {}\n", in_quotes(key), in_quotes(path ? absolute_text(value) : value));
     }
   }
   return text;

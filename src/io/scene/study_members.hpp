@@ -36,6 +36,9 @@ std::string group_label(Study const& study, StudyGroup const& group);
 /// A setting as study.csv has it: quantities in SI units without a unit, other values as they were written.
 std::string si_text(Setting const& setting);
 
+/// A text as a TOML file states it.
+std::string in_quotes(std::string const& text);
+
 /// A study file that loads to the same groups, seeds and folder wherever it lies: paths are absolute, groups are written out.
 std::string resolved_study(Study const& study);
 
