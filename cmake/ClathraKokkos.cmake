@@ -11,7 +11,7 @@ set(CLATHRA_KOKKOS_URL "https://github.com/kokkos/kokkos/releases/download/4.7.0
     CACHE STRING "Upstream release of Kokkos")
 set(CLATHRA_KOKKOS_SHA256 404cf33e76159e83b8b4ad5d86f6899d442b5da4624820ab457412116cdcd201
     CACHE STRING "SHA-256 of the upstream release")
-set(CLATHRA_DEVICE "" CACHE STRING "What kernels run on: CUDA or HIP by a Kokkos for it (docs/gpu.md), empty for the processor")
+set(CLATHRA_DEVICE "" CACHE STRING "What kernels run on: CUDA or HIP by a Kokkos for it (docs/howto/gpu.md), empty for the processor")
 set_property(CACHE CLATHRA_DEVICE PROPERTY STRINGS "" CUDA HIP)
 mark_as_advanced(CLATHRA_KOKKOS_URL CLATHRA_KOKKOS_SHA256)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What docs/examples.md shows: the scenes of examples/, run by this program, with tables and pictures.
+# What perf/reports/0.1/examples.md shows: the scenes of examples/, run by this program, with tables and pictures.
 #   perf/examples.sh OUT [threads]
 # One specimen of 20,000 discs for the twelve tests of the paper, the literal reading and the scene `sand`; quick and full-size make
 # their own. Writes OUT/examples.md, the tables for that page, and OUT/pictures. A run that is there already is not made again. Needs a

@@ -1,8 +1,8 @@
 #!/bin/sh
-# What docs/stability.md states: the map of stability (step over limit against what moves the limit) and the table of extremes.
+# What perf/reports/0.1/stability.md states: the map of stability (step over limit against what moves the limit) and the table of extremes.
 #   perf/stability.sh OUT
 # Needs a build with tests, and Python with matplotlib for the picture. About 15 minutes on two cores; called again it goes on where
-# it was stopped. Writes the tables between their marks in docs/stability.md and docs/pictures/stability.png.
+# it was stopped. Writes the tables between their marks in perf/reports/0.1/stability.md and its picture.
 set -eu
 out=${1:?usage: perf/stability.sh OUT}
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -19,4 +19,4 @@ if [ ! -f "$out/extremes.md" ]; then
   mv "$out/extremes.part" "$out/extremes.md"
 fi
 wait
-python3 "$root/perf/stability_table.py" "$out/map.csv" "$out/extremes.md" "$root/docs"
+python3 "$root/perf/stability_table.py" "$out/map.csv" "$out/extremes.md" "$root/perf/reports/0.1"

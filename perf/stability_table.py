@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Puts what perf/stability_map and the tests of extremes measured into docs/stability.md and its picture.
+"""Puts what perf/stability_map and the tests of extremes measured into perf/reports/0.1/stability.md and its picture.
 
-    stability_table.py MAP.csv EXTREMES.md DOCS
+    stability_table.py MAP.csv EXTREMES.md FOLDER
 """
 import csv
 import sys
@@ -73,11 +73,11 @@ def put(text, mark, table):
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    cases, docs = cases_of(sys.argv[1]), Path(sys.argv[3])
+    cases, folder = cases_of(sys.argv[1]), Path(sys.argv[3])
     extremes = "| tried | came out | had to |\n|---|---|---|\n" + Path(sys.argv[2]).read_text().strip()
-    page = docs / "stability.md"
+    page = folder / "stability.md"
     page.write_text(put(put(page.read_text(), "map", map_table(cases)), "extremes", extremes))
-    draw(cases, docs / "pictures" / "stability.png")
+    draw(cases, folder / "pictures" / "stability.png")
 
 
 main()

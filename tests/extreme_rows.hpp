@@ -1,5 +1,6 @@
 #pragma once
-/// Rows of the table of extremes in docs/stability.md: what was tried, what came out, what had to. perf/extremes.sh prints them.
+/// Rows of the table of extremes in perf/reports/0.1/stability.md: what was tried, what came out, what had to. perf/extremes.sh
+/// prints them.
 #include <gtest/gtest.h>
 
 #include <cstdio>

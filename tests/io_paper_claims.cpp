@@ -181,11 +181,11 @@ TEST(PaperClaims, WithoutTestsNothingIsDecidedButEquation3) {
     EXPECT_EQ(claim.verdict(), claim.id == "1" ? Verdict::pass : Verdict::undetermined) << claim.id;
 }
 
-/// What docs/scorecards hold was made before claims were data.
+/// What perf/reports/0.1/scorecards hold was made before claims were data.
 TEST(PaperClaims, AndTheirVerdictsAreThoseOfTheStoredScorecards) {
   for (char const* const name : {"calibrated", "calibrated-standard", "calibrated-fresh-seeds", "first_crack", "literal"}) {
-    nlohmann::json const card =
-        nlohmann::json::parse(read_text_file(fmt::format(CLATHRA_EXAMPLES "/../docs/scorecards/{}.json", name), 1 << 25));
+    nlohmann::json const card = nlohmann::json::parse(
+        read_text_file(fmt::format(CLATHRA_EXAMPLES "/../perf/reports/0.1/scorecards/{}.json", name), 1 << 25));
     std::vector<Claim> claims = scored(obedient_tests());
     ASSERT_EQ(card.at("claims").size(), claims.size()) << name;
     for (std::size_t i = 0; i < claims.size(); ++i) {

@@ -62,10 +62,11 @@ TEST(SceneReference, EveryCommentedValueIsAllowed) {
 }
 
 TEST(SceneReference, NamesEveryKeyInBothForms) {
-  std::string const page = schema_markdown();
+  std::string page = schema_markdown();
+  for (std::size_t at; (at = page.find("\n  ")) != page.npos;) page.replace(at, 3, " ");  // lines are wrapped
   nlohmann::json const json = nlohmann::json::parse(schema_json());
   for (Key const& key : schema()) {
-    EXPECT_NE(page.find("| `" + std::string(key.leaf()) + "` | " + std::string(key.help)), std::string::npos) << key.name;
+    EXPECT_NE(page.find("- **`" + std::string(key.leaf()) + "`**: " + std::string(key.help)), std::string::npos) << key.name;
     auto const& entry = json["properties"][std::string(key.section())]["properties"][std::string(key.leaf())];
     EXPECT_TRUE(entry.contains("description")) << key.name;
     if (key.kind == Kind::choice) {
@@ -75,8 +76,13 @@ TEST(SceneReference, NamesEveryKeyInBothForms) {
 }
 
 TEST(SceneReference, ThePageInTheDocumentationIsTheProgramsOwn) {
-  fs::path const page = fs::path(CLATHRA_EXAMPLES).parent_path() / "docs" / "scene.md";
-  EXPECT_EQ(content_of(page), schema_markdown()) << "renew it: clathra schema > docs/scene.md";
+  fs::path const page = fs::path(CLATHRA_EXAMPLES).parent_path() / "docs" / "reference" / "scene-keys.md";
+  EXPECT_EQ(content_of(page), schema_markdown()) << "renew it: clathra schema > docs/reference/scene-keys.md";
+}
+
+TEST(SceneReference, LinesOfThePageFitAPageOf110Columns) {
+  std::istringstream lines(schema_markdown());
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << line;
 }
 
 TEST(InitCommand, WritesASceneThatIsRightAndNeverOverwrites) {

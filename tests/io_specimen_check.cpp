@@ -197,7 +197,7 @@ TEST_F(SpecimenCheck, EverythingThatIsMissingIsSaidAtOnce) {
   leave_out({"version", "left", "density", "particles/x", "particles/radius"});
   EXPECT_EQ(complaint(), file.string() +
                              ": lacks what a specimen file must hold: the attributes version, left, density, and the data "
-                             "sets particles/x, particles/radius (docs/specimen-file.md lists all)");
+                             "sets particles/x, particles/radius (docs/reference/specimen-file.md lists all)");
   EXPECT_TRUE(says(run_clathra("info '" + file.string() + "'"), "the attributes version, left, density, and the data sets"));
   write([](Specimen& s) { s.contacts.push_back({0, 1}); });
   leave_out({"particles/y", "contacts/id_a", "contacts/id_b"});

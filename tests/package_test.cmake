@@ -44,7 +44,7 @@ endforeach()
 
 execute_process(COMMAND ${DPKG_DEB} --extract ${package} ${FOLDER}/root COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${FOLDER}/root/usr/bin/clathra --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
-if(NOT help MATCHES "docs/NAME.md: [^\n]*/root/usr/share/doc/clathra\n" OR NOT EXISTS ${FOLDER}/root/usr/share/doc/clathra/output.md)
+if(NOT help MATCHES "docs/NAME.md: [^\n]*/root/usr/share/doc/clathra\n" OR NOT EXISTS ${FOLDER}/root/usr/share/doc/clathra/reference/files.md)
   message(SEND_ERROR "the help does not say where the pages are:\n${help}")
 endif()
 

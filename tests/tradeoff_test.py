@@ -1,4 +1,4 @@
-"""The tables of docs/accuracy.md: planted tests give the planted differences and intervals: tradeoff_test.py PROJECT"""
+"""The tables of perf/reports/0.1/accuracy.md: planted tests give the planted differences and intervals: tradeoff_test.py PROJECT"""
 import csv
 import json
 import math
@@ -132,12 +132,12 @@ class Tradeoff(unittest.TestCase):
         self.assertAlmostEqual(two_rates.half_peak_strain(tests, 0.55, two_rates.plain(2e-4)), 2e6 / 1e8)
 
     def test_what_is_said_key_by_key_quotes_the_committed_data(self):
-        tests, page = compare.Tests(compare.load(PROJECT / "perf/tradeoff/data.csv")), (PROJECT / "docs/accuracy.md").read_text()
+        tests, page = compare.Tests(compare.load(PROJECT / "perf/tradeoff/data.csv")), (PROJECT / "docs/explanation/accuracy.md").read_text()
         sand, bonded = table.SAND, table.BONDED
 
         def peak(saturation, factor, level, rate, against):
             change, half, _ = tests.change(saturation, (factor, level, rate), "peak_q_Pa", against)
-            return f"{change:.1f} +- {half:.1f}".replace("-0.0 ", "0.0 ")
+            return f"{change:.1f} ± {half:.1f}".replace("-0.0 ", "0.0 ")
 
         plain = two_rates.plain
         quoted = {"inertial_number": [peak(material, *plain(rate), compare.REFERENCE) for material in (sand, bonded) for rate in (1e-3, 5e-4, 2e-4)],
@@ -147,14 +147,14 @@ class Tradeoff(unittest.TestCase):
                   "rotational_inertia_factor": [peak(material, "inertia_scaling", "3", 2e-4, plain(2e-4)) for material in (sand, bonded)],
                   "mass_scaled_fraction": [peak(bonded, "inertia_scaling+mass_scaling", "3+0.25", 2e-4, plain(2e-4))]}
         for key, numbers in quoted.items():
-            row = next(line for line in page.splitlines() if line.startswith(f"| `{key}` |")).replace(" %", "")
+            row = next(text for text in " ".join(page.split()).split(" - **") if text.startswith(f"`{key}`**")).replace(" %", "")
             for number in numbers:
                 self.assertIn(number, row)
 
         structures = (PROJECT / "src/domain/scene/scene.hpp").read_text()  # each docstring quotes one or two of them
         for number in (quoted["inertial_number"][0], quoted["inertial_number"][2], quoted["precision"][1], quoted["time_step_safety"][0],
                        quoted["rotational_inertia_factor"][1], quoted["mass_scaled_fraction"][0], peak(bonded, "damping", "0", 2e-4, plain(2e-4))):
-            self.assertIn(f"{number} %", structures)
+            self.assertIn(number.replace("±", "+-") + " %", structures)
 
     def test_what_tune_chose_is_compared_with_its_reference(self):
         scene = self.folder / "planted.toml"
@@ -182,13 +182,13 @@ class Tradeoff(unittest.TestCase):
         self.assertEqual(picture.front({(1, 9), (2, 5), (3, 6), (4, 1), (5, 1)}), {(1, 9), (2, 5), (4, 1)})
 
     def test_the_page_is_what_the_committed_data_give(self):
-        docs = PROJECT / "docs"
+        report = PROJECT / "perf/reports/0.1"
         (self.folder / "pictures").mkdir()
-        shutil.copy(docs / "accuracy.md", self.folder)
+        shutil.copy(report / "accuracy.md", self.folder)
         table.main(PROJECT / "perf/tradeoff/data.csv", PROJECT / "perf/tradeoff/cost.csv", self.folder)
         two_rates.main(PROJECT / "perf/tradeoff/data.csv", self.folder)
         for name in ("accuracy.md", "pictures/work-precision.svg", "pictures/two-rates.svg"):
-            self.assertEqual((self.folder / name).read_text(), (docs / name).read_text(), f"run perf/tradeoff/table.py, two_rates.py: {name}")
+            self.assertEqual((self.folder / name).read_text(), (report / name).read_text(), f"run perf/tradeoff/table.py, two_rates.py: {name}")
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ namespace clathra {
 namespace {
 
 // Of a waiting thread before it sleeps, about 0.1 ms. Below 1,000 threads fall asleep between the kernels of a step, above 30,000
-// a thread keeps a core from the program that its partner waits for (table in docs/performance.md).
+// a thread keeps a core from the program that its partner waits for (table in perf/reports/0.1/performance.md).
 constexpr int spins = 10000;
 
 /// What was found before the program started itself anew: OMP_NUM_THREADS is no longer the user's since.

@@ -11,9 +11,9 @@
 namespace clathra {
 namespace {
 
-// Peak q of specimens of 2,000 discs at 1 MPa, each compared with itself in the reference of docs/accuracy.md (I = 1e-5, half the
-// step, double precision): what perf/tradeoff/expected_error.py prints of data.csv (local damping 0.3, default law, 0.95 of the
-// limit; five to twenty specimens a number).
+// Peak q of specimens of 2,000 discs at 1 MPa, each compared with itself in the reference of docs/explanation/accuracy.md (I =
+// 1e-5, half the step, double precision): what perf/tradeoff/expected_error.py prints of data.csv (local damping 0.3, default
+// law, 0.95 of the limit; five to twenty specimens a number).
 // clang-format off
 constexpr RateEffect rates[] = {
     {2e-05, {0.0002, 0.0032}, {0.0035, 0.0070}},

@@ -119,7 +119,8 @@ ExitCode reproduce(ReproduceOptions const& options) {
 }
 
 void add_options(CLI::App& verb, ReproduceOptions& options) {
-  verb.add_option("--paper", options.paper, "file with tests, claims and figures of another paper (TOML; docs/reproduce.md)")
+  verb.add_option("--paper", options.paper,
+                  "file with tests, claims and figures of another paper (TOML; docs/reference/paper-file.md)")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
   verb.add_flag("--quick", options.quick, "fewer particles and seeds, as the paper's file says: a few minutes");
@@ -139,7 +140,8 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
   verb.add_option("--set", options.overrides, "override a key of the scene in all tests: may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  verb.add_option("--data", options.data, "points of your own laboratory to be drawn into the figures (CSV; docs/reproduce.md)")
+  verb.add_option("--data", options.data,
+                  "points of your own laboratory to be drawn into the figures (CSV; docs/howto/reproduce-a-paper.md)")
       ->type_name("FILE");
   verb.add_flag("--screening", options.screening, "only the tests that the paper's file lists to compare presets by");
   verb.add_option("--jobs", options.parallel, "members at a time (default: as many as cores and memory allow)")

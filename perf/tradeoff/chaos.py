@@ -2,7 +2,7 @@
 
   chaos.py CLATHRA FOLDER CHAOS.csv     ten seeds of clean sand and of 55 % of hydrate, 40 tests; some minutes on two cores; needs h5py
 
-CHAOS.csv has both numbers of each specimen. Printed: what a row of docs/accuracy.md says, the mean size of the change and the largest one.
+CHAOS.csv has both numbers of each specimen. Printed: what a row of perf/reports/0.1/accuracy.md says, the mean size of the change and the largest one.
 """
 import csv
 import json

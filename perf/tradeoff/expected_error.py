@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the tables of drivers/expected_error.cpp: expected_error.py DATA.csv
 
-Errors of the peak of q, paired specimen by specimen with the reference (docs/accuracy.md), with Student's intervals."""
+Errors of the peak of q, paired specimen by specimen with the reference (perf/reports/0.1/accuracy.md), with Student's intervals."""
 import sys
 
 from compare import REFERENCE, Tests, load

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the tables of docs/accuracy.md and its picture: table.py DATA.csv COST.csv DOCS
+"""Makes the tables of perf/reports/0.1/accuracy.md and its picture: table.py DATA.csv COST.csv FOLDER
 
 DATA.csv is what collect.py makes, COST.csv the nanoseconds a particle-step of each precision and material (cost.sh).
 """
@@ -286,13 +286,13 @@ def put(page, mark, table, maker="table.py"):
     return before + begin + "\n\n" + table + "\n\n" + end + rest.split(end)[1]
 
 
-def main(data, cost, docs):
-    tests, cost, page = Tests(load(data)), Cost(cost), docs / "accuracy.md"
+def main(data, cost, folder):
+    tests, cost, page = Tests(load(data)), Cost(cost), folder / "accuracy.md"
     words = page.read_text()
     for mark, table in TABLES.items():
         words = put(words, mark, table(tests, cost))
     page.write_text(words)
-    pictures(tests, cost, docs / "pictures" / "work-precision.svg")
+    pictures(tests, cost, folder / "pictures" / "work-precision.svg")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a rate that follows the state of a test could save at most, from what fixed rates did: two_rates.py DATA.csv DOCS
+"""What a rate that follows the state of a test could save at most, from what fixed rates did: two_rates.py DATA.csv FOLDER
 
 Every error that was measured behind half of the peak grows with the rate. So a test whose errors shall be those of a fixed rate
 may be faster before half of the peak only, up to the fastest rate that leaves E50 alone. Writes a table into accuracy.md and a picture.
@@ -70,10 +70,10 @@ def draw(tests, path):
     picture.draw(path, panels, [NAMES[SAND], NAMES[BONDED]])
 
 
-def main(data, docs):
-    tests, page = Tests(load(data)), docs / "accuracy.md"
+def main(data, folder):
+    tests, page = Tests(load(data)), folder / "accuracy.md"
     page.write_text(put(page.read_text(), "two rates", table(tests), "two_rates.py"))
-    draw(tests, docs / "pictures" / "two-rates.svg")
+    draw(tests, folder / "pictures" / "two-rates.svg")
 
 
 if __name__ == "__main__":

@@ -4,8 +4,9 @@
 
 namespace clathra {
 
-/// What becomes of a bonded contact's grains (docs/theory.md). `replaces`: the bond carries all. `parallel`: bond and grain
-/// contact carry beside each other. `replaces_keeping_force`: the bond carries all and goes on from the grain contact's force.
+/// What becomes of a bonded contact's grains (docs/explanation/model.md). `replaces`: the bond carries all. `parallel`: bond and
+/// grain contact carry beside each other. `replaces_keeping_force`: the bond carries all and goes on from the grain contact's
+/// force.
 enum class ContactCoupling : std::int8_t { replaces, parallel, replaces_keeping_force };
 
 /// Stands for the overlap at bond formation u_0 [m] where there is no bond; overlaps above half of it mean none.

@@ -4,7 +4,8 @@
 /// Rows are full: both discs of a pair list it, keep its history and compute its force. That is twice the arithmetic of half
 /// rows, and the faster way still: no force is written for another disc, so nothing needs an atomic, a second pass or a
 /// colouring, each thread or GPU lane sums one disc in a fixed order, and ranks owe each other no forces. Bits then cannot depend
-/// on who computes what. Half rows were measured at 0.92 of the speed unbonded and 1.05 to 1.17 bonded (docs/performance.md).
+/// on who computes what. Half rows were measured at 0.92 of the speed unbonded and 1.05 to 1.17 bonded
+/// (perf/reports/0.1/performance.md).
 #include <cmath>
 #include <type_traits>
 

@@ -167,7 +167,7 @@ struct KickAndDriftMixed : Moving {
     for_each_set(far, [&](int l) { p.angle(i + static_cast<std::size_t>(l)) += p.rotation_increment(static_cast<int>(i) + l); });
   }
 
-  /// Rows of discs that come later, backwards (docs/performance.md).
+  /// Rows of discs that come later, backwards (perf/reports/0.1/performance.md).
   KOKKOS_FORCEINLINE_FUNCTION void fetch_ahead(std::size_t i) const {
     constexpr std::size_t discs_ahead = 256, numbers_a_line = 16;
     std::size_t const wanted = DiscMirror::row * (i >= discs_ahead ? i - discs_ahead : 0);

@@ -8,7 +8,7 @@
 namespace clathra {
 
 /// Slices whose rows are evened out together; their discs stay near each other in space. Twice as many make fuller rows and are
-/// slower all the same with 200,000 discs (docs/performance.md).
+/// slower all the same with 200,000 discs (perf/reports/0.1/performance.md).
 inline constexpr int slices_a_window = 16;
 
 /// Cells that discs are sorted by.

@@ -22,7 +22,8 @@ struct RateNumbers {
 inline constexpr double inertial_warning_of_sand = 3.5e-4, inertial_warning_of_bonds = 1e-3;
 double inertial_warning(Scene const& scene);
 inline constexpr double inertial_limit = 1e-2, wave_limit = 0.5;
-/// Of W: up to there the walls measure 1 % more than the contacts inside at most, of 500 discs 1.4 % (docs/accuracy.md).
+/// Of W: up to there the walls measure 1 % more than the contacts inside at most, of 500 discs 1.4 %
+/// (perf/reports/0.1/accuracy.md).
 inline constexpr double wave_warning = 0.3;
 /// Of k_n / sigma_1: grains overlap by 7 and 20 % of their diameter on the average of those that carry the load.
 inline constexpr double stiffness_warning = 15, stiffness_limit = 5;
@@ -39,7 +40,7 @@ inline bool mixed_precision_resolves(Scene const& scene) {
 double platen_wave_stress(Scene const& scene, double strain_rate, double height, double void_ratio, double density);
 
 /// The largest sigma_1 that a test of this saturation and confining stress is expected to reach [Pa]: on the envelopes that
-/// docs/examples.md measures, of sand without its cohesion, linear between their saturations.
+/// perf/reports/0.1/examples.md measures, of sand without its cohesion, linear between their saturations.
 double expected_sigma1(Scene const& scene);
 
 /// Why a specimen is none any more: its void ratio is below 0.05, or most of its contacts are deep; else empty.

@@ -20,7 +20,7 @@ inline constexpr double stress_held = 0.01;        ///< part of sigma_3 that a c
 inline constexpr double least_held = 0.9;          ///< of the checks up to the peak
 inline constexpr double stress_error_limit = 0.1;  ///< part of sigma_3 that no check may be off
 /// Kinetic over elastic energy, of scaled masses: what tests with their own masses reach for a moment when bonds break in bursts
-/// (0.004 to 0.047 at I = 2e-4, docs/accuracy.md).
+/// (0.004 to 0.047 at I = 2e-4, perf/reports/0.1/accuracy.md).
 inline constexpr double kinetic_limit = 0.05;
 inline constexpr double fast_share = 0.01;  ///< of the checks of a whole test that may be above it
 /// Of the touching pairs that may overlap by more than a tenth of the smaller radius: at 55 % of hydrate, 1 MPa and the usual

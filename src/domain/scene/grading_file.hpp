@@ -1,5 +1,5 @@
 #pragma once
-/// Gradings as laboratories have them: the table of a sieve analysis (docs/grading.md).
+/// Gradings as laboratories have them: the table of a sieve analysis (docs/reference/grading-file.md).
 #include <string>
 #include <string_view>
 

@@ -39,7 +39,7 @@ struct SpecimenScene {
   bool is_read() const { return !file.empty(); }
 };
 
-/// `[grains]`. What the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).
+/// `[grains]`. What the numbers after a semicolon say of a key's trade was measured (docs/explanation/accuracy.md).
 struct GrainScene {
   double density = 2600;  ///< [kg/m^3]
   double normal_stiffness = 3e8,
@@ -81,7 +81,7 @@ struct BondScene {
 };
 
 /// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it; max_platen_wave_stress bounds the
-/// first. What the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).
+/// first. What the numbers after a semicolon say of a key's trade was measured (docs/explanation/accuracy.md).
 struct TestScene {
   double confining_stress = 1e6;  ///< sigma_3 [Pa]
   double axial_strain = 0.15;     ///< to reach
@@ -94,13 +94,13 @@ struct TestScene {
   int consolidation_steps = 200000;  ///< at most
 };
 
-/// `[damping]`: parts of the model. What the numbers after a semicolon say was measured (docs/accuracy.md).
+/// `[damping]`: parts of the model. What the numbers after a semicolon say was measured (docs/explanation/accuracy.md).
 struct DampingScene {
   double local = 0.3;        ///< alpha of local damping in the shear stage; 0: peak of q at 55 % -12.7 +- 1.5 %
   double viscous_ratio = 0;  ///< of contacts, to the critical damping; 0.2 for local damping: peak of q at 55 % -5 to -7 %
 };
 
-/// `[run]`. What the numbers after a semicolon say of a key's trade was measured (docs/accuracy.md).
+/// `[run]`. What the numbers after a semicolon say of a key's trade was measured (docs/explanation/accuracy.md).
 struct RunScene {
   std::string preset = "standard";  ///< a point of the trade of speed for accuracy: io/scene/presets.hpp
   std::uint64_t seed = 1;
@@ -116,7 +116,7 @@ struct RunScene {
   double verlet_skin = 0;      ///< skin [m], 0 = chosen; moves rounding only
   bool ignore_guards = false;  ///< go on where a guard refuses; noted in run.json
 
-  /// Beyond the usual moments of inertia, which move no number of a test that is as slow as usual (docs/accuracy.md).
+  /// Beyond the usual moments of inertia, which move no number of a test that is as slow as usual (docs/explanation/accuracy.md).
   bool scales_masses_further() const { return rotational_inertia_factor > usual_inertia_factor || mass_scaled_fraction > 0; }
   StepChoice step_choice() const {
     double const usual = time_step_rule == TimeStepRule::adaptive ? usual_share_of_limit : usual_share_of_estimate;

@@ -9,7 +9,7 @@ namespace clathra {
 
 /// Verlet skin of a test that asks for none, in d50; discs get 1.2 times that on the average (verlet_skin.hpp). Where bonds break
 /// all the time it was the fastest of 0.08, 0.10, 0.12 and 0.16; elsewhere it costs 2 % at most against 0.08
-/// (docs/performance.md).
+/// (perf/reports/0.1/performance.md).
 inline constexpr double chosen_skin = 0.12;
 
 /// The same in metres, but not so far that small discs behind those that touch are listed, which lie 1.46 radii and more beyond.

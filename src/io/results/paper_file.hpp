@@ -1,5 +1,5 @@
 #pragma once
-/// Paper files: TOML that holds a paper (docs/reproduce.md).
+/// Paper files: TOML that holds a paper (docs/reference/paper-file.md).
 #include "io/results/paper.hpp"
 
 namespace clathra {

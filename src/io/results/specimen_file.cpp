@@ -150,7 +150,7 @@ std::vector<int> read_ids(Hdf5File const& file, std::string const& name, RowRang
   return ids;
 }
 
-/// A file may state units, but those of docs/specimen-file.md, whose further words stand in parentheses.
+/// A file may state units, but those of docs/reference/specimen-file.md, whose further words stand in parentheses.
 void require_unit(Hdf5File const& file, std::string const& name, std::optional<std::string> const& stated, std::string unit) {
   unit = unit.substr(0, unit.find(" ("));
   if (!stated || stated->empty() || unit.empty() || stated->substr(0, stated->find(" (")) == unit) return;
@@ -208,8 +208,9 @@ void require_complete(Hdf5File const& file) {
   if (attributes.empty() && sets.empty()) return;
   if (!attributes.empty()) attributes = "the attributes " + attributes;
   if (!sets.empty()) sets = "the data sets " + sets;
-  file.fail(ExitCode::bad_input, fmt::format("lacks what a specimen file must hold: {}{}{} (docs/specimen-file.md lists all)",
-                                             attributes, attributes.empty() || sets.empty() ? "" : ", and ", sets));
+  file.fail(ExitCode::bad_input,
+            fmt::format("lacks what a specimen file must hold: {}{}{} (docs/reference/specimen-file.md lists all)", attributes,
+                        attributes.empty() || sets.empty() ? "" : ", and ", sets));
 }
 
 double read_number(Hdf5File const& file, SpecimenNumber const& number) {

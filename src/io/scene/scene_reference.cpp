@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "domain/scene/units.hpp"
@@ -142,46 +143,63 @@ namespace {
 
 constexpr char study_keys[] =
     "\n## Study files\n\nA study (`clathra study`) is a TOML file of its own, which names a scene and what is varied of it.\n\n"
-    "| key | what it is |\n|---|---|\n"
-    "| `scene` | scene file that all members share, relative to the folder of the study |\n"
-    "| `seeds` | list of seeds, or how many: `5`, the default, is 1 to 5 |\n"
-    "| `folder` | folder of the results; `out/` and the name of the study file where it is left out |\n"
-    "| `precision_target` | add seeds until a number is known: `\"peak_q_Pa=2%\"` |\n"
-    "| `max_seeds` | at most so many seeds of a group, with `precision_target` |\n"
-    "| `[matrix]` | keys of the scene in quotes, each with a list of values, or `{ from = ..., to = ..., count = ... }`: every "
-    "combination is a group |\n"
-    "| `[groups.NAME]` | a group of its own: keys of the scene, each with one value |\n";
+    "- **`scene`**: scene file that all members share, relative to the folder of the study\n"
+    "- **`seeds`**: list of seeds, or how many: `5`, the default, is 1 to 5\n"
+    "- **`folder`**: folder of the results; `out/` and the name of the study file where it is left out\n"
+    "- **`precision_target`**: add seeds until a number is known: `\"peak_q_Pa=2%\"`\n"
+    "- **`max_seeds`**: at most so many seeds of a group, with `precision_target`\n"
+    "- **`[matrix]`**: keys of the scene in quotes, each with a list of values, or `{ from = ..., to = ..., count = ... }`: "
+    "every combination is a group\n"
+    "- **`[groups.NAME]`**: a group of its own: keys of the scene, each with one value\n";
+
+/// A page with lines of 110 columns at most: rows of tables stay whole, items of lists hang.
+std::string wrapped(std::string const& page) {
+  constexpr std::size_t columns = 110;
+  std::string text, line;
+  for (std::istringstream lines(page); std::getline(lines, line);) {
+    std::string const indent = line.starts_with("- ") ? "  " : "";
+    while (line.size() > columns && !line.starts_with('|')) {
+      std::size_t const blank = line.rfind(' ', columns);
+      if (blank == line.npos || blank <= indent.size()) break;  // a word as long as a line
+      text += line.substr(0, blank) + "\n";
+      line = indent + line.substr(blank + 1);
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string key_markdown(Key const& key) {
+  std::string const allowed = key.kind == Kind::text ? "" : ", " + allowed_values(key);
+  return fmt::format("- **`{}`**: {}. *{}{}; default: {}*\n", key.leaf(), key.help, kind_text(key), allowed, default_text(key));
+}
 
 }  // namespace
 
 std::string schema_markdown() {
   std::string text =
-      "# Scene files\n\nA scene is a TOML file, in UTF-8 within quotes and comments, else ASCII. Every quantity is a number with "
-      "its unit in quotes (`\"1 MPa\"`) "
-      "or a bare "
-      "number in SI units (temperatures in degrees Celsius, always with a unit). A key that is not stated has its default; a key "
-      "that "
-      "is not in this list is an error. `clathra schema` prints this page, `clathra schema --json` a JSON Schema for editors, "
-      "and "
-      "`clathra init quick` a scene with every key and its meaning.\n";
+      "# Scene keys\n\nA scene is a TOML file, in UTF-8 within quotes and comments, else ASCII. Every quantity is a number with "
+      "its unit in quotes (`\"1 MPa\"`) or a bare number in SI units (temperatures in degrees Celsius, always with a unit). "
+      "A key that is not stated has its default; a key that is not in this list is an error. `clathra schema` prints this page, "
+      "`clathra schema --json` a JSON Schema for editors, and `clathra init quick` a scene with every key and its meaning.\n";
   std::string_view section;
   for (Key const& key : schema()) {
     if (key.section() != section) {
       section = key.section();
-      text += fmt::format("\n## [{}]\n\n| key | what it is | kind | allowed | default |\n|---|---|---|---|---|\n", section);
+      text += fmt::format("\n## [{}]\n\n", section);
     }
-    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.leaf(), key.help, kind_text(key), allowed_values(key),
-                        default_text(key));
+    text += key_markdown(key);
   }
-  return text +
-         "\n## Presets\n\nA preset stands in for the defaults of several keys; a key that the scene states keeps its value.\n"
-         "\n### bond.preset\n\nWhat Jiang, He, Wang, Zhou and Zhu (2017, Comptes Rendus Mecanique 345 (12), 868-889) leave open, "
-         "answered in several ways ([what speaks for which](paper.md)).\n\n" +
-         presets_markdown(bond_presets()) +
-         "\n### run.preset\n\nPoints of the trade of speed for accuracy ([how they were measured](accuracy.md)). A stated "
-         "`test.strain_rate` or `test.inertial_number` is bounded by a stated `test.max_platen_wave_stress` only. Local "
-         "damping belongs to the model, not to these presets.\n\n" +
-         presets_markdown(run_presets()) + study_keys;
+  text +=
+      "\n## Presets\n\nA preset stands in for the defaults of several keys; a key that the scene states keeps its value.\n"
+      "\n### bond.preset\n\nWhat Jiang, He, Wang, Zhou and Zhu (2017, Comptes Rendus Mecanique 345 (12), 868-889) leave open, "
+      "answered in several ways ([what speaks for which](../validation/paper.md)).\n\n" +
+      presets_markdown(bond_presets()) +
+      "\n### run.preset\n\nPoints of the trade of speed for accuracy ([how they were measured](../explanation/accuracy.md)). A "
+      "stated `test.strain_rate` or `test.inertial_number` is bounded by a stated `test.max_platen_wave_stress` only. Local "
+      "damping belongs to the model, not to these presets.\n\n" +
+      presets_markdown(run_presets()) + study_keys;
+  return wrapped(text);
 }
 
 std::string schema_json() {
