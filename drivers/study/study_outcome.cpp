@@ -9,18 +9,11 @@
 #include "machine/figure_files.hpp"
 #include "study/study_goal.hpp"
 #include "terminal/print.hpp"
+#include "terminal/text.hpp"
 
 namespace clathra {
 
 namespace {
-
-/// "a, b and 3 more"
-std::string first_of(std::vector<std::string> const& names) {
-  constexpr std::size_t most = 5;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
-}
 
 /// What became of the specimens: "4 made, 1 could not be made, 2 not yet: each for 3 members".
 std::string specimens_text(StudyPlan const& plan) {
@@ -49,7 +42,7 @@ std::string failures_text(StudyPlan const& plan) {
       if (plan.runs[i].specimen == s && plan.members[i].message == failure_of_specimen(plan.specimens[s]))
         said[i] = true, members.push_back(plan.runs[i].name);
     text += fmt::format("failed    the specimen of {}: {}\n          needed by {}\n", specimen_words(plan, s),
-                        plan.specimens[s].failure, first_of(members));
+                        plan.specimens[s].failure, listed(members));
   }
   for (std::size_t i = 0; i < plan.members.size(); ++i)
     if (plan.members[i].state == MemberState::failed && !said[i])

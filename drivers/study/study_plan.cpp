@@ -18,6 +18,7 @@
 #include "io/scene/scene_comparison.hpp"
 #include "machine/own_program.hpp"
 #include "run/forecast.hpp"
+#include "terminal/text.hpp"
 
 namespace clathra {
 namespace {
@@ -123,15 +124,6 @@ std::size_t group_part(std::string const& text) { return std::min(text.size(), t
 
 std::string without_group(Problem const& problem) {
   return fmt::format("{}:{}:{}", problem.file, problem.line, problem.text.substr(0, group_part(problem.text)));
-}
-
-/// "a", "a and b", "a, b and 3 more"
-std::string listed(std::vector<std::string> const& names) {
-  constexpr std::size_t most = 5;
-  std::size_t const shown = names.size() > most ? most - 1 : names.size();
-  std::string text;
-  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return shown < names.size() ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
 /// Members that guards refuse cost nothing, nor do specimens that no other member needs.

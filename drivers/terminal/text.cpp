@@ -19,6 +19,14 @@ std::string duration_text(double seconds) {
   return whole >= 60 ? pair(whole / 60, "min", whole % 60, "s") : fmt::format("{} s", whole);
 }
 
+std::string listed(std::vector<std::string> const& names) {
+  constexpr std::size_t most = 5;
+  std::size_t const shown = names.size() > most ? most - 1 : names.size();
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return shown < names.size() ? fmt::format("{} and {} more", text, names.size() - shown) : text;
+}
+
 std::string short_count(double value) {
   for (auto const& [scale, prefix] : {std::pair{1e12, "T"}, {1e9, "G"}, {1e6, "M"}, {1e3, "k"}})
     if (std::fabs(value) >= scale) return fmt::format("{:.3g} {}", value / scale, prefix);
