@@ -163,7 +163,7 @@ TEST_F(CheckpointFile, OfAnotherSceneIsRefusedWithWhatDiffers) {
     (void)read_checkpoint(found, other, {});
     FAIL() << "another scene";
   } catch (FileProblem const& problem) {
-    EXPECT_EQ(problem.code, ExitCode::refused);
+    EXPECT_EQ(problem.code, ExitCode::cannot_create);
     EXPECT_NE(std::string(problem.what()).find("damping.local was 0.3, is 0.2"), std::string::npos) << problem.what();
     for (char const* const key : {"run.threads", "run.ignore_guards", "output.folder"})
       EXPECT_EQ(std::string(problem.what()).find(key), std::string::npos) << problem.what();

@@ -261,11 +261,11 @@ TEST_F(Folder, KeepsTheSpecimenThatTheRunReads) {
 
 TEST_F(Folder, ThatBelongsToOthersIsRefused) {
   std::ofstream(folder / "thesis.tex") << "x";
-  EXPECT_EQ(code_of([&] { ClearedFolder(folder, {}); }), ExitCode::refused);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder, {}); }), ExitCode::cannot_create);
   fs::create_directories(folder / "empty");
   fs::create_directory_symlink(folder / "empty", folder / "link");
-  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "link", {}); }), ExitCode::refused);
-  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "link/", {}); }), ExitCode::refused);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "link", {}); }), ExitCode::cannot_create);
+  EXPECT_EQ(code_of([&] { ClearedFolder(folder / "link/", {}); }), ExitCode::cannot_create);
   EXPECT_EQ(code_of([&] { ClearedFolder(folder / "thesis.tex", {}); }), ExitCode::cannot_create);
   EXPECT_EQ(code_of([&] { ClearedFolder(folder / "empty", {}); }), ExitCode::done);
 }

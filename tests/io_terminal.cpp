@@ -74,7 +74,7 @@ TEST_F(Terminal, GetsNoControlCharacterOfASceneOrAName) {
   expect_escaped("check " + scene(right + "\"a\\u001b[31mb\\n\" = 2\n"), "unknown key 'a\\x1b[31mb\\x0a'", 65);
   expect_escaped("check " + scene(right + "[\"x\\u001b]0;title\\u0007\"]\nkey = 2\n"), "unknown section [x\\x1b]0;title\\x07]",
                  65);
-  expect_escaped("check " + scene(right) + " --set \"$(printf 'run.\\033[31mseed=3')\"", "unknown key 'run.\\x1b[31mseed'", 65);
+  expect_escaped("check " + scene(right) + " --set \"$(printf 'run.\\033[31mseed=3')\"", "unknown key 'run.\\x1b[31mseed'", 64);
   expect_escaped("check \"$(printf 'no\\033[31mfile\\n.toml')\"", "no\\x1b[31mfile\\x0a.toml: cannot be opened", 66);
   expect_escaped("check " + scene(right, "red\033[31m.toml"), "red\\x1b[31m.toml: valid", 0);
   expect_escaped("check a.toml \"$(printf -- '--\\033[31mred')\"", "\\x1b[31mred", 64);

@@ -65,7 +65,8 @@ std::string stage_text(std::string const& stage, nlohmann::json const& numbers) 
   std::string text = stage + "\n";
   for (auto const& [name, value] : numbers.items()) {
     std::string const meaning = meaning_of(stage, name);
-    text += fmt::format("  {:<32} {:<12}{}\n", name, number_text(value), meaning.empty() ? "" : "  " + meaning);
+    text += meaning.empty() ? fmt::format("  {:<30} {}\n", name, number_text(value))
+                            : fmt::format("  {:<30} {:<12}  {}\n", name, number_text(value), meaning);
   }
   return text;
 }

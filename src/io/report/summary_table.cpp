@@ -85,7 +85,7 @@ std::vector<Quantity> cost_quantities() {
       {"steps", "", [](Run r, Numbers) { return count(r.history["step"].back()); }},
       {"wall time of the shear", "s", [](Run r, Numbers) { return shown(r.number("/wall_seconds/shear"), "{:.4g}"); }},
       {"particle-steps a second", "million",
-       [](Run r, Numbers) { return shown(r.number("/disc_steps_per_second"), "{:.3g}", mega); }},
+       [](Run r, Numbers) { return shown(r.number("/particle_steps_per_second"), "{:.3g}", mega); }},
       {"seed", "", [](Run r, Numbers) { return shown(r.number("/seed"), "{:.0f}"); }},
       {"program", "",
        [](Run r, Numbers) {

@@ -70,7 +70,7 @@ class Table {
     for (std::string const& key : study_.keys) add(key);
     text_ += ",seed,n,state,message,warnings";
     for (std::string const& name : names_) add(name);
-    text_ += ",program,specimen_digest,state_hash,wall_seconds,disc_steps_per_second\n";
+    text_ += ",program,specimen_digest,state_hash,wall_seconds,particle_steps_per_second\n";
   }
 
   void add(MemberResult const& member) {

@@ -57,7 +57,7 @@ std::vector<GroupNumbers> envelopes_by_material(Study const& study, std::vector<
 /// `interval_low` and `interval_high` (95 %): over the seeds of a group; `envelope` and the same four: of a material's envelopes.
 /// Columns: row, group, label, the keys that the study sets (SI), seed, n, state, message, warnings, the numbers in the order of
 /// the alphabet, program, specimen_digest, state_hash; last those that differ between two runs of the same study, wall_seconds
-/// and disc_steps_per_second. `n` is how many values the statistics of a row are of: where some numbers are not those of all
+/// and particle_steps_per_second. `n` is how many values the statistics of a row are of: where some numbers are not those of all
 /// seeds, they have rows of their own.
 std::string study_csv(Study const& study, std::vector<MemberResult> const& members);
 
