@@ -6,7 +6,7 @@
 #include "io/scene/schema.hpp"
 #include "terminal/command_table.hpp"
 #include "terminal/print.hpp"
-#include "verbs/examples.hpp"
+#include "study/examples.hpp"
 #include "verbs/verbs.hpp"
 
 namespace clathra {

@@ -16,7 +16,7 @@
 #include "terminal/duration.hpp"
 #include "terminal/json_text.hpp"
 #include "terminal/print.hpp"
-#include "verbs/examples.hpp"
+#include "study/examples.hpp"
 #include "verbs/scene_options.hpp"
 #include "verbs/verbs.hpp"
 
