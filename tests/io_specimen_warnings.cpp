@@ -86,6 +86,11 @@ TEST_F(SpecimenCheck, ATestIsForecastFromTheDiscsOfTheFile) {
   EXPECT_TRUE(says(curve, "warning: grading.file has no effect: the specimen comes from ")) << curve.output;
   EXPECT_TRUE(says(curve, "not measured: test.axial_strain, specimen.file\n") || says(curve, "not measured: specimen.file\n"))
       << curve.output;
+  // A specimen that is named beside the scene, as a study does for its members, takes the place of the scene's grading.
+  std::ofstream(folder / "own.toml") << "[grading]\nfile = \"sand.csv\"\n[specimen]\nparticles = 300\n";
+  CommandResult const shared =
+      run_clathra("check '" + (folder / "own.toml").string() + "' --set specimen.file='" + file.string() + "'");
+  EXPECT_FALSE(says(shared, "has no effect")) << shared.output;
   write(two_sizes(2e-4));
   SpecimenDesign const design = design_of(read_specimen(file));
   EXPECT_EQ(design.particles, 175);

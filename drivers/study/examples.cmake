@@ -1,7 +1,6 @@
-#Turns the scenes and studies of a folder and a paper into the source of examples() and built_in_paper():
-#cmake - DEXAMPLES = < folder> - DPAPER = < file> - DOUTPUT = < file> - P examples.cmake
-file(GLOB_RECURSE scenes RELATIVE ${EXAMPLES} ${
-  EXAMPLES}/*.toml)
+# Turns the scenes and studies of a folder and a paper into the source of examples() and built_in_paper():
+# cmake -DEXAMPLES=<folder> -DPAPER=<file> -DOUTPUT=<file> -P examples.cmake
+file(GLOB_RECURSE scenes RELATIVE ${EXAMPLES} ${EXAMPLES}/*.toml)
 list(FILTER scenes EXCLUDE REGEX "^papers/")
 list(SORT scenes)
 set(source "// Made by drivers/study/examples.cmake.\n#include \"study/examples.hpp\"\n\nnamespace clathra {\n\nstd::span<Example const> examples() {\n  static constexpr Example all[] = {\n")

@@ -97,7 +97,7 @@ std::string statistics_text(StudyPlan const& plan) {
   std::string text;
   for (GroupNumbers const& group : numbers_by_group(plan.study, plan.members))
     text += line_of(group, {number_text(group, "peak_q_Pa", "peak q", "MPa", 1e-6) + rising_text(group),
-                            number_text(group, "residual_q_Pa", "residual q", "MPa", 1e-6)});
+                            number_text(group, "residual_q_Pa", "residual q", "MPa", 1e-6) + rising_text(group)});
   for (GroupNumbers const& material : envelopes_by_material(plan.study, plan.members))
     text += line_of(material, {number_text(material, "peak_cohesion_Pa", "c", "MPa", 1e-6),
                                number_text(material, "peak_friction_angle_deg", "φ", "°", 1)});

@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 /// Keys that a specimen read from a file has a say in instead of the scene.
 constexpr std::string_view size_keys[] = {
     "specimen.particles", "specimen.void_ratio", "specimen.void_ratio_at",     "specimen.width",
-    "specimen.height",    "specimen.generator",  "specimen.compaction_layers", "grading.d50"};
+    "specimen.height",    "specimen.generator",  "specimen.compaction_layers", "grading.d50",
+    "grading.file",       "grading.table"};
 
 /// Whether the making of a specimen could depend on a key: of one that is to have its void ratio at the start of the test, what
 /// it goes through before the test is part of it. What is sheared and written later is not, nor what trades accuracy for speed:

@@ -119,14 +119,14 @@ std::string wide_skin(Grading const& grading, double skin) {
 }
 
 std::string far_void_ratio(Scene const& scene, SpecimenDesign const& design) {
-  // Rests of 100 to 10,000 grains under 50 kPa, without friction and with that of sand: a part of the voids is at the walls, and
-  // that of other curves than the tables is denser, as far as is known.
+  // Rests of 100 to 3,000 grains under 50 kPa, without friction and with that of sand: a part of the voids is at the walls.
+  // Grains of one size come closer than Toyoura sand; other curves are taken to be as close.
   struct Limits {
     double dense, loose;  // of many grains
   };
-  constexpr Limits of_toyoura{0.177, 0.32}, of_uniform{0.12, 0.32}, of_others{0.08, 0.32};
+  constexpr Limits of_toyoura{0.177, 0.32}, of_others{0.12, 0.32};
   constexpr double dense_at_walls = 0.74, loose_at_walls = 0.9, squeezed = 5;
-  Limits const limits = !scene.grading.file.empty() ? of_others : scene.grading.table == "uniform" ? of_uniform : of_toyoura;
+  Limits const limits = scene.grading.file.empty() && scene.grading.table == "toyoura" ? of_toyoura : of_others;
   bool const at_test = scene.specimen.void_ratio_at == VoidRatioAt::test;
   double const walls = 1 / std::sqrt(static_cast<double>(std::max<std::int64_t>(design.particles, 1))),
                stress = at_test ? scene.test.confining_stress : scene.specimen.preparation_stress,

@@ -46,9 +46,11 @@ Piece small_figure(GroupCurves const& group, ShownBand const& what, Axis const& 
 /// All groups beside each other on the same axes.
 Piece small_multiples(std::vector<GroupCurves> const& groups, ShownBand const& what) {
   Range strains, values;
-  for (GroupCurves const& group : groups)
-    for (std::vector<double> const& seed : group.bands[what.column].seeds)
-      strains.include(group.bands[what.column].eps1), values.include(seed);
+  for (GroupCurves const& group : groups) {
+    SeedBand const& band = group.bands[what.column];
+    for (std::vector<double> const* const edge : {&band.low, &band.high}) values.include(*edge);
+    for (std::vector<double> const& seed : band.seeds) strains.include(band.eps1), values.include(seed);
+  }
   Axis const x = strains.exact_axis(axial_strain), y = axis_of(what, values);
   Piece figures;
   for (std::size_t i = 0; i < std::min(groups.size(), most_small_figures); ++i)
@@ -86,7 +88,8 @@ std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> c
       if (found != group.values.end() && found->second.size() != group.seeds.size())
         cell +=
             fmt::format("<small class=\"unit\">({} seed{})</small>", found->second.size(), found->second.size() == 1 ? "" : "s");
-      if (std::string_view(column.number) == peak_number) cell += rising_seeds(group);
+      if (std::string_view const number = column.number; number == peak_number || number == "residual_q_Pa")
+        cell += rising_seeds(group);
       rows += fmt::format("<td data-run=\"{} {}\"><span>{}</span></td>", column.heading, column.unit, cell);
     }
     rows += "</tr>\n";

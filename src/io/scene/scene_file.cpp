@@ -160,8 +160,9 @@ class SceneReader {
 
   /// A specimen that is read takes the place of the one that the file describes.
   void leave_out_sizes() {
-    for (std::string_view const name : {"specimen.particles", "specimen.void_ratio", "specimen.width", "specimen.height",
-                                        "specimen.generator", "specimen.compaction_layers", "grading.d50"})
+    for (std::string_view const name :
+         {"specimen.particles", "specimen.void_ratio", "specimen.void_ratio_at", "specimen.width", "specimen.height",
+          "specimen.generator", "specimen.compaction_layers", "grading.d50", "grading.file", "grading.table"})
       if (std::find(overridden_.begin(), overridden_.end(), name) == overridden_.end()) take_back(*find_key(name));
   }
 
