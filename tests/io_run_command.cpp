@@ -55,6 +55,8 @@ TEST_F(RunCommand, LeavesEverythingThatARunPromises) {
   std::string const history = content(folder / "out" / "history.csv");
   EXPECT_GE(std::count(history.begin(), history.end(), '\n'), 21);
   EXPECT_NE(result.output.find("peak "), std::string::npos);
+  std::string const info = run_clathra("info " + (folder / "out").string()).output;
+  EXPECT_NE(info.find("scene              saturation 55 %, confining stress 1 MPa, seed 1\n"), std::string::npos) << info;
 }
 
 TEST_F(RunCommand, SaysOverWhatItsResidualIsTakenAndWhatItsSecondsCount) {

@@ -120,6 +120,7 @@ TEST(SceneFile, MissingQuotesAreNamedAndNothingIsSaidOfWhatCouldNotBeRead) {
   EXPECT_EQ(problems_of(sized + "[test]\nconfining_stress = \"2 MPa\n"),
             "my.toml:4:26: error: a quotation mark (\") is missing in this line");
   expect_problem(sized + "compaction_layers = 5 6\n", "my.toml:3:23: error: cannot be understood: ");
+  expect_problem("[output]\nenergy = yes\n", "a text goes in quotes (\"yes\"); what is or is not so is true or false");
   EXPECT_EQ(problems_of("[specimen]\nparticels = 2000\n"),
             "my.toml:2:1: error: unknown key 'particels' in [specimen]; did you mean 'particles'?");
 }

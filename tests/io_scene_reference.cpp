@@ -122,6 +122,7 @@ TEST(InitCommand, WritesAStudyBesideItsScene) {
   std::ofstream(folder / "quick.toml", std::ios::app) << "# mine\n";
   auto const size = fs::file_size(folder / "quick.toml");
   EXPECT_EQ(run_clathra("init studies/saturations -o '" + study + "'").code, 73);
+  EXPECT_NE(run_clathra("init saturations").output.find("did you mean 'studies/saturations'?"), std::string::npos);
   CommandResult const second = run_clathra("init studies/saturations -o '" + (folder / "second.toml").string() + "'");
   EXPECT_EQ(second.code, 0) << second.output;
   EXPECT_TRUE(says(second, "quick.toml is there already and stays\n"));

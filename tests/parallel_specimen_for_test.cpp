@@ -51,7 +51,6 @@ TEST(SpecimenForTest, HasItWithBondsThatFormBefore) {
 
 TEST(SpecimenForTest, IsRefusedWithOneThatWorksWhereNoneHoldsIt) {
   Scene scene = scene_of(0.32, 0.1);
-  scene.specimen.particles = 100;
   try {
     (void)specimen_for_test(scene, {});
     FAIL() << "grains with hardly any friction held a loose packing";

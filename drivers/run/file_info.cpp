@@ -8,7 +8,9 @@
 
 #include "domain/biaxial/scene_needs.hpp"
 #include "domain/measurement/disc_grading.hpp"
+#include "domain/scene/hydrate.hpp"
 #include "io/results/export.hpp"
+#include "io/results/run_record.hpp"
 #include "io/results/stage_numbers.hpp"
 
 namespace clathra {
@@ -136,6 +138,13 @@ std::string run_text(nlohmann::json const& record) {
   text += fmt::format("program            clathra {} ({}), {}, threads: {}\n", program.at("version").get<std::string>(),
                       program.at("git_hash").get<std::string>(), program.at("backend").get<std::string>(),
                       program.at("threads").dump());
+  if (record.contains("scene")) {
+    Scene const scene = scene_of(record.at("scene"));
+    text += row("scene", fmt::format("{}, confining stress {:.4g} MPa, seed {}",
+                                     has_bonds(scene) ? fmt::format("saturation {:.4g} %", 100 * scene.hydrate.saturation)
+                                                      : std::string("clean sand"),
+                                     scene.test.confining_stress * 1e-6, scene.run.seed));
+  }
   auto const& stages = record.at("stages");
   for (char const* const stage : {"generate", "prepare", "plan", "shear"})
     if (stages.contains(stage)) text += stage_text(stage, stages.at(stage));

@@ -26,9 +26,13 @@ ExitCode write_template(InitOptions const& options) {
   Example const* const example = example_named(options.example);
   if (!example) {
     std::vector<std::string_view> names;
-    for (Example const& other : examples()) names.push_back(other.name);
-    print_error(fmt::format("clathra: there is no example '{}'{}; `clathra init --list` names them all", options.example,
-                            name_suggestion(options.example, names)));
+    std::string hint;
+    for (Example const& other : examples()) {
+      names.push_back(other.name);
+      if (other.name.ends_with("/" + options.example)) hint = fmt::format("; did you mean '{}'?", other.name);
+    }
+    if (hint.empty()) hint = name_suggestion(options.example, names);
+    print_error(fmt::format("clathra: there is no example '{}'{}; `clathra init --list` names them all", options.example, hint));
     return ExitCode::usage;
   }
   fs::path const path = options.output.empty() ? fs::path(options.example).filename().string() + ".toml" : options.output;

@@ -33,6 +33,8 @@ std::string syntax_text(std::string_view description, std::string_view line) {
     return fmt::format("a number with its unit goes in quotes: \"{}\"", from_number.substr(0, 40));
   if (number && after != from_number.npos && from_number[after] == ',')
     return fmt::format("a number has a decimal point: {}.{}", from_number.substr(0, after), from_number.substr(after + 1, 20));
+  if (!from_number.empty() && std::isalpha(static_cast<unsigned char>(from_number[0])))
+    return fmt::format("a text goes in quotes (\"{}\"); what is or is not so is true or false", from_number.substr(0, 40));
   return "cannot be understood: " + std::string(description);
 }
 
