@@ -25,7 +25,7 @@ std::string problems_of(std::string const& text, Texts const& overrides = {}, Ex
   try {
     load(text, overrides);
   } catch (SceneProblems const& problems) {
-    EXPECT_EQ(problems.code(), overrides.empty() ? code : ExitCode::usage) << problems.what();
+    EXPECT_EQ(problems.code(), problems.problems[0].file.starts_with("--") ? ExitCode::usage : code) << problems.what();
     return problems.what();
   }
   ADD_FAILURE() << "taken:\n" << text;
