@@ -210,6 +210,17 @@ TEST_F(ScriptOutput, OfAStudyTellsHowFarMembersAreAndWhyTheyFailed) {
   EXPECT_EQ(read_status(folder() / "nowhere").fraction, 0);
 }
 
+TEST_F(ScriptOutput, OfAStudysForecastHasTheWarningsOfItsScenesOnce) {
+  std::ofstream(folder() / "dense.toml")
+      << "scene = \"small.toml\"\nseeds = 2\n[matrix]\n\"specimen.void_ratio\" = [0.1, 0.24]\n\"output.records\" = [10, 20]\n";
+  CommandResult const result = run_clathra("study --dry-run '" + (folder() / "dense.toml").string() + "'");
+  EXPECT_EQ(result.code, 0) << result.output;
+  std::size_t const warned = result.output.find("warning: a void ratio of 0.1 will hardly be reached");
+  ASSERT_NE(warned, std::string::npos) << result.output;
+  EXPECT_NE(result.output.find(" (in the groups ", warned), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find("will hardly be reached", warned + 40), std::string::npos) << result.output;
+}
+
 TEST_F(ScriptOutput, OfAStudyIsNotThatOfARun) {
   fs::path const study = folder() / "a_study";
   fs::create_directories(study);

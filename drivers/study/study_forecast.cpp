@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "machine/available_memory.hpp"
 #include "machine/machine_speed.hpp"
@@ -11,19 +12,41 @@
 #include "terminal/text.hpp"
 
 namespace clathra {
+
 int parallel_in_memory(StudyPlan const& plan) {
   double const most = largest_memory(plan);
   return most > 0 ? std::max(1, static_cast<int>(std::min(4096.0, usable_memory * available_memory() / most))) : 1;
 }
+
+namespace {
+
+/// The first member of a group, whatever its guards say.
+LoadedScene unguarded_scene(StudyPlan const& plan, StudyGroup group) {
+  group.settings.emplace_back("run.ignore_guards", "true");
+  return member_scene(plan.study, group, plan.study.seeds.front());
+}
+
+/// What the scenes of the groups are warned of, once each.
+std::string scene_warnings(StudyPlan const& plan) {
+  std::map<std::string, std::vector<std::string>> groups;
+  for (StudyGroup const& group : plan.study.groups)
+    for (std::string const& warning : unguarded_scene(plan, group).warnings)
+      if (!warning.starts_with(guard_ignored)) groups[warning].push_back(group.name);
+  std::string text;
+  for (auto const& [warning, names] : groups)
+    text += fmt::format("warning: {}{}\n", warning,
+                        names.size() == plan.study.groups.size() ? "" : fmt::format(" (in the groups {})", listed(names)));
+  return text;
+}
+
+}  // namespace
 
 StudyForecast study_forecast(StudyPlan const& plan, int parallel, int threads) {
   double runs = 0, specimens = 0;
   StudyForecast forecast{parallel, threads};
   for (StudyTask const& task : plan.runs) runs += task.disc_steps, forecast.disk_bytes += task.disk;
   for (StudyTask const& task : plan.specimens) specimens += task.disc_steps;
-  StudyGroup unguarded = plan.study.groups.back();
-  unguarded.settings.emplace_back("run.ignore_guards", "true");
-  Scene scene = member_scene(plan.study, unguarded, plan.study.seeds.front()).scene;
+  Scene scene = unguarded_scene(plan, plan.study.groups.back()).scene;
   scene.run.threads = threads;
   auto const fewest = std::min_element(plan.runs.begin(), plan.runs.end(),
                                        [](StudyTask const& a, StudyTask const& b) { return a.particles < b.particles; });
@@ -53,7 +76,7 @@ std::string study_forecast_text(StudyPlan const& plan, StudyForecast const& fore
     text += table_row("target",
                       fmt::format("{} is known to {:.3g} % of its mean, at most {} seeds", plan.study.precision_target->number,
                                   plan.study.precision_target->width * 100, plan.study.max_seeds));
-  return text;
+  return text + scene_warnings(plan);
 }
 
 nlohmann::ordered_json study_forecast_json(StudyPlan const& plan, StudyForecast const& forecast) {
