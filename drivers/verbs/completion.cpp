@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "io/scene/schema.hpp"
+#include "study/examples.hpp"
 #include "terminal/command_table.hpp"
 #include "terminal/print.hpp"
-#include "study/examples.hpp"
 #include "verbs/verbs.hpp"
 
 namespace clathra {
