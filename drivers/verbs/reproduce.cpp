@@ -11,12 +11,12 @@
 #include "machine/interrupt.hpp"
 #include "reproduce/outcome.hpp"
 #include "reproduce/reproduction.hpp"
+#include "study/examples.hpp"
 #include "study/study_forecast.hpp"
 #include "study/study_run.hpp"
 #include "terminal/duration.hpp"
 #include "terminal/json_text.hpp"
 #include "terminal/print.hpp"
-#include "study/examples.hpp"
 #include "verbs/scene_options.hpp"
 #include "verbs/verbs.hpp"
 
