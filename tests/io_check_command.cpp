@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -41,6 +42,19 @@ class CheckCommand : public testing::Test {
   fs::path const folder = fs::temp_directory_path() / ("clathra_check_" + std::to_string(::getpid()));
   fs::path const scene = folder / "small.toml";
 };
+
+/// Small specimens step slower: what a step costs besides its particles shows.
+TEST_F(CheckCommand, MeasuresTheMachineAtTheSizeOfTheSpecimen) {
+  ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+  EXPECT_EQ(clathra("check", "").code, 0);
+  EXPECT_EQ(clathra("check", "--set specimen.particles=1999").code, 0);
+  ::unsetenv("XDG_CACHE_HOME");
+  std::ifstream file(folder / "clathra" / "throughput.json");
+  nlohmann::json const kept = nlohmann::json::parse(file);
+  Lines sizes;
+  for (auto const& [key, rate] : kept.items()) sizes.push_back(key.substr(key.rfind(", ") + 2));
+  EXPECT_EQ(sizes, (Lines{"1000 particles", "250 particles"}));
+}
 
 TEST_F(CheckCommand, WarnsOfTheSameAsTheRunItself) {
   std::string const worrying =

@@ -179,6 +179,39 @@ TEST_F(StudyPage, RoundsItsNumbersToTheirIntervals) {
   EXPECT_NE(page.find("<span>0.0 ± 3.8<"), std::string::npos) << "-0.01, without a sign";
 }
 
+TEST_F(StudyPage, KeepsTheBandsOfEachGroupInItsPicture) {
+  (void)page_on_study();
+  Study study;
+  study.file = "two.toml";
+  study.groups = {{"a", {}, "a"}, {"b", {}, "b"}};
+  std::vector<MemberResult> members(4);
+  std::vector<fs::path> folders;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    members[i].group = i / 2;
+    members[i].seed = i % 2 + 1;
+    members[i].state = MemberState::finished;
+    members[i].numbers["peak_q_Pa"] = 5e6;
+    folders.push_back(folder / (i % 2 == 0 ? "first" : "second"));
+  }
+  write_study_report(study, members, folders, folder / "groups.html");
+  std::string const page = content_of(folder / "groups.html");
+  std::istringstream small(page.substr(page.find("<h2>Each group</h2>")));
+  double height = 0;
+  int points = 0;
+  for (std::string line; std::getline(small, line);) {
+    if (std::size_t const box = line.find("viewBox=\"0 0 "); box != std::string::npos)
+      ASSERT_EQ(std::sscanf(line.c_str() + box, "viewBox=\"0 0 %*f %lf", &height), 1) << line;
+    if (!line.starts_with("<polygon ")) continue;
+    std::istringstream numbers(line.substr(line.find("points=\"") + 8));
+    double x = 0, y = 0;
+    for (char comma = 0; numbers >> x >> comma >> y; ++points) {
+      EXPECT_GE(y, 0) << line;
+      EXPECT_LE(y, height) << line;
+    }
+  }
+  EXPECT_GT(points, 100);
+}
+
 TEST_F(StudyPage, CutsItsBandsWhereNoValuesArePossible) {
   std::string const page = page_on_study();
   EXPECT_NE(page.find("at each strain, as far as such values are possible. Of 2 seeds it is wide: 9.0 standard deviations to "

@@ -219,6 +219,9 @@ TEST_F(ScriptOutput, OfAStudysForecastHasTheWarningsOfItsScenesOnce) {
   ASSERT_NE(warned, std::string::npos) << result.output;
   EXPECT_NE(result.output.find(" (in the groups ", warned), std::string::npos) << result.output;
   EXPECT_EQ(result.output.find("will hardly be reached", warned + 40), std::string::npos) << result.output;
+  Json const json = Json::parse(quiet_errors("study --dry-run --json '" + (folder() / "dense.toml").string() + "'").output);
+  ASSERT_EQ(json["warnings"].size(), 1u);
+  EXPECT_TRUE(json["warnings"][0].get<std::string>().starts_with("a void ratio of 0.1 will hardly be reached"));
 }
 
 TEST_F(ScriptOutput, OfAStudyIsNotThatOfARun) {

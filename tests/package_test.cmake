@@ -42,9 +42,9 @@ foreach(line "-rwxr-xr-x root/root [^\n]*/usr/bin/clathra\n" "-rw-r--r-- root/ro
   endif()
 endforeach()
 
-execute_process(COMMAND ${DPKG_DEB} --extract ${package} ${FOLDER}/root COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${FOLDER}/root/usr/bin/clathra --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
-if(NOT help MATCHES "docs/NAME.md: [^\n]*/root/usr/share/doc/clathra\n" OR NOT EXISTS ${FOLDER}/root/usr/share/doc/clathra/reference/files.md)
+execute_process(COMMAND ${DPKG_DEB} --extract ${package} ${FOLDER}/unpacked COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${FOLDER}/unpacked/usr/bin/clathra --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+if(NOT help MATCHES "docs/NAME.md: [^\n]*/unpacked/usr/share/doc/clathra\n" OR NOT EXISTS ${FOLDER}/unpacked/usr/share/doc/clathra/reference/files.md)
   message(SEND_ERROR "the help does not say where the pages are:\n${help}")
 endif()
 

@@ -90,7 +90,7 @@ void BiaxialRun::shear() {
 void BiaxialRun::record_shear(BiaxialTest const& test) {
   auto& stages = session_.record().stages;
   stages["prepare"] = test.preparation();
-  if (test.axial_strain() == 0) return;
+  if (test.axial_strain() == 0) return;  // it has not begun
   stages["shear"] = reporter_.summary().numbers();
   stages["shear"].merge(test.shear_checks());
 }

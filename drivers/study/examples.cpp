@@ -35,23 +35,6 @@ std::string first_sentence(std::string_view comment) {
   return text;
 }
 
-}  // namespace
-
-std::string listed_examples() {
-  std::string text;
-  for (Example const& example : examples()) {
-    text += fmt::format("{:<24} {}\n", example.name, first_sentence(opening_comment(example.text)));
-  }
-  return text;
-}
-
-Example const* example_named(std::string_view name) {
-  auto const found = std::find_if(examples().begin(), examples().end(), [&](Example const& e) { return e.name == name; });
-  return found == examples().end() ? nullptr : &*found;
-}
-
-namespace {
-
 std::string write_scene(Example const& example, fs::path const& path) {
   LoadedScene const loaded = parse_scene(std::string(example.text), std::string(example.name), path.parent_path());
   replace_text_file(path, commented_scene(loaded.scene, loaded.stated, opening_comment(example.text), example.text),
@@ -79,6 +62,19 @@ std::string write_study(Example const& example, fs::path const& path) {
 }
 
 }  // namespace
+
+Example const* example_named(std::string_view name) {
+  auto const found = std::find_if(examples().begin(), examples().end(), [&](Example const& e) { return e.name == name; });
+  return found == examples().end() ? nullptr : &*found;
+}
+
+std::string listed_examples() {
+  std::string text;
+  for (Example const& example : examples()) {
+    text += fmt::format("{:<24} {}\n", example.name, first_sentence(opening_comment(example.text)));
+  }
+  return text;
+}
 
 std::string write_example(Example const& example, fs::path const& path) {
   return example.name.starts_with("studies/") ? write_study(example, path) : write_scene(example, path);

@@ -27,16 +27,16 @@ LoadedScene unguarded_scene(StudyPlan const& plan, StudyGroup group) {
 }
 
 /// What the scenes of the groups are warned of, once each.
-std::string scene_warnings(StudyPlan const& plan) {
+std::vector<std::string> scene_warnings(StudyPlan const& plan) {
   std::map<std::string, std::vector<std::string>> groups;
   for (StudyGroup const& group : plan.study.groups)
     for (std::string const& warning : unguarded_scene(plan, group).warnings)
       if (!warning.starts_with(guard_ignored)) groups[warning].push_back(group.name);
-  std::string text;
+  std::vector<std::string> texts;
   for (auto const& [warning, names] : groups)
-    text += fmt::format("warning: {}{}\n", warning,
-                        names.size() == plan.study.groups.size() ? "" : fmt::format(" (in the groups {})", listed(names)));
-  return text;
+    texts.push_back(names.size() == plan.study.groups.size() ? warning
+                                                             : fmt::format("{} (in the groups {})", warning, listed(names)));
+  return texts;
 }
 
 }  // namespace
@@ -76,7 +76,8 @@ std::string study_forecast_text(StudyPlan const& plan, StudyForecast const& fore
     text += table_row("target",
                       fmt::format("{} is known to {:.3g} % of its mean, at most {} seeds", plan.study.precision_target->number,
                                   plan.study.precision_target->width * 100, plan.study.max_seeds));
-  return text + scene_warnings(plan);
+  for (std::string const& warning : scene_warnings(plan)) text += "warning: " + warning + "\n";
+  return text;
 }
 
 nlohmann::ordered_json study_forecast_json(StudyPlan const& plan, StudyForecast const& forecast) {
@@ -99,6 +100,7 @@ nlohmann::ordered_json study_forecast_json(StudyPlan const& plan, StudyForecast 
           {"shear_seconds", forecast.shear_seconds},
           {"memory_bytes", forecast.memory_bytes},
           {"disk_bytes", forecast.disk_bytes},
+          {"warnings", scene_warnings(plan)},
           {"members", std::move(members)}};
 }
 

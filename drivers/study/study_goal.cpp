@@ -1,7 +1,6 @@
 #include "study/study_goal.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -69,7 +69,7 @@ std::string svg_file(Figure const& figure);
 /// Its numbers. Empty where there are none.
 std::string csv_file(Figure const& figure);
 
-/// Makes a folder for figures, or makes sure that it is one. @throws FileProblem; refused where it holds anything else
+/// Makes a folder for figures, or makes sure that it is one. @throws FileProblem; cannot_create where it holds anything else
 void claim_figures(std::filesystem::path const& folder);
 
 /// Writes the figures into a folder of their own as 01-name.svg and 01-name.csv, in place of those of an earlier call.
