@@ -8,6 +8,8 @@
 
 #include "command.hpp"
 #include "file_content.hpp"
+#include "io/report/seed_bands.hpp"
+#include "io/report/study_report.hpp"
 #include "report_page.hpp"
 
 namespace clathra {
@@ -130,6 +132,27 @@ TEST_F(FigureFiles, HaveTheNumbersOfTheHistoryBehindThem) {
     for (auto const& row : table) EXPECT_EQ(row.size(), table[0].size()) << name;
     for (std::size_t k = 1; k < table[0].size(); ++k) EXPECT_NO_THROW(static_cast<void>(std::stod(table.back()[k]))) << name;
   }
+}
+
+TEST_F(FigureFiles, HaveTheEdgesOfBandsBehindThem) {
+  MadeUpTest other;
+  other.peak_eps1 = 0.03;
+  std::vector<fs::path> const folders = {made("first"), made("second", other)};
+  Study study;
+  study.file = "two.toml";
+  study.groups = {{"all", {}, "all"}};
+  std::vector<MemberResult> members(2);
+  for (MemberResult& member : members) member.state = MemberState::finished, member.numbers["peak_q_Pa"] = 5e6;
+  members[1].seed = 2;
+  SeedBand const q = seed_bands(folders)[0];
+  std::vector<double> low, high;
+  for (auto const& row : table_of(csv_file(write_study_report(study, members, folders, folder / "study.html").front()))) {
+    if (row[0] == "all, lower edge") low.push_back(std::stod(row[2]));
+    if (row[0] == "all, upper edge") high.push_back(std::stod(row[2]));
+  }
+  EXPECT_NE(low, high);
+  EXPECT_EQ(low, q.low);
+  EXPECT_EQ(high, q.high);
 }
 
 TEST_F(FigureFiles, HaveTheParticlesAndPairsOfTheMapsBehindThem) {
