@@ -14,6 +14,13 @@ if(code OR NOT package)
   message(FATAL_ERROR "cpack ended with ${code} and made '${package}':\n${output}")
 endif()
 
+# README gives apt-get what scripts/package prints: without / or ./ before it that would be the name of a package.
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../scripts/package lines)
+list(POP_BACK lines printed)
+if(NOT printed STREQUAL "ls \"$project\"/build/package/package/*.deb")
+  message(SEND_ERROR "scripts/package does not end with the absolute path of the package, but: ${printed}")
+endif()
+
 execute_process(COMMAND ${DPKG_DEB} --contents ${package} OUTPUT_VARIABLE contents COMMAND_ERROR_IS_FATAL ANY)
 foreach(
   path
