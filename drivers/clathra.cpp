@@ -14,6 +14,7 @@
 #include "io/errors/failure.hpp"
 #include "io/scene/schema.hpp"
 #include "machine/own_program.hpp"
+#include "terminal/help_format.hpp"
 #include "terminal/json_text.hpp"
 #include "terminal/print.hpp"
 #include "terminal/status.hpp"
@@ -130,7 +131,7 @@ ExitCode choose_and_run(int argc, char** argv) {
   CLI::App program{"Clathra: discrete element solver for hydrate-bearing sand", "clathra"};
   program.set_version_flag("--version", version_and_libraries);
   program.require_subcommand(1);
-  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  program.formatter(std::make_shared<HelpFormat>());
   program.footer(fmt::format(
       "Example: clathra run examples/quick.toml --output out/quick\nPages that texts call docs/NAME.md: {}", pages_folder()));
   Verb chosen;

@@ -153,7 +153,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
       ->check(CLI::Validator(time_limit_problem, ""));
   verb.add_flag("--allow-mixed", options.allow_mixed, "take specimens and members that another program made");
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what it will cost");
-  verb.add_flag("--json", options.json, "with --dry-run: one JSON object, SI units")->needs(dry);
+  verb.add_flag("--json", options.json, "one JSON object, SI units")->needs(dry);
   verb.add_flag("--collect", options.collect, "only scorecard and report of what there is")->excludes(dry);
   add_figures_option(verb, options.figures)->excludes(dry);
 }

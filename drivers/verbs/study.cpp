@@ -133,7 +133,7 @@ void add_members_options(CLI::App& verb, StudyOptions& options) {
 /// Options that do only a part of the work, one of them at a time.
 void add_parts(CLI::App& verb, StudyOptions& options) {
   auto* const dry = verb.add_flag("--dry-run", options.dry_run, "only say what the study will cost");
-  verb.add_flag("--json", options.json, "with --dry-run: one JSON object, SI units")->needs(dry);
+  verb.add_flag("--json", options.json, "one JSON object, SI units")->needs(dry);
   auto* const slurm = verb.add_option("--slurm", options.slurm, "only write a script that runs the study as arrays of Slurm")
                           ->type_name("FILE")
                           ->check(CLI::Validator(name_problem, ""));
