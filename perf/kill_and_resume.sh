@@ -16,7 +16,7 @@ mpirun -n 2 "$clathra" generate "${scene[@]}" -o specimen.h5 2>log >/dev/null
 given=(run "${scene[@]}" --set specimen.file=specimen.h5)
 begin=$SECONDS
 mpirun -n 2 "$clathra" "${given[@]}" --output alone >log 2>&1
-echo "left alone on 2 ranks: $((SECONDS - begin)) s, $(tail -n 1 alone/history.csv | cut -d, -f15-18 | tr , +) = $(($(wc -l <alone/events.csv) - 1)) bonds broken"
+echo "left alone on 2 ranks: $((SECONDS - begin)) s, $(tail -n 1 alone/history.csv | cut -d, -f16-19 | tr , +) = $(($(wc -l <alone/events.csv) - 1)) bonds broken"
 killed=0
 while ((killed < kills)); do
   for ranks in 1 2 3 4 7; do
@@ -29,7 +29,7 @@ while ((killed < kills)); do
     kill_session "$job"
     if wait "$job" 2>/dev/null; then break 2; fi # it came to its end before
     killed=$((killed + 1))
-    echo "kill $killed on $ranks ranks: $(tail -n 1 killed/history.csv 2>/dev/null | cut -d, -f1,3)"
+    echo "kill $killed on $ranks ranks: $(tail -n 1 killed/history.csv 2>/dev/null | cut -d, -f2,4)"
   done
 done
 mpirun -n 2 "$clathra" "${given[@]}" --output killed --resume >log 2>&1

@@ -47,4 +47,4 @@ timed "resumed" mpirun -n 2 "$clathra" "${given[@]}" --output resumed --resume
 cmp alone/history.csv resumed/history.csv
 cmp alone/events.csv resumed/events.csv
 [ "$("$clathra" info --state-hash alone)" = "$("$clathra" info --state-hash resumed)" ]
-echo "the same history.csv, events.csv and state hash $("$clathra" info --state-hash alone) after $(tail -n 1 alone/history.csv | cut -d, -f1) steps"
+echo "the same history.csv, events.csv and state hash $("$clathra" info --state-hash alone) after $(tail -n 1 alone/history.csv | cut -d, -f2) steps"

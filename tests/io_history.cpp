@@ -54,7 +54,8 @@ using Record = Output;
 TEST_F(History, HasTheColumnsThatTheDocumentationPromises) {
   HistoryFile(folder / "history.csv", false);
   auto const header = split(split(content(folder / "history.csv"), '\n').front(), ',');
-  for (char const* const column : {"step",
+  for (char const* const column : {"stage",
+                                   "step",
                                    "time_s",
                                    "eps1",
                                    "eps_v",
@@ -132,7 +133,7 @@ TEST_F(History, GoesOnWithItsOwnColumns) {
   }
   auto const lines = split(content(path), '\n');
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ("4" + lines[1].substr(1), lines[2]) << "the same cells";
+  EXPECT_EQ("shear,4" + lines[1].substr(7), lines[2]) << "the same cells";
   std::vector<HistoryEntry> const entries = read_history(path, content(path).size());
   ASSERT_EQ(entries.size(), 2u);
   EXPECT_EQ(entries[1].row.step, 4);

@@ -28,6 +28,25 @@ TEST_F(Report, DrawsTheHistoryWhereItsAxesSay) {
   EXPECT_NEAR(volume[0].back().second, -1.5, 0.01) << "compression is positive";
 }
 
+TEST_F(Report, DrawsTheConsolidationApartFromTheShear) {
+  MadeUpTest with;
+  with.consolidation = true;
+  std::string const plain = page_on({made("a")}), page = page_on({made("a", with)});
+  EXPECT_EQ(plain.find("Void ratio against mean stress"), std::string::npos) << "nothing was recorded";
+  auto const curves = curves_of(page, "Void ratio against mean stress");
+  ASSERT_EQ(curves.size(), 1u);
+  ASSERT_EQ(curves[0].size(), static_cast<std::size_t>(made_up_consolidation));
+  for (int i = 0; i < made_up_consolidation; ++i)
+    EXPECT_NEAR(curves[0][static_cast<std::size_t>(i)].second, 0.26 - 0.001 * i, 1e-4);
+  EXPECT_NE(page.find("e 0.26 at 0.05 MPa, 0.241 at 1 MPa"), std::string::npos);
+  EXPECT_EQ(curves_of(page, "Deviator stress"), curves_of(plain, "Deviator stress"));
+  HistoryTable const history(folder / "a" / "history.csv");
+  EXPECT_EQ(history.rows(), made_up_records + 1u);
+  EXPECT_EQ(history["eps1"].front(), 0);
+  EXPECT_EQ(history.before("eps1"), std::vector<double>(made_up_consolidation, 1.0));
+  EXPECT_TRUE(history.before("no such column").empty());
+}
+
 TEST(ReportPlot, AnAxisHasNoEmptyStripBelowACurveThatStartsAHairBelowZero) {
   Range q;
   q.include({-0.001, 6.4});
@@ -249,8 +268,8 @@ TEST_F(Report, NamesWhatIsWrongWithARun) {
     return code_of([&] { page_on({run}); }, &message);
   };
   EXPECT_EQ(with_history(history + "1,2,3\n"), ExitCode::bad_input);
-  EXPECT_NE(message.find("line 303: 3 cells, the header has 26"), std::string::npos) << message;
-  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("\n100,0,"), "\n100,zero,")), ExitCode::bad_input);
+  EXPECT_NE(message.find("line 303: 3 cells, the header has 27"), std::string::npos) << message;
+  EXPECT_EQ(with_history(std::regex_replace(history, std::regex("\nshear,100,0,"), "\nshear,100,zero,")), ExitCode::bad_input);
   EXPECT_NE(message.find("line 3: 'zero' in column time_s is no number"), std::string::npos) << message;
   EXPECT_EQ(with_history(std::regex_replace(history, std::regex("q_Pa|,sigma3_Pa"), ",r_Pa")), ExitCode::bad_input);
   EXPECT_NE(message.find("line 1: there is no column q_Pa, nor sigma1_Pa and sigma3_Pa"), std::string::npos) << message;
@@ -330,9 +349,9 @@ TEST_F(Report, BearsARecordAndAHistoryWithHolesInThem) {
   fs::path const run = made("a");
   std::ofstream(run / "run.json") << R"({"scene": {"hydrate": {"saturation": "much"}}, "warnings": [3], "exit": 7})";
   std::string const history = content_of(run / "history.csv");
-  std::size_t const row = history.find("\n300,");
+  std::size_t const row = history.find("\nshear,300,");
   std::ofstream(run / "history.csv") << history.substr(0, row)
-                                     << "\n300,0,nan,inf,nan,nan,nan,nan,0,0,0,1,1,1,1,1,1,1,1,1,1,1,nan,nan,nan,nan"
+                                     << "\nshear,300,0,nan,inf,nan,nan,nan,nan,0,0,0,1,1,1,1,1,1,1,1,1,1,1,nan,nan,nan,nan"
                                      << history.substr(history.find('\n', row + 1));
   std::string const page = page_on({run});
   EXPECT_EQ(curves_of(page, "Deviator stress").size(), 2u) << "the curve has a gap";

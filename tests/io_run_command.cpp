@@ -186,11 +186,12 @@ class RunningCommand : public RunCommand {
             "--set", "output.records=4000", static_cast<char*>(nullptr));
     ::_exit(127);
   }
-  /// Waits until history.csv has rows. @return false after 60 s
+  /// Waits until history.csv has rows of the shear. @return false after 60 s
   bool wait_for_rows() const {
     for (int i = 0; i < 600; ++i) {
-      if (std::string const text = content(folder / "out" / "history.csv"); std::count(text.begin(), text.end(), '\n') > 3)
-        return true;
+      std::string const text = content(folder / "out" / "history.csv");
+      std::size_t const first = text.find("\nshear,");
+      if (first != text.npos && text.find("\nshear,", first + 1) != text.npos) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     return false;

@@ -57,10 +57,14 @@ Outcome const& sheared() {
 /// Every column of a row as text that tells any two bit patterns apart.
 std::string exact_text(HistoryRow const& row) {
   std::string text;
-  for_each_column(row, [&](char const* name, auto value) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, "%s=%a ", name, static_cast<double>(value));
-    text += buffer;
+  for_each_column(row, [&](char const* name, auto const& value) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+      char buffer[64];
+      std::snprintf(buffer, sizeof buffer, "%s=%a ", name, static_cast<double>(value));
+      text += buffer;
+    } else {
+      text += value + " ";
+    }
   });
   return text;
 }

@@ -23,6 +23,7 @@ struct MadeUpTest {
   bool energy = false;
   std::vector<std::string> overrides = {};  ///< of the scene in run.json
   int breaking = 1;                         ///< bonds that break in each mode from record to record
+  bool consolidation = false;               ///< recorded, in made_up_consolidation rows
 
   double q(double eps1) const {
     constexpr double residual_eps1 = 0.08;
@@ -34,6 +35,7 @@ struct MadeUpTest {
 
 inline constexpr int made_up_records = 300;
 inline constexpr double made_up_strain = 0.15;
+inline constexpr int made_up_consolidation = 20;
 
 inline HistoryRow made_up_row(MadeUpTest const& test, int i) {
   HistoryRow row;
@@ -50,6 +52,18 @@ inline HistoryRow made_up_row(MadeUpTest const& test, int i) {
     row.broken[BreakMode::shear] = test.breaking * i;
     row.bonds_intact_pct = static_cast<double>(row.bonds_intact) / 10;
   }
+  return row;
+}
+
+/// From sigma_3 / 20 to sigma_3 in equal steps, while e falls from 0.26 by 0.001 each.
+inline HistoryRow made_up_consolidation_row(MadeUpTest const& test, int i) {
+  HistoryRow row;
+  row.stage = consolidation_stage;
+  row.step = 10 * i;
+  row.sigma1_Pa = row.sigma3_Pa = row.p_Pa = test.sigma3 * (i + 1) / made_up_consolidation;
+  row.void_ratio = 0.26 - 0.001 * i;
+  row.eps1 = 1;  // such rows belong to no curve of the shear
+  row.eps_v = 2;
   return row;
 }
 
@@ -70,6 +84,7 @@ inline void write_made_up_record(std::filesystem::path const& folder, MadeUpTest
 inline void write_made_up_run(std::filesystem::path const& folder, MadeUpTest const& test) {
   std::filesystem::create_directories(folder);
   HistoryFile history(folder / "history.csv", test.energy);
+  for (int i = 0; test.consolidation && i < made_up_consolidation; ++i) history.write(made_up_consolidation_row(test, i));
   for (int i = 0; i <= made_up_records; ++i) {
     if (test.energy) {
       EnergyRow energy;

@@ -49,13 +49,24 @@ void RunFiles::take_events(BiaxialTest& test) {
   });
 }
 
-void RunFiles::write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy) {
+/// On rank 0.
+void RunFiles::write_row(HistoryRow const& row, EnergyRow const& energy) {
+  if (output_.energy)
+    history_->write(row, energy);
+  else
+    history_->write(row);
+}
+
+void RunFiles::write_consolidation(std::vector<HistoryRow> const& rows) {
+  EnergyRow none;
+  for_each_energy_column(none, [](char const*, double& value) { value = std::numeric_limits<double>::quiet_NaN(); });
   on_root(ranks_, [&] {
-    if (output_.energy)
-      history_->write(row, energy);
-    else
-      history_->write(row);
+    for (HistoryRow const& row : rows) write_row(row, none);
   });
+}
+
+void RunFiles::write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy) {
+  on_root(ranks_, [&] { write_row(row, energy); });
   take_events(test);
   bool const regular = interval_ > 0 && row.eps1 >= (regular_ - slack) * interval_;
   bool const given = row.eps1 >= next_snapshot_at();

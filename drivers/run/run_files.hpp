@@ -16,6 +16,8 @@ class RunFiles {
   RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks, BiaxialTest const& test,
            std::optional<RunProgress> const& before, double last_record);
 
+  /// The rows of the stages before the shear, before its first record.
+  void write_consolidation(std::vector<HistoryRow> const& rows);
   /// One record: its row, the bonds that broke since the last one, and a snapshot where one is due.
   /// @param energy  of the same moment, only with scene.output.energy
   void write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy);
@@ -29,6 +31,7 @@ class RunFiles {
   void close();
 
  private:
+  void write_row(HistoryRow const& row, EnergyRow const& energy);
   void take_events(BiaxialTest& test);
   void write_snapshot(BiaxialTest& test);
 

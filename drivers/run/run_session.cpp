@@ -95,6 +95,7 @@ Resumption RunSession::resume() {
   record_.wall_seconds = earlier_.wall_seconds;
   checkpoints_.emplace(folder_, ranks_, resumed_);
   for (HistoryEntry const& entry : resumed.history) {
+    if (entry.row.stage != shear_stage) continue;
     reporter_.add(entry.row);
     if (entry.energy) reporter_.add(*entry.energy);
   }

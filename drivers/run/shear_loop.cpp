@@ -27,7 +27,10 @@ void ShearLoop::run(BiaxialTest& test, double preparing_seconds) {
   std::int64_t const steps_before = test.shear_disc_steps();
   std::map<std::string, double> before = record.wall_seconds;
   double const searching_before = test.search_seconds(), every = session_.limits().checkpoint_every;
-  if (!resumed) write_record_of(test);
+  if (!resumed) {
+    files_->write_consolidation(test.consolidation());
+    write_record_of(test);
+  }
   if (!resumed && every > 0 && ranks.any(preparing_seconds > 0.05 * every)) write_checkpoint(test);
   while (!test.finished()) {
     if (test.advance(pace_, files_->next_snapshot_at())) write_record_of(test);

@@ -39,6 +39,7 @@ def curves(folder):
     for path in sorted((folder / "members").glob("*/history.csv")):
         with open(path, newline="") as file:
             table = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        table = [row for row in table if row.get("stage", "shear") == "shear"]
         rows.append([[100 * float(row["eps1"]), float(row["q_Pa"]) / 1e6] for row in table])
     shortest = min(map(len, rows))
     return np.array([row[:shortest] for row in rows])

@@ -47,7 +47,8 @@ def settings_of(run):
 def of_history(path):
     """Stresses of the contacts beside those of the walls, and where the work went until the peak, from history.csv."""
     with open(path, newline="") as file:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        shear = [row for row in csv.DictReader(file) if row.pop("stage", "shear") == "shear"]
+    rows = [{key: float(value) for key, value in row.items()} for row in shear]
     inner = [r["contact_sigma1_Pa"] - r["contact_sigma3_Pa"] for r in rows]
     peak, inner_peak = (max(range(len(rows)), key=q.__getitem__) for q in ([r["q_Pa"] for r in rows], inner))
     found = {"contact_peak_q_Pa": inner[inner_peak], "contact_peak_eps1": rows[inner_peak]["eps1"], "contact_q_at_peak_Pa": inner[peak],

@@ -22,40 +22,45 @@ Snapshot BiaxialTest::snapshot() const {
   return snapshot;
 }
 
-HistoryRow BiaxialTest::record() {
-  Simulation& s = *state_->simulation;
-  Measures const& m = state_->measures();
-  WallStress const stress = s.assembly().stress();
+HistoryRow BiaxialTest::State::row(Measures const& m, double strain_rate) const {
+  Assembly const& a = simulation->assembly();
+  WallStress const stress = a.stress();
   HistoryRow row;
-  row.step = s.assembly().steps() - state_->first_step;
-  row.time_s = s.assembly().time() - state_->start_time;
-  row.eps1 = state_->eps1();
-  row.eps_v = state_->eps_v();
+  row.stage = stage;
+  row.step = a.steps() - first_step;
+  row.time_s = a.time() - start_time;
+  row.eps1 = eps1();
+  row.eps_v = eps_v();
   row.sigma1_Pa = stress.y;
   row.sigma3_Pa = stress.x;
   row.q_Pa = stress.y - stress.x;
   row.p_Pa = 0.5 * (stress.y + stress.x);
-  row.contact_sigma1_Pa = m.stress_area_yy / s.assembly().area();
-  row.contact_sigma3_Pa = m.stress_area_xx / s.assembly().area();
-  row.void_ratio = s.assembly().void_ratio();
+  row.contact_sigma1_Pa = m.stress_area_yy / a.area();
+  row.contact_sigma3_Pa = m.stress_area_xx / a.area();
+  row.void_ratio = a.void_ratio();
   row.bonds_intact = std::llround(m.bonded);
-  row.bonds_intact_pct = state_->bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(state_->bonds0) : 0;
+  row.bonds_intact_pct = bonds0 > 0 ? 100.0 * m.bonded / static_cast<double>(bonds0) : 0;
   row.bonded_contacts_pct = m.interacting > 0 ? 100.0 * m.bonded / m.interacting : 0;
-  row.broken = s.assembly().break_counts();
-  row.coordination = 2 * m.interacting / s.assembly().discs();
+  row.broken = a.break_counts();
+  row.coordination = 2 * m.interacting / a.discs();
   row.mechanical_coordination = m.mechanical_coordination();
-  row.inertial_number =
-      state_->rate.strain_rate * state_->d50 * std::sqrt(s.assembly().facts.moving_density() / std::max(row.sigma3_Pa, 1.0));
-  row.platen_wave_stress = platen_wave_stress(state_->scene, state_->rate.strain_rate, s.assembly().walls().height(),
-                                              row.void_ratio, state_->scene.grains.density * (1 + s.assembly().facts.added_mass));
-  row.unbalanced = m.unbalanced_ratio(s.assembly().discs());
-  LargestDeviator const& largest = s.assembly().now.walls.largest;
+  row.inertial_number = strain_rate * d50 * std::sqrt(a.facts.moving_density() / std::max(row.sigma3_Pa, 1.0));
+  row.platen_wave_stress =
+      platen_wave_stress(scene, strain_rate, a.walls().height(), row.void_ratio, scene.grains.density * (1 + a.facts.added_mass));
+  row.unbalanced = m.unbalanced_ratio(a.discs());
+  LargestDeviator const& largest = a.now.walls.largest;
   bool const between = largest.q > row.q_Pa;
   row.largest_q_Pa = between ? largest.q : row.q_Pa;
-  row.largest_q_eps1 = between ? std::log(state_->height0 / largest.height) : row.eps1;
-  row.dilation_deg = state_->dilation.largest();
-  s.watch_deviator();
-  state_->dilation.begin_record();
+  row.largest_q_eps1 = between ? std::log(height0 / largest.height) : row.eps1;
+  return row;
+}
+
+HistoryRow BiaxialTest::record() {
+  State& t = *state_;
+  HistoryRow row = t.row(t.measures(), t.rate.strain_rate);
+  row.dilation_deg = t.dilation.largest();
+  t.simulation->watch_deviator();
+  t.dilation.begin_record();
   return row;
 }
 

@@ -24,8 +24,10 @@ struct BiaxialTest::State {
   std::vector<std::string> warnings;
   RateNumbers rate;
   double d50 = 0, height0 = 0, area0 = 0;
+  std::string stage = shear_stage;        // that the test is in
+  std::vector<HistoryRow> consolidation;  // of the stages before the shear
   std::int64_t bonds0 = 0, records_due = 0, first_step = 0;
-  double record_interval = 0, start_time = 0;  // of axial strain; of the shear [s]
+  double record_interval = 0, start_time = 0;  // of axial strain; of the stage [s]
   std::int64_t disc_steps = 0;
   int events_taken = 0;                              // of those that this rank has seen
   bool at_rest = false, began_quasi_static = false;  // when the shear began
@@ -38,7 +40,10 @@ struct BiaxialTest::State {
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   std::string text_of_scaling() const;
   MassScaling mass_scaling(std::vector<double> const& radii) const;
-  void consolidate(double stress, ProgressCallback const& progress);
+  void begin_stage(char const* name);
+  void consolidate(char const* stage_name, ProgressCallback const& progress);
+  void approach(double stress, double closing_rate, std::int64_t most_steps, ProgressCallback const& progress);
+  void record_consolidation(bool anyway);
   void require_rest(std::int64_t steps);
   void warn_of_density(double before, double made_under);
   void require_grains(double deep_share) const;
@@ -53,6 +58,8 @@ struct BiaxialTest::State {
   double eps1() const { return std::log(height0 / simulation->assembly().walls().height()); }
   double eps_v() const { return std::log(area0 / simulation->assembly().area()); }
   void check();
+  /// @param m  of the specimen as it stands;  @param strain_rate  [1/s], for I and W
+  HistoryRow row(Measures const& m, double strain_rate) const;
   /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.
   Measures const& measures();
   double skin(std::vector<double> const& radii) const;  ///< of this rank's discs; collective

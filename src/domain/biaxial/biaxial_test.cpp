@@ -11,7 +11,6 @@
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
 #include "domain/generation/bonding.hpp"
-#include "domain/generation/equilibration.hpp"
 #include "domain/measurement/disc_grading.hpp"
 #include "domain/measurement/history_row.hpp"
 #include "domain/measurement/snapshot.hpp"
@@ -22,7 +21,6 @@
 #include "domain/scene/scene_laws.hpp"
 #include "domain/scene/short_number.hpp"
 #include "domain/scene/specimen.hpp"
-#include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/simulation/break_event.hpp"
 #include "domain/simulation/simulation.hpp"
@@ -34,10 +32,6 @@ namespace {
 /// Cap on the speed of the servo walls over that of a platen. A brittle specimen that fails widens ten times as fast as the
 /// platens close it; at 4 such walls let sigma_3 rise by 70 % over a burst of breaking bonds.
 constexpr double largest_lateral_speed = 40;
-
-/// So that the first row of a shear shows no deviator. Small specimens come to it with the rest; a million of clean sand rested
-/// with its walls 0.34 % of sigma_3 apart.
-constexpr RestCriterion rest_before_shear{1e-3, 1e-3};
 
 std::string overshoot_text(double reached, double wanted) {
   char text[160];
@@ -95,7 +89,7 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
   };
   start_simulation();
   preparation["void_ratio_before_consolidation"] = simulation->assembly().void_ratio();
-  consolidate(scene.test.confining_stress, progress);
+  consolidate(consolidation_stage, progress);
   if (bond && scene.bond.after_consolidation) {
     count_disc_steps();
     specimen = simulation->specimen();
@@ -103,7 +97,7 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
     bond_specimen(scene, specimen, preparation, ranks);
     start_simulation();
     double const before = simulation->assembly().void_ratio();
-    consolidate(scene.test.confining_stress, progress);
+    consolidate(hydrate_consolidation_stage, progress);
     if (before - simulation->assembly().void_ratio() > 0.003 && !scene.run.ignore_guards) {
       throw Refused("bonding after consolidation with this bond.contact_coupling lets the void ratio drop from " +
                     std::to_string(before) + " to " + std::to_string(simulation->assembly().void_ratio()) +
@@ -114,16 +108,6 @@ void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallbac
   warn_of_density(preparation.at("void_ratio_before_consolidation"), made_under);
   Measures const m = simulation->assembly().measures();
   require_grains(m.touching > 0 ? m.deep / m.touching : 0);
-}
-
-/// A specimen that is packed denser by its consolidation, beyond what is elastic, has no longer the void ratio it was made with.
-void BiaxialTest::State::warn_of_density(double before, double made_under) {
-  constexpr double plastic = 0.015;
-  double const after = simulation->assembly().void_ratio(), elastic = elastic_loss(scene, before, made_under);
-  if (before - after <= 1.2 * elastic + plastic) return;
-  warnings.push_back("under the confining stress the void ratio fell from " + short_number(before, 4) + " to " +
-                     short_number(after, 4) + " (" + short_number(elastic, 2) +
-                     " of it elastic): what is tested is denser than what was made");
 }
 
 std::string BiaxialTest::State::text_of_scaling() const {
@@ -141,44 +125,6 @@ MassScaling BiaxialTest::State::mass_scaling(std::vector<double> const& radii) c
   return scaling;
 }
 
-/// Compresses homogeneously, discs and walls together, to near the stress, and lets the servo walls hold it there.
-void BiaxialTest::State::consolidate(double stress, ProgressCallback const& progress) {
-  constexpr double inertial_number = 2e-4;
-  Simulation& s = *simulation;
-  prepare_servo(s, stress, inertial_number, d50, scene.run.step_choice());
-  double const closing_rate = strain_rate_of(inertial_number, stress, s.assembly().facts.moving_density(), d50);
-  AxisDrive const servo_x = s.loading().x, servo_y = s.loading().y;
-  std::int64_t const budget = scene.test.consolidation_steps,
-                     most_steps = std::min(budget, static_cast<std::int64_t>(0.1 / (closing_rate * s.time_step)));
-  if (mean_stress(s) < 0.95 * stress) {
-    s.drive(AxisDrive::at_rate(closing_rate), AxisDrive::at_rate(closing_rate), closing_rate, closing_rate);
-    while (mean_stress(s) < 0.98 * stress && s.assembly().steps() < most_steps) {
-      s.step(std::min<std::int64_t>(20, most_steps - s.assembly().steps()));
-      if (s.assembly().steps() % 2000 == 0)
-        report(progress,
-               {"consolidate", 0.5 * mean_stress(s) / stress, "compressing", s.assembly().steps() * s.assembly().discs()});
-    }
-    s.drive(servo_x, servo_y, -closing_rate, -closing_rate);
-  }
-  at_rest = hold_stress(s, stress, rest_before_shear, budget - s.assembly().steps(), progress, "consolidate");
-  preparation["consolidation_steps"] = static_cast<double>(s.assembly().steps());
-  preparation["consolidated_unbalanced"] = s.assembly().measures().unbalanced_ratio(s.assembly().discs());
-  preparation["at_rest"] = at_rest ? 1 : 0;
-  if (!at_rest) require_rest(budget);
-}
-
-/// The specimen did not come to rest: refused, unless guards are ignored.
-void BiaxialTest::State::require_rest(std::int64_t steps) {
-  std::string const why = unrest(*simulation, simulation->assembly().measures(), scene.test.confining_stress, rest_before_shear);
-  std::string const when = preparation.contains("bonds") ? "after" : "before";
-  std::string const text = (has_bonds(scene) ? when + " hydrate formed, " : std::string()) +
-                           "consolidation did not come to rest within " + std::to_string(steps) +
-                           (steps == 1 ? " step: " : " steps: ") +
-                           (why.empty() ? "it rested for fewer than three checks on end" : why);
-  if (!scene.run.ignore_guards) throw Refused(text + "; test.consolidation_steps gives it more" + ignore_hint);
-  warnings.push_back(text + ": the test is not quasi-static from its beginning");
-}
-
 /// Sets platens, discs and servo in motion together, so that the shear starts without a wave, and opens the accounts.
 void BiaxialTest::State::begin_shear() {
   Simulation& s = *simulation;
@@ -192,8 +138,7 @@ void BiaxialTest::State::begin_shear() {
   preparation["time_step_margin"] = frequency > 0 ? damped / frequency / s.time_step : 0;
   preparation["time_step_limit_s"] = s.assembly().stable_limit();
   preparation["added_mass_share"] = s.assembly().facts.added_mass;
-  height0 = s.assembly().walls().height();
-  area0 = s.assembly().area();
+  begin_stage(shear_stage);
   rate = rate_numbers(scene, d50, height0, s.assembly().void_ratio(), s.assembly().facts.added_mass);
   for (std::string const& warning : check_rate(scene, rate)) warnings.push_back(warning);
   if (scene.run.scales_masses_further()) warnings.push_back(text_of_scaling());
@@ -201,13 +146,10 @@ void BiaxialTest::State::begin_shear() {
   lateral.integral = -0.5 * elastic_lateral_ratio * rate.strain_rate * s.assembly().walls().width();
   s.drive(lateral, AxisDrive::at_rate(rate.strain_rate), -elastic_lateral_ratio * rate.strain_rate, rate.strain_rate);
   if (scene.output.energy) s.set_ledger(true);
-  first_step = s.assembly().steps();
-  start_time = s.assembly().time();
   record_interval = scene.test.axial_strain / scene.output.records;
   if (scene.output.takes_event_details() && has_bonds(scene)) s.keep_breaks(BreakRecord::details);
   events_taken = static_cast<int>(s.assembly().break_events(0).size());
   int const broken = s.assembly().broken_bonds();
-  bonds0 = std::llround(s.assembly().measures().bonded) + broken;
   if (scene.output.takes_snapshots()) s.mark_start();
   s.watch_deviator();
   preparation["broken_in_consolidation"] = broken;
@@ -240,6 +182,7 @@ BiaxialTest::~BiaxialTest() = default;
 
 StageRecord const& BiaxialTest::preparation() const { return state_->preparation; }
 std::vector<std::string> const& BiaxialTest::warnings() const { return state_->warnings; }
+std::vector<HistoryRow> const& BiaxialTest::consolidation() const { return state_->consolidation; }
 bool BiaxialTest::finished() const { return strain_fraction() >= 1 - 1e-9; }
 double BiaxialTest::axial_strain() const { return state_->eps1(); }
 double BiaxialTest::strain_fraction() const { return state_->eps1() / state_->scene.test.axial_strain; }

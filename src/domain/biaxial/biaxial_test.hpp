@@ -29,6 +29,9 @@ class BiaxialTest {
 
   StageRecord const& preparation() const;  ///< numbers of bonding and consolidation, time step and its margin
   std::vector<std::string> const& warnings() const;
+  /// Rows of the stages before the shear: one wherever the mean stress has changed by a hundredth of the confining stress, and
+  /// both ends. None of a test that goes on from a state.
+  std::vector<HistoryRow> const& consolidation() const;
 
   /// Goes on from a state, on any number of ranks, with the bits of the test that gave it.
   BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks);

@@ -2,16 +2,22 @@
 /// One record of a test: a row of history.csv.
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "kernels/break_mode.hpp"
 
 namespace clathra {
 
+// Names of the stages of a test, in their order. The second is there where hydrate forms after the first.
+inline constexpr char consolidation_stage[] = "consolidation", hydrate_consolidation_stage[] = "consolidation with hydrate",
+                      shear_stage[] = "shear";
+
 /// Stresses are effective and positive in compression; sigma_1 is vertical, sigma_3 lateral (walls); eps_v = eps_1 + eps_3.
 struct HistoryRow {
-  std::int64_t step = 0;
+  std::string stage = shear_stage;  ///< or consolidation_stage, hydrate_consolidation_stage
+  std::int64_t step = 0;            ///< since the stage began, as time and strains
   double time_s = 0;
-  double eps1 = 0, eps_v = 0;                               ///< natural strains since the start of the shear
+  double eps1 = 0, eps_v = 0;                               ///< natural strains
   double sigma1_Pa = 0, sigma3_Pa = 0, q_Pa = 0, p_Pa = 0;  ///< q = s1 - s3, p = (s1 + s3) / 2
   double contact_sigma1_Pa = 0, contact_sigma3_Pa = 0;      ///< the same stresses from the contacts (Love-Weber)
   double void_ratio = 0;                                    ///< nominal
@@ -28,9 +34,10 @@ struct HistoryRow {
   double dilation_deg = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Visits (column name, value) in file order; values are double or int64.
+/// Visits (column name, value) in file order; values are double, int64 or, of the stage, a string.
 template <class Row, class Visit>
 void for_each_column(Row& row, Visit&& visit) {
+  visit("stage", row.stage);
   visit("step", row.step);
   visit("time_s", row.time_s);
   visit("eps1", row.eps1);
@@ -57,7 +64,8 @@ void for_each_column(Row& row, Visit&& visit) {
 }
 
 /// The energy ledger at a record [J/m], present only with output.energy: stored energies now, work and losses since the shear
-/// began. No account is computed as the remainder: `residual` = work - (change of stored energies) - losses is the check.
+/// began; nan before it. No account is computed as the remainder: `residual` = work - (change of stored energies) - losses is the
+/// check.
 struct EnergyRow {
   double boundary_work = 0;
   double kinetic = 0, grain_elastic = 0, bond_elastic = 0, wall_elastic = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "domain/measurement/test_numbers.hpp"
 #include "io/report/markup.hpp"
@@ -26,6 +27,52 @@ Plot plot_of(std::vector<RunResults> const& runs, Variable const& what) {
   plot.x = strains.exact_axis(axial_strain);
   plot.y = values.axis(what);
   return plot;
+}
+
+/// From the smallest to the largest value of all curves.
+Axis stress_axis(std::vector<Curve> const& curves) {
+  Axis axis{{"mean stress p [MPa], logarithmic", "p_Pa", mega}, HUGE_VAL, 0, true};
+  for (Curve const& curve : curves)
+    for (double const stress : curve.x) {
+      if (!(stress > 0) || !std::isfinite(stress)) continue;
+      axis.from = std::min(axis.from, stress * mega);
+      axis.to = std::max(axis.to, stress * mega);
+    }
+  return axis;
+}
+
+/// Around the values of all curves, to round numbers.
+Axis void_ratio_axis(std::vector<Curve> const& curves) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (Curve const& curve : curves)
+    for (double const ratio : curve.y) low = std::min(low, ratio), high = std::max(high, ratio);
+  double const step = tick_step(low, high, 5);
+  return {{"void ratio e", "void_ratio"}, std::floor(low / step) * step, std::ceil(high / step) * step};
+}
+
+/// Void ratio against stress before the shear, of the runs that have recorded it.
+Piece consolidation_figure(std::vector<RunResults> const& runs) {
+  Plot plot;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    HistoryTable const& history = runs[i].history;
+    std::vector<double> const p = history.before("p_Pa"), e = history.before("void_ratio");
+    if (p.size() < 2 || !(*std::max_element(p.begin(), p.end()) > *std::min_element(p.begin(), p.end()))) continue;
+    plot.curves.push_back({run_label(runs[i]), p, e, run_stroke(i)});
+    plot.description += fmt::format("{}: e {:.4g} at {:.3g} MPa, {:.4g} at {:.3g} MPa", run_label(runs[i]), e.front(),
+                                    p.front() * mega, e.back(), p.back() * mega);
+    if (std::optional<double> const broken = runs[i].number("/stages/prepare/broken_in_consolidation");
+        runs[i].has_bonds() && broken)
+      plot.description += fmt::format(", {} bonds broken", *broken);
+    plot.description += ". ";
+  }
+  if (plot.curves.empty()) return "";
+  plot.title = "Void ratio against mean stress in the consolidation";
+  plot.x = stress_axis(plot.curves);
+  plot.y = void_ratio_axis(plot.curves);
+  return figure("Consolidation", drawing(plot) + legend(plot.curves),
+                "Before the shear: the void ratio e while the mean stress p rises from that under which the specimen was made to "
+                "the confining stress, and the specimen comes to rest. " +
+                    plot.description);
 }
 
 Piece stress_figure(std::vector<RunResults> const& runs) {
@@ -190,7 +237,7 @@ std::string run_label(RunResults const& run) {
 }
 
 Piece curve_figures(std::vector<RunResults> const& runs) {
-  return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs);
+  return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs) + consolidation_figure(runs);
 }
 
 Piece energy_figures(std::vector<RunResults> const& runs) {

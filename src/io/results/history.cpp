@@ -43,6 +43,9 @@ struct Parse {
   void operator()(char const* name, std::int64_t& value) {
     if (auto const at = place(name); at < cells.size()) value = std::llround(parse_number(cells[at]));
   }
+  void operator()(char const* name, std::string& value) {
+    if (auto const at = place(name); at < cells.size()) value = cells[at];
+  }
   std::size_t place(char const* name) const {
     return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
   }

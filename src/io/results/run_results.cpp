@@ -17,6 +17,7 @@ namespace clathra {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 30;
+constexpr char stage_column[] = "stage";
 
 double number_in(std::string_view cell, std::string const& column, std::size_t line, std::filesystem::path const& path) {
   try {
@@ -100,27 +101,36 @@ HistoryTable::HistoryTable(std::filesystem::path const& path) {
   std::string const text = read_text_file(path, largest_file);
   std::vector<std::string> names;
   std::vector<bool> known;
+  auto stage = names.end();
   for (CsvRows rows(text); rows.next();) {
     std::vector<std::string_view> const& cells = rows.cells();
     if (rows.line() == 1) {
       for (std::string_view const cell : cells) names.emplace_back(cell);
       known = known_columns(names, path);
       require_essentials(names, path);
+      stage = std::find(names.begin(), names.end(), stage_column);
       continue;
     }
     if (cells.size() != names.size())
       throw FileProblem(ExitCode::bad_input, path,
                         fmt::format("line {}: {} cells, the header has {}", rows.line(), cells.size(), names.size()));
+    bool const shear = stage == names.end() || cells[static_cast<std::size_t>(stage - names.begin())] == shear_stage;
     for (std::size_t i = 0; i < names.size(); ++i)
-      if (known[i]) columns_[names[i]].push_back(number_in(cells[i], names[i], rows.line(), path));
-    ++rows_;
+      if (known[i] && names[i] != stage_column)
+        (shear ? columns_ : before_)[names[i]].push_back(number_in(cells[i], names[i], rows.line(), path));
+    rows_ += shear ? 1 : 0;
   }
-  if (rows_ < 2) throw FileProblem(ExitCode::bad_input, path, "has fewer than two rows, there is nothing to draw");
+  if (rows_ < 2) throw FileProblem(ExitCode::bad_input, path, "has fewer than two rows of the shear, there is nothing to draw");
   if (!has("q_Pa")) {
     std::vector<double>& q = columns_["q_Pa"] = columns_["sigma1_Pa"];
     for (std::size_t i = 0; i < rows_; ++i) q[i] -= columns_["sigma3_Pa"][i];
   }
   unknown_.assign(rows_, std::numeric_limits<double>::quiet_NaN());
+}
+
+std::vector<double> HistoryTable::before(std::string const& column) const {
+  auto const found = before_.find(column);
+  return found == before_.end() ? std::vector<double>() : found->second;
 }
 
 std::vector<double> const& HistoryTable::operator[](std::string const& column) const {

@@ -13,6 +13,7 @@
 namespace clathra {
 
 /// The columns of a history.csv that the program knows; others are passed over. Numbers may be inf or nan where the run diverged.
+/// Its rows are those of the shear.
 class HistoryTable {
  public:
   /// A last line without its end is a row that is being written, and is left out.
@@ -25,6 +26,8 @@ class HistoryTable {
   bool has_all(std::vector<std::string> const& columns) const;
   /// A column; nan in each row where there is none of this name.
   std::vector<double> const& operator[](std::string const& column) const;
+  /// The same of the stages before the shear; empty where the history has none.
+  std::vector<double> before(std::string const& column) const;
   TestCurves curves() const {
     return {(*this)["eps1"],
             (*this)["eps_v"],
@@ -39,7 +42,7 @@ class HistoryTable {
   std::vector<std::string> missing() const;
 
  private:
-  std::map<std::string, std::vector<double>> columns_;
+  std::map<std::string, std::vector<double>> columns_, before_;  // of the shear, of the stages before it
   std::vector<double> unknown_;
   std::size_t rows_ = 0;
 };
