@@ -38,6 +38,8 @@ class Package(unittest.TestCase):
         self.assertEqual(len(run.history), 21)
         self.assertEqual(len(run.consolidation) + 21, len(run.stages))
         self.assertEqual(run.consolidation["void_ratio"].iloc[-1], run.history["void_ratio"].iloc[0])
+        self.assertTrue(run.consolidation["boundary_work_J_per_m"].isna().all())
+        self.assertTrue(run.history["boundary_work_J_per_m"].notna().all())
         self.assertEqual([set(rows["stage"]) for rows in (run.consolidation, run.history)], [{"consolidation"}, {"shear"}])
         np.testing.assert_allclose(run.history["q_Pa"], run.history["sigma1_Pa"] - run.history["sigma3_Pa"], rtol=1e-12, atol=1e-6)
         self.assertEqual(run.history["largest_q_Pa"].max(), run.numbers["peak_q_Pa"])
