@@ -62,6 +62,7 @@ class RunFolder : public testing::Test {
     EXPECT_EQ(content(base() / "copy" / "history.csv"), content(base() / "alone" / "history.csv"));
     EXPECT_EQ(content(base() / "copy" / "events.csv"), content(base() / "alone" / "events.csv"));
     EXPECT_EQ(record("copy")["state_hash"], record("alone")["state_hash"]);
+    EXPECT_EQ(record("copy")["stages"]["shear"], record("alone")["stages"]["shear"]);
     EXPECT_FALSE(fs::exists(base() / "copy" / "ckpt"));
   }
   static FoundCheckpoint newest() { return find_checkpoints(base() / "copy").usable.at(0); }

@@ -30,7 +30,6 @@ void BiaxialTest::State::begin_stage(char const* name) {
   first_step = a.steps();
   start_time = a.time();
   bonds0 = std::llround(a.measures().bonded) + a.broken_bonds();
-  measured_after = -1;
 }
 
 /// A row of consolidation() where one is due. Its I and W are those of the faster pair of walls on the average since the row
