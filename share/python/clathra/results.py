@@ -29,7 +29,7 @@ def units_of(column: str) -> str:
 
 
 def _table(path):
-    table = pandas.read_csv(path, keep_default_na=False, na_values=[""], float_precision="round_trip")
+    table = pandas.read_csv(path, keep_default_na=False, na_values=["", "nan"], float_precision="round_trip")
     for whole in {"seed", "n"} & set(table.columns):
         table[whole] = table[whole].astype("Int64")
     table.attrs["units"] = {name: units_of(name) for name in table.columns}
