@@ -45,6 +45,13 @@ TEST_F(Report, DrawsTheConsolidationApartFromTheShear) {
   EXPECT_EQ(history["eps1"].front(), 0);
   EXPECT_EQ(history.before("eps1"), std::vector<double>(made_up_consolidation, 1.0));
   EXPECT_TRUE(history.before("no such column").empty());
+  std::string const rows = content_of(folder / "a" / "history.csv");
+  for (char const* const taken : {"void_ratio", "p_Pa"}) {
+    std::ofstream(folder / "a" / "history.csv") << std::regex_replace(rows, std::regex(taken), "other");
+    EXPECT_EQ(page_on({folder / "a"}).find("Void ratio against mean stress"), std::string::npos) << "without " << taken;
+  }
+  std::ofstream(folder / "a" / "history.csv") << std::regex_replace(rows, std::regex("0[.]2[456][0-9]*"), "0.25");
+  EXPECT_EQ(page_on({folder / "a"}).find("Void ratio against mean stress"), std::string::npos) << "a flat line";
 }
 
 TEST(ReportPlot, AnAxisHasNoEmptyStripBelowACurveThatStartsAHairBelowZero) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "domain/measurement/test_numbers.hpp"
 #include "io/report/markup.hpp"
@@ -29,25 +30,13 @@ Plot plot_of(std::vector<RunResults> const& runs, Variable const& what) {
   return plot;
 }
 
-/// From the smallest to the largest value of all curves.
-Axis stress_axis(std::vector<Curve> const& curves) {
-  Axis axis{{"mean stress p [MPa], logarithmic", "p_Pa", mega}, HUGE_VAL, 0, true};
-  for (Curve const& curve : curves)
-    for (double const stress : curve.x) {
-      if (!(stress > 0) || !std::isfinite(stress)) continue;
-      axis.from = std::min(axis.from, stress * mega);
-      axis.to = std::max(axis.to, stress * mega);
-    }
-  return axis;
-}
-
-/// Around the values of all curves, to round numbers.
-Axis void_ratio_axis(std::vector<Curve> const& curves) {
+/// The smallest and the largest of the finite numbers of curves.
+std::pair<double, double> extent(std::vector<Curve> const& curves, std::vector<double> Curve::*numbers) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (Curve const& curve : curves)
-    for (double const ratio : curve.y) low = std::min(low, ratio), high = std::max(high, ratio);
-  double const step = tick_step(low, high, 5);
-  return {{"void ratio e", "void_ratio"}, std::floor(low / step) * step, std::ceil(high / step) * step};
+    for (double const value : curve.*numbers)
+      if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  return {low, high};
 }
 
 /// Void ratio against stress before the shear, of the runs that have recorded it.
@@ -56,7 +45,7 @@ Piece consolidation_figure(std::vector<RunResults> const& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     HistoryTable const& history = runs[i].history;
     std::vector<double> const p = history.before("p_Pa"), e = history.before("void_ratio");
-    if (p.size() < 2 || !(*std::max_element(p.begin(), p.end()) > *std::min_element(p.begin(), p.end()))) continue;
+    if (p.size() < 2 || e.size() != p.size()) continue;
     plot.curves.push_back({run_label(runs[i]), p, e, run_stroke(i)});
     plot.description += fmt::format("{}: e {:.4g} at {:.3g} MPa, {:.4g} at {:.3g} MPa", run_label(runs[i]), e.front(),
                                     p.front() * mega, e.back(), p.back() * mega);
@@ -65,10 +54,13 @@ Piece consolidation_figure(std::vector<RunResults> const& runs) {
       plot.description += fmt::format(", {} bonds broken", *broken);
     plot.description += ". ";
   }
-  if (plot.curves.empty()) return "";
+  auto const [least, most] = extent(plot.curves, &Curve::x);
+  auto const [densest, loosest] = extent(plot.curves, &Curve::y);
+  if (!(0 < least && least < most && densest < loosest)) return "";  // nothing recorded, or nothing that a curve could show
+  double const step = tick_step(densest, loosest, 5);
   plot.title = "Void ratio against mean stress in the consolidation";
-  plot.x = stress_axis(plot.curves);
-  plot.y = void_ratio_axis(plot.curves);
+  plot.x = {{"mean stress p [MPa], logarithmic", "p_Pa", mega}, least * mega, most * mega, true};
+  plot.y = {{"void ratio e", "void_ratio"}, std::floor(densest / step) * step, std::ceil(loosest / step) * step};
   return figure("Consolidation", drawing(plot) + legend(plot.curves),
                 "Before the shear: the void ratio e while the mean stress p rises from that under which the specimen was made to "
                 "the confining stress, and the specimen comes to rest. " +
