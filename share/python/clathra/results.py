@@ -70,20 +70,21 @@ class Run:
         """The whole of history.csv, with all stages of the test; column `stage` names them."""
         return _table(os.path.join(self.folder, "history.csv"))
 
-    def _rows(self, chosen):
-        rows = self.stages[chosen].reset_index(drop=True)
+    def _rows(self, of_shear):
+        stage = self.stages.get("stage", pandas.Series("shear", self.stages.index))
+        rows = self.stages[(stage == "shear") == of_shear].reset_index(drop=True)
         rows.attrs["units"] = self.stages.attrs["units"]
         return rows
 
     @cached_property
     def history(self) -> pandas.DataFrame:
         """The rows of the shear in history.csv; `history.attrs["units"]` has the unit of each column."""
-        return self._rows(self.stages["stage"] == "shear")
+        return self._rows(of_shear=True)
 
     @cached_property
     def consolidation(self) -> pandas.DataFrame:
         """The rows before the shear, with strains since the stage began: `run.consolidation.plot("p_Pa", "void_ratio")`."""
-        return self._rows(self.stages["stage"].str.startswith("consolidation"))
+        return self._rows(of_shear=False)
 
     @cached_property
     def events(self) -> pandas.DataFrame:

@@ -56,14 +56,14 @@ Piece consolidation_figure(std::vector<RunResults> const& runs) {
   }
   auto const [least, most] = extent(plot.curves, &Curve::x);
   auto const [densest, loosest] = extent(plot.curves, &Curve::y);
-  if (!(0 < least && least < most && densest < loosest)) return "";  // nothing recorded, or nothing that a curve could show
+  if (!(0 < least && 1.01 * least < most && densest < loosest)) return "";  // no change of stress that could be shown
   double const step = tick_step(densest, loosest, 5);
   plot.title = "Void ratio against mean stress in the consolidation";
-  plot.x = {{"mean stress p [MPa], logarithmic", "p_Pa", mega}, least * mega, most * mega, true};
+  plot.x = {{"mean stress p [MPa], logarithmic", "p_Pa", mega}, least * mega, 1.0001 * most * mega, true};
   plot.y = {{"void ratio e", "void_ratio"}, std::floor(densest / step) * step, std::ceil(loosest / step) * step};
   return figure("Consolidation", drawing(plot) + legend(plot.curves),
-                "Before the shear: the void ratio e while the mean stress p rises from that under which the specimen was made to "
-                "the confining stress, and the specimen comes to rest. " +
+                "The void ratio e before the shear, while the mean stress p changes from that of the specimen to the confining "
+                "stress, and the specimen comes to rest. " +
                     plot.description);
 }
 

@@ -59,7 +59,7 @@ constexpr StageNumber numbers[] = {
     {"plan", "width_m", "width where the shear begins"},
     {"plan", "height_m", "height where the shear begins"},
 
-    {"shear", "records", "rows of history.csv"},
+    {"shear", "records", "rows of the shear in history.csv"},
     {"shear", "peak_q_Pa", "largest q = sigma1 - sigma3 of all steps"},
     {"shear", "peak_eps1", "axial strain where q is largest"},
     {"shear", "peak_passed", "1 where q has fallen by 2 % after its largest value, else 0: then the peak may lie beyond the test"},

@@ -110,7 +110,7 @@ Key const table[] = {
   {"run.ignore_guards", boolean, CLATHRA_FIELD(run, ignore_guards), "run although a guard refuses; run.json says which"},
 
   {"output.folder", text, CLATHRA_FIELD(output, folder), "folder of the results"},
-  {"output.records", integer, CLATHRA_FIELD(output, records), "rows of history.csv over the whole strain", ratio, 1, 1e6},
+  {"output.records", integer, CLATHRA_FIELD(output, records), "rows of the shear in history.csv, over the whole strain", ratio, 1, 1e6},
   {"output.snapshots", integer, CLATHRA_FIELD(output, snapshots), "snapshots over the whole strain besides the one at its start, at most output.records", ratio, 1, 1e5, "none", {}, true},
   {"output.snapshots_at", quantities, CLATHRA_FIELD(output, snapshots_at), "axial strains of further snapshots, taken at the very step, as in [\"2.54 %\", \"3.38 %\"]", ratio, 1e-6, 0.5},
   {"output.energy", boolean, CLATHRA_FIELD(output, energy), "write the energy balance to history.csv"},
