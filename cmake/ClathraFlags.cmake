@@ -14,8 +14,12 @@ target_compile_options(clathra_flags INTERFACE -ffp-contract=off -fno-math-errno
 target_compile_options(clathra_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
 target_compile_options(
-  clathra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  clathra_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
                           -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+# What a source calls its own is global to those compiled with it: there only names inside functions count.
+set(together $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
+target_compile_options(clathra_flags INTERFACE $<$<NOT:${together}>:-Wshadow>
+                                               $<$<AND:${together},$<CXX_COMPILER_ID:GNU>>:-Wshadow=local>)
 
 # The same contract on a GPU. A fused operation would round the two sides of a pair differently, and a bond could break on one
 # side only. Whether host code is called from a kernel is no matter of taste: such a kernel does something else or nothing.

@@ -14,6 +14,14 @@ function(clathra_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
+# clathra_compile_together(TARGET): several sources of a target as one, where CLATHRA_COMPILE_TOGETHER says so. Not for the kernels,
+# whose machine code is measured, nor for devices.
+function(clathra_compile_together target)
+  if(CLATHRA_COMPILE_TOGETHER AND NOT CLATHRA_DEVICE)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+  endif()
+endfunction()
+
 # clathra_layer(NAME LINK targets... [EXCLUDE regex]): the library of the current folder, from all its *.cpp and those of its
 # subfolders. A folder without sources makes an INTERFACE library, so that what stands above it can be configured.
 function(clathra_layer name)
@@ -29,6 +37,9 @@ function(clathra_layer name)
     target_compile_features(${name} PUBLIC cxx_std_20)
     target_link_libraries(${name} PUBLIC ${arg_LINK} PRIVATE clathra_flags)
     clathra_precompile(${name} <Kokkos_Core.hpp>)
+    if(NOT name STREQUAL clathra_kernels)
+      clathra_compile_together(${name})
+    endif()
   else()
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${include_folder})

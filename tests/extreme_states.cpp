@@ -13,7 +13,7 @@
 namespace clathra {
 namespace {
 
-Simulation bonded(double saturation, ContactCoupling coupling, std::function<void(SimulationLaws&)> const& change = {}) {
+Simulation bonded_sand(double saturation, ContactCoupling coupling, std::function<void(SimulationLaws&)> const& change = {}) {
   Specimen s = packing();
   Scene const scene = hydrate_scene(saturation, coupling);
   bond_all(s, scene);
@@ -53,7 +53,7 @@ TEST(ExtremeStates, ABoulderThirtyTimesTheFinesHasMoreNeighboursThanARowHolds) {
 
 TEST(ExtremeStates, BondsWithoutStrengthAndBondsThatNeverBreak) {
   for (ContactCoupling const coupling : {ContactCoupling::parallel, ContactCoupling::replaces}) {
-    Simulation weak = bonded(0.55, coupling, [](SimulationLaws& laws) {
+    Simulation weak = bonded_sand(0.55, coupling, [](SimulationLaws& laws) {
       laws.contact.bond.strength.tensile_stress = laws.contact.bond.strength.compressive_stress = 0;
     });
     weak.choose_time_step({});
@@ -65,7 +65,7 @@ TEST(ExtremeStates, BondsWithoutStrengthAndBondsThatNeverBreak) {
     weak.assembly().throw_if_unstable();
     expect_row("bond strength 0, after 3,000 steps" + name, "kinetic over elastic energy",
                weak.assembly().measures().kinetic / weak.assembly().measures().grain_energy, 0, 1e-2);
-    Simulation strong = bonded(0.55, coupling, [](SimulationLaws& laws) { laws = unbreakable(laws); });
+    Simulation strong = bonded_sand(0.55, coupling, [](SimulationLaws& laws) { laws = unbreakable(laws); });
     strong.choose_time_step({});
     strong.loading().y = AxisDrive::at_rate(50);
     strong.step(5000);
@@ -105,7 +105,7 @@ TEST(ExtremeStates, OneDiscWideAndAThousandTall) {
 }
 
 TEST(ExtremeStates, TheStepCounterPassesFourBillion) {
-  Simulation sim = bonded(0.55, ContactCoupling::parallel);
+  Simulation sim = bonded_sand(0.55, ContactCoupling::parallel);
   sim.choose_time_step({});
   sim.loading().y = AxisDrive::at_rate(200);
   SimulationState late = sim.state(), early = late;
@@ -216,7 +216,7 @@ std::vector<double> shear_forces(Simulation const& sim) {
 /// Steps a bonded specimen that rests between its walls: at the 50 kPa that it was made under, or loaded to 1 MPa.
 /// @param most_change  of any shear force, over their mean;  @param most_of_stress  change on the walls, relative
 void expect_rest(std::string const& when, bool loaded, int steps, double most_change, double most_of_stress) {
-  Simulation sim = bonded(0.55, ContactCoupling::parallel);
+  Simulation sim = bonded_sand(0.55, ContactCoupling::parallel);
   if (loaded) {
     prepare_servo(sim, 1e6, 1e-3, packing().d50, {});
     ASSERT_TRUE(hold_stress(sim, 1e6, {1e-3}, 200000, {}, "test"));

@@ -14,8 +14,6 @@ namespace {
 constexpr double micrometre = 1e-6, r = golden::radius;
 constexpr double saturations[] = {26, 41, 55};
 
-double h_max_of(double saturation) { return static_cast<double>(printed::critical_thickness(saturation / 100, 0.1694e-3L)); }
-
 /// A bond between equal discs by the printed strength, R_r on the scale of the width.
 BondStrength bond_of(double radius, double h_max, double gap) {
   return bond_strength(BondStrengthLaw{}, bond_width(radius, h_max - gap), gap);

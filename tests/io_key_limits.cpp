@@ -4,13 +4,12 @@
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reference.hpp"
 #include "io/scene/schema.hpp"
+#include "loaded_scene.hpp"
 
 namespace clathra {
 namespace {
 
-std::string const sized = "[specimen]\nparticles = 2000\n";
-
-std::string problems_of(std::vector<std::string> const& overrides) {
+std::string problems_with(std::vector<std::string> const& overrides) {
   try {
     (void)parse_scene(sized, "a.toml", ".", overrides);
   } catch (SceneProblems const& problems) {
@@ -24,23 +23,23 @@ TEST(KeyLimits, SayWhatZeroStandsFor) {
   EXPECT_EQ(allowed_values(*find_key("output.snapshots")), "0 (none), or 1 to 100000");
   for (Key const& key : schema())
     if (key.takes_zero) EXPECT_FALSE(key.zero.empty()) << key.name;
-  EXPECT_EQ(problems_of({"grains.friction=6"}),
+  EXPECT_EQ(problems_with({"grains.friction=6"}),
             "--set grains.friction=6: error: 'grains.friction' must lie between 0 and 5, got 6");
-  EXPECT_EQ(problems_of({"output.snapshots=-1"}),
+  EXPECT_EQ(problems_with({"output.snapshots=-1"}),
             "--set output.snapshots=-1: error: 'output.snapshots' must lie between 1 and 100000, or be 0 (none), got -1");
-  EXPECT_NE(problems_of({"grains.density=31 t/m^3"}).find("between 100 kg/m^3 and 30000 kg/m^3, got 31000 kg/m^3"),
+  EXPECT_NE(problems_with({"grains.density=31 t/m^3"}).find("between 100 kg/m^3 and 30000 kg/m^3, got 31000 kg/m^3"),
             std::string::npos);
 }
 
 TEST(KeyLimits, OfTheSeedAreWholeNumbersThatEveryFormatHolds) {
   EXPECT_EQ(allowed_values(*find_key("run.seed")), "0 to 9007199254740992");
-  EXPECT_EQ(problems_of({"run.seed=9007199254740992"}), "none");
-  EXPECT_NE(problems_of({"run.seed=9007199254740993"}).find("must lie between 0 and 9007199254740992"), std::string::npos);
-  EXPECT_NE(problems_of({"run.seed=9223372036854775808"}).find("must lie between"), std::string::npos);
+  EXPECT_EQ(problems_with({"run.seed=9007199254740992"}), "none");
+  EXPECT_NE(problems_with({"run.seed=9007199254740993"}).find("must lie between 0 and 9007199254740992"), std::string::npos);
+  EXPECT_NE(problems_with({"run.seed=9223372036854775808"}).find("must lie between"), std::string::npos);
 }
 
 TEST(KeyLimits, ASnapshotIsTakenAtARecord) {
-  EXPECT_NE(problems_of({"output.records=10", "output.snapshots=11"})
+  EXPECT_NE(problems_with({"output.records=10", "output.snapshots=11"})
                 .find("'output.snapshots' (11) must not exceed 'output.records' (10)"),
             std::string::npos);
   EXPECT_EQ(parse_scene(sized, "a.toml", ".", {"output.records=10"}).scene.output.snapshots, 10)
@@ -62,16 +61,16 @@ TEST(KeyLimits, ARecordMustBeNearThePeak) {
 }
 
 TEST(KeyLimits, HintsAreThoseOfTheKey) {
-  EXPECT_NE(problems_of({"hydrate.saturation=41"}).find("this looks like percent: write 0.41"), std::string::npos);
+  EXPECT_NE(problems_with({"hydrate.saturation=41"}).find("this looks like percent: write 0.41"), std::string::npos);
   for (char const* const text : {"hydrate.saturation=1.1", "test.inertial_number=2"})
-    EXPECT_EQ(problems_of({text}).find("percent"), std::string::npos) << text;
-  EXPECT_NE(problems_of({"test.inertial_number=0"}).find("got 0; where the key is left out: 2e-04"), std::string::npos);
+    EXPECT_EQ(problems_with({text}).find("percent"), std::string::npos) << text;
+  EXPECT_NE(problems_with({"test.inertial_number=0"}).find("got 0; where the key is left out: 2e-04"), std::string::npos);
 }
 
 TEST(KeyNames, OfPapersAndOtherProgramsLeadToTheKey) {
-  EXPECT_NE(problems_of({"grains.kn=1"}).find("did you mean 'grains.normal_stiffness'?"), std::string::npos);
-  EXPECT_NE(problems_of({"mu=1"}).find("did you mean 'grains.friction'?"), std::string::npos);
-  EXPECT_NE(problems_of({"test.sigma3=1"}).find("did you mean 'test.confining_stress'?"), std::string::npos);
+  EXPECT_NE(problems_with({"grains.kn=1"}).find("did you mean 'grains.normal_stiffness'?"), std::string::npos);
+  EXPECT_NE(problems_with({"mu=1"}).find("did you mean 'grains.friction'?"), std::string::npos);
+  EXPECT_NE(problems_with({"test.sigma3=1"}).find("did you mean 'test.confining_stress'?"), std::string::npos);
   for (auto const& [name, hint] : std::vector<std::pair<std::string, std::string>>{
            {"young", "'grains.normal_stiffness' (of a contact, per metre thickness)?"},
            {"bond.young", "'hydrate.pore_pressure' (the stiffness of hydrate follows from its temperature, "},
@@ -84,7 +83,7 @@ TEST(KeyNames, OfPapersAndOtherProgramsLeadToTheKey) {
            {"specimen.pressure", "'specimen.preparation_stress'?"},
            {"pressure", "'test.confining_stress'?"},
            {"grains.saturaton", "'hydrate.saturation'?"}})
-    EXPECT_NE(problems_of({name + "=1"}).find("did you mean " + hint), std::string::npos) << problems_of({name + "=1"});
+    EXPECT_NE(problems_with({name + "=1"}).find("did you mean " + hint), std::string::npos) << problems_with({name + "=1"});
 }
 
 TEST(KeysStatedTwice, AreNamedWithBothLines) {

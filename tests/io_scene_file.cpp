@@ -10,15 +10,10 @@
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
+#include "loaded_scene.hpp"
 
 namespace clathra {
 namespace {
-
-using Texts = std::vector<std::string>;
-
-LoadedScene load(std::string const& text, Texts const& overrides = {}) {
-  return parse_scene(text, "my.toml", "folder", overrides);
-}
 
 /// The messages of a scene that must be refused, one a line.
 std::string problems_of(std::string const& text, Texts const& overrides = {}, ExitCode code = ExitCode::bad_input) {
@@ -36,8 +31,6 @@ void expect_problem(std::string const& text, std::string const& message, ExitCod
   std::string const all = problems_of(text, {}, code);
   EXPECT_NE(all.find(message), std::string::npos) << "got:\n" << all << "\nwanted: " << message;
 }
-
-std::string const sized = "[specimen]\nparticles = 2000\n";
 
 TEST(SceneFile, StatesOnlyWhatDiffersFromTheDefaults) {
   Scene const scene = load(sized + "[hydrate]\nsaturation = \"55 %\"\n[test]\nconfining_stress = \"2 MPa\"\n").scene;

@@ -13,19 +13,12 @@
 #include "io/scene/scene_file.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
+#include "loaded_scene.hpp"
 
 namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
-using Texts = std::vector<std::string>;
-
-LoadedScene load(std::string const& text, Texts const& overrides = {}) {
-  return parse_scene(text, "my.toml", "folder", overrides);
-}
-
-std::string const sized = "[specimen]\nparticles = 2000\n";
-
 TEST(ScenePresets, APresetStandsInForTheDefaultsThatAreNotStated) {
   for (PresetGroup const* const group : {&bond_presets(), &run_presets()})
     for (Preset const& preset : group->presets) {

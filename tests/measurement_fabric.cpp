@@ -13,7 +13,7 @@
 namespace clathra {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 
 /// A pair of discs of its own, whose branch points in a direction [rad].
 void add_pair(Snapshot& s, double direction, ContactState state = ContactState::contact, double gap = -1e-9) {
@@ -56,7 +56,7 @@ bool same_bits(Rose const& p, Rose const& q) {
 TEST(Fabric, IsTheMeanOfNTimesNOverPlantedNormals) {
   Snapshot s;
   for (int k = 0; k < 3; ++k) add_pair(s, 0);
-  add_pair(s, pi / 2);
+  add_pair(s, half_turn / 2);
   Fabric const upright = rose_of(s, ContactSet::touching).fabric;
   EXPECT_NEAR(upright.xx, 0.75, 1e-15);
   EXPECT_NEAR(upright.yy, 0.25, 1e-15);
@@ -65,14 +65,14 @@ TEST(Fabric, IsTheMeanOfNTimesNOverPlantedNormals) {
   EXPECT_NEAR(upright.direction, 0, 1e-12);
   EXPECT_NEAR(upright.anisotropy(), 1, 1e-15);
   Snapshot turned;
-  add_pair(turned, pi / 6), add_pair(turned, pi / 6 + pi), add_pair(turned, 2 * pi / 3);
+  add_pair(turned, half_turn / 6), add_pair(turned, half_turn / 6 + half_turn), add_pair(turned, 2 * half_turn / 3);
   Fabric const f = rose_of(turned, ContactSet::touching).fabric;  // (2 e e + f f) / 3, f across e
   EXPECT_NEAR(f.xx, (2 * 0.75 + 0.25) / 3, 1e-14);
   EXPECT_NEAR(f.yy, (2 * 0.25 + 0.75) / 3, 1e-14);
   EXPECT_NEAR(f.xy, std::sqrt(3.0) / 12, 1e-14);
   EXPECT_NEAR(f.xx + f.yy, 1, 1e-15);
   EXPECT_NEAR(f.deviator, 1.0 / 3, 1e-14);
-  EXPECT_NEAR(f.direction, pi / 6, 1e-9);
+  EXPECT_NEAR(f.direction, half_turn / 6, 1e-9);
 }
 
 /// Midpoints of a smooth function over its period: the sampling is exact to rounding, but where the density touches 0.
@@ -124,10 +124,10 @@ TEST(Rose, HasTheSameBitsForAnyOrderAndForEitherDiscFirst) {
   Draw draw(3);
   Snapshot s;
   for (int k = 0; k < 3000; ++k) {
-    add_pair(s, draw.between(-pi, pi));
+    add_pair(s, draw.between(-half_turn, half_turn));
     s.normal_force.back() = draw.of_size(1e-3, 1e6);
   }
-  for (double const direction : {0.0, pi / 2, pi / 18}) add_pair(s, direction);  // between bins
+  for (double const direction : {0.0, half_turn / 2, half_turn / 18}) add_pair(s, direction);  // between bins
   s.y[s.y.size() - 5] = s.y[s.y.size() - 6];
   Rose const first = rose_of(s, ContactSet::touching);
   EXPECT_NE(first.force_anisotropy, 0);

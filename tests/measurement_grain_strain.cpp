@@ -11,8 +11,6 @@
 namespace clathra {
 namespace {
 
-constexpr double d50 = PlantedBand::d50;
-
 /// Discs of three sizes at places of their own, which turned before.
 Snapshot scattered() {
   Snapshot s = PlantedBand{}.specimen().start;
@@ -64,12 +62,12 @@ TEST(GrainStrain, CoversTheSpecimenWithCellsOfOneD50) {
   StrainGrid const grid = grain_strain(scattered(), scattered());
   EXPECT_NEAR(grid.columns, 69, 1);
   EXPECT_NEAR(grid.rows, 139, 1);
-  EXPECT_EQ(grid.spacing, d50);
+  EXPECT_EQ(grid.spacing, PlantedBand::d50);
   ASSERT_EQ(grid.shear.size(), static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
   ASSERT_EQ(grid.x.size(), grid.shear.size());
   ASSERT_EQ(grid.deformation.size(), grid.shear.size());
-  EXPECT_NEAR(grid.x.front(), grid.left + d50 / 2, 1e-12);
-  EXPECT_NEAR(grid.y.back(), grid.bottom + (grid.rows - 0.5) * d50, 1e-12);
+  EXPECT_NEAR(grid.x.front(), grid.left + PlantedBand::d50 / 2, 1e-12);
+  EXPECT_NEAR(grid.y.back(), grid.bottom + (grid.rows - 0.5) * PlantedBand::d50, 1e-12);
   EXPECT_EQ(grain_strain(scattered(), scattered(), 0.5).columns / 2, grid.columns);
 }
 
@@ -82,15 +80,15 @@ TEST(GrainStrain, IsNotMadeByMovingAndTurning) {
 TEST(GrainStrain, SeesGrainsThatTurnWithoutWhatIsAroundThem) {
   StrainGrid const grid = grain_strain(scattered(), moved(scattered(), {1, 0, 0, 1}, 0, 0, 0.25));
   double const mean = std::accumulate(grid.shear.begin(), grid.shear.end(), 0.0) / static_cast<double>(grid.shear.size());
-  EXPECT_GT(mean, 0.05);  // 2 sin(1/8) times ways of 0.4 d50, over a d50
+  EXPECT_GT(mean, 0.05);  // 2 sin(1/8) times ways of 0.4 PlantedBand::d50, over a PlantedBand::d50
   for (float const shear : shear_strain(moved(scattered(), {1, 0, 0, 1}, 0, 0, 0.25))) ASSERT_LT(shear, 1e-6);
 }
 
 TEST(GrainStrain, OfAHomogeneousOneIsRightInTheMean) {
   for (auto const& f : {std::array<double, 4>{1.02, 0, 0, 0.95}, {1.2, 0.1, -0.05, 0.7}, {1, 0.3, 0, 1}}) {
     std::array<double, 4> const mean = mean_deformation(grain_strain(scattered(), moved(scattered(), f, 0, 0, 0)));
-    double const size = std::hypot(f[0] - 1, f[1], f[2]) + std::abs(f[3] - 1), smallest = 70 * d50;
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(mean[k], f[k], size * d50 / smallest) << k;  // 2 r / L
+    double const size = std::hypot(f[0] - 1, f[1], f[2]) + std::abs(f[3] - 1), smallest = 70 * PlantedBand::d50;
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(mean[k], f[k], size * PlantedBand::d50 / smallest) << k;  // 2 r / L
   }
 }
 
@@ -109,7 +107,7 @@ TEST(GrainStrain, IsGreensStrainOfTheCellsDeformation) {
   }
 }
 
-/// Centres at whole numbers, d50 = 1: nodes half a d50 apart lie exactly between two or four of them.
+/// Centres at whole numbers, PlantedBand::d50 = 1: nodes half a PlantedBand::d50 apart lie exactly between two or four of them.
 Sheared even_lattice() {
   Draw draw(11);
   Sheared s;
@@ -126,7 +124,7 @@ Sheared even_lattice() {
 }
 
 TEST(GrainStrain, HasTheSameBitsForAnyOrderOfTheDiscs) {
-  for (Sheared s : {PlantedBand{1, 8 * d50, 0.1 * d50}.specimen(), even_lattice()}) {
+  for (Sheared s : {PlantedBand{1, 8 * PlantedBand::d50, 0.1 * PlantedBand::d50}.specimen(), even_lattice()}) {
     StrainGrid const before = grain_strain(s.start, s.now, 0.5);
     for (unsigned seed = 1; seed <= 4; ++seed) {
       shuffle(s.start, seed), shuffle(s.now, seed + 10);
@@ -165,10 +163,10 @@ Snapshot holed(Snapshot s, Snapshot const& places, double radius) {
 
 TEST(GrainStrain, IsNotKnownInHolesAndOfDiscsThatAreGone) {
   Sheared const s = PlantedBand{}.specimen();
-  Snapshot const hole = holed(s.start, s.start, 6 * d50), gone = holed(s.now, s.start, 6 * d50);
+  Snapshot const hole = holed(s.start, s.start, 6 * PlantedBand::d50), gone = holed(s.now, s.start, 6 * PlantedBand::d50);
   for (StrainGrid const& grid : {grain_strain(hole, s.now), grain_strain(s.start, gone)})
     for (std::size_t k = 0; k < grid.shear.size(); ++k) {
-      double const distance = std::hypot(grid.x[k], grid.y[k]) / d50;
+      double const distance = std::hypot(grid.x[k], grid.y[k]) / PlantedBand::d50;
       if (distance < 3) {
         ASSERT_TRUE(std::isnan(grid.shear[k]) && std::isnan(grid.deformation[k][0])) << distance;
       }
@@ -180,16 +178,16 @@ TEST(GrainStrain, IsNotKnownInHolesAndOfDiscsThatAreGone) {
 }
 
 TEST(GrainStrain, OfADiscIsThatOfTheCellWhereItWas) {
-  Sheared const s = PlantedBand{0, 20 * d50}.specimen();
+  Sheared const s = PlantedBand{0, 20 * PlantedBand::d50}.specimen();
   StrainGrid const grid = grain_strain(s.start, s.now);
   std::vector<float> const values = shear_at_discs(grid, s.now);
   ASSERT_EQ(values.size(), s.now.x.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::abs(s.start.y[i]) > 13 * d50) {
+    if (std::abs(s.start.y[i]) > 13 * PlantedBand::d50) {
       ASSERT_NEAR(values[i], 0, 1e-6);
     }
     auto const nearest = [&](double from, int count) {
-      return std::clamp(static_cast<int>(std::floor(from / d50)), 0, count - 1);
+      return std::clamp(static_cast<int>(std::floor(from / PlantedBand::d50)), 0, count - 1);
     };
     int const column = nearest(s.start.x[i] - grid.left, grid.columns), row = nearest(s.start.y[i] - grid.bottom, grid.rows);
     ASSERT_EQ(values[i], grid.shear[static_cast<std::size_t>(row * grid.columns + column)]);

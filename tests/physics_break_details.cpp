@@ -1,7 +1,7 @@
 /// What is told of a bond that breaks, of two discs pulled apart, crushed, sheared and rolled, against closed forms.
 #include "scenes.hpp"
 
-namespace clathra {
+namespace clathra::break_details {
 namespace {
 
 // S = 55 %, a gap of a quarter of h_max (golden_bonds.hpp).
@@ -127,4 +127,4 @@ TEST(BreakDetails, AngleOfALineIsBelow180) {
 }
 
 }  // namespace
-}  // namespace clathra
+}  // namespace clathra::break_details

@@ -11,20 +11,20 @@ namespace clathra {
 namespace {
 
 /// Names of the kernels launched while it lives, with their number.
-class Launches {
+class CountedLaunches {
  public:
-  Launches() {
+  CountedLaunches() {
     counted().clear();
     Kokkos::Tools::Experimental::set_begin_parallel_for_callback(&count);
     Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(&count);
     Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(&count);
   }
-  ~Launches() {
+  ~CountedLaunches() {
     Kokkos::Tools::Experimental::set_begin_parallel_for_callback(nullptr);
     Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(nullptr);
     Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(nullptr);
   }
-  Launches(Launches const&) = delete;
+  CountedLaunches(CountedLaunches const&) = delete;
   int of(std::string const& name) const { return counted()[name]; }
   /// Those launched so many times.
   std::set<std::string> launched(int times) const {
@@ -47,7 +47,7 @@ class Launches {
   static void count(char const* name, std::uint32_t, std::uint64_t*) { ++counted()[name]; }
 };
 
-Simulation packing(SimulationLaws const& laws, bool hydrate, ContactCoupling coupling = ContactCoupling::parallel) {
+Simulation small_packing(SimulationLaws const& laws, bool hydrate, ContactCoupling coupling = ContactCoupling::parallel) {
   Specimen s = disordered_patch(8, 8);
   if (hydrate) bond_all(s, hydrate_scene(0.55, coupling));
   Simulation sim(s, laws, 0.1 * grain_d50);
@@ -71,7 +71,7 @@ std::size_t bytes_per_entry(Simulation const& sim) {
 }
 
 TEST(Features, ASceneWithoutHydrateHasNoBondField) {
-  Simulation sim = packing(sand_laws(), false);
+  Simulation sim = small_packing(sand_laws(), false);
   sim.step(100);
   ContactRows const& rows = sim.assembly().rows;
   EXPECT_EQ(rows.formation_overlap.extent(0) + rows.width.extent(0) + rows.bond_shear.extent(0) + rows.bond_moment.extent(0), 0u);
@@ -86,20 +86,20 @@ std::size_t index_and_reference() { return sizeof(int) + (tested_precision() == 
 
 TEST(Features, CostBytesOnlyWhereTheyAreOn) {
   std::size_t const real = tested_precision() == Precision::full ? sizeof(double) : sizeof(float);
-  EXPECT_EQ(bytes_per_entry(packing(sand_laws(0.5, 0), false)), index_and_reference() + real);
-  EXPECT_EQ(bytes_per_entry(packing(sand_laws(), false)), index_and_reference() + 2 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(ContactCoupling::replaces), true, ContactCoupling::replaces)),
+  EXPECT_EQ(bytes_per_entry(small_packing(sand_laws(0.5, 0), false)), index_and_reference() + real);
+  EXPECT_EQ(bytes_per_entry(small_packing(sand_laws(), false)), index_and_reference() + 2 * real);
+  EXPECT_EQ(bytes_per_entry(small_packing(hydrate_laws(ContactCoupling::replaces), true, ContactCoupling::replaces)),
             index_and_reference() + 4 * real);
-  EXPECT_EQ(bytes_per_entry(
-                packing(hydrate_laws(ContactCoupling::replaces_keeping_force), true, ContactCoupling::replaces_keeping_force)),
+  EXPECT_EQ(bytes_per_entry(small_packing(hydrate_laws(ContactCoupling::replaces_keeping_force), true,
+                                          ContactCoupling::replaces_keeping_force)),
             index_and_reference() + 4 * real);
-  EXPECT_EQ(bytes_per_entry(packing(hydrate_laws(ContactCoupling::parallel), true)), index_and_reference() + 6 * real);
+  EXPECT_EQ(bytes_per_entry(small_packing(hydrate_laws(ContactCoupling::parallel), true)), index_and_reference() + 6 * real);
 }
 
 TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
-  Simulation sand = packing(sand_laws(), false), bonded = packing(hydrate_laws(ContactCoupling::parallel), true);
+  Simulation sand = small_packing(sand_laws(), false), bonded = small_packing(hydrate_laws(ContactCoupling::parallel), true);
   {
-    Launches const launches;
+    CountedLaunches const launches;
     sand.step(50);
     EXPECT_EQ(launches.of("contact_forces"), 50);
     EXPECT_EQ(launches.with("bond"), 0);
@@ -107,7 +107,7 @@ TEST(Features, LaunchOnlyWhatTheSceneNeeds) {
     EXPECT_EQ(launches.with("wall_shear"), 0);
     EXPECT_EQ(launches.of("kick_and_drift"), 50);
   }
-  Launches const launches;
+  CountedLaunches const launches;
   bonded.step(50);
   EXPECT_EQ(launches.of("contact_forces_bonded"), 50);
   EXPECT_EQ(launches.of("contact_forces"), 0);
@@ -140,7 +140,7 @@ void expect_needs(std::string const& what, Scene const& scene) {
   EXPECT_EQ(bytes(sim.assembly().particles) + bytes(sim.assembly().dissipation) + marks * places,
             static_cast<std::size_t>(needs.bytes(FieldOf::disc) - of_walls) * places)
       << what;
-  Launches const launches;
+  CountedLaunches const launches;
   sim.step(7);
   std::set<std::string> kernels;
   for (NeededKernel const& kernel : needs.kernels) kernels.insert(kernel.name);
@@ -170,7 +170,7 @@ TEST(Features, AreListedWithTheirBytesAndKernels) {
 
 /// Names of the accounts that a ledger keeps with these laws, and the bytes that they cost a place of a disc.
 std::string accounts_of(SimulationLaws const& laws, bool hydrate) {
-  Simulation sim = packing(laws, hydrate);
+  Simulation sim = small_packing(laws, hydrate);
   std::size_t const before = sim.bytes();
   sim.set_ledger(true);
   std::string names;
@@ -201,14 +201,14 @@ TEST(Features, ALedgerHasNoAccountThatItsSceneHasNoUseFor) {
 
 TEST(Features, GrainsWithoutFrictionKeepNoShear) {
   std::size_t const real = tested_precision() == Precision::full ? sizeof(double) : sizeof(float), index = sizeof(int);
-  EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 0), false)), index);
-  EXPECT_EQ(bytes_per_entry(packing(sand_laws(0, 2), false)), index + real);
+  EXPECT_EQ(bytes_per_entry(small_packing(sand_laws(0, 0), false)), index);
+  EXPECT_EQ(bytes_per_entry(small_packing(sand_laws(0, 2), false)), index + real);
   SimulationLaws smooth = hydrate_laws(ContactCoupling::parallel);
   smooth.contact.grain.friction = 0;
-  EXPECT_EQ(bytes_per_entry(packing(smooth, true)), index_and_reference() + 5 * real);
+  EXPECT_EQ(bytes_per_entry(small_packing(smooth, true)), index_and_reference() + 5 * real);
   smooth = hydrate_laws(ContactCoupling::replaces);
   smooth.contact.grain.friction = 0;
-  EXPECT_EQ(bytes_per_entry(packing(smooth, true, ContactCoupling::replaces)),
+  EXPECT_EQ(bytes_per_entry(small_packing(smooth, true, ContactCoupling::replaces)),
             index_and_reference() + 4 * real);  // the shear of the bonds
 }
 
@@ -225,7 +225,7 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
   for (bool const hydrate : {false, true}) {
     SimulationLaws laws = hydrate ? hydrate_laws(ContactCoupling::parallel) : sand_laws();
     laws.contact.grain.friction = 0;
-    Simulation loose = packing(laws, hydrate);
+    Simulation loose = small_packing(laws, hydrate);
     Specimen const dense = shear(loose, 2000);
     auto const sheared = [&](double friction) {
       laws.contact.grain.friction = friction;
@@ -242,7 +242,7 @@ TEST(Features, WithoutFrictionHaveTheBitsOfALimitOfZero) {
 
 TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
   auto const sheared = [](BreakRecord record) {
-    Simulation sim = packing(hydrate_laws(ContactCoupling::parallel), true);
+    Simulation sim = small_packing(hydrate_laws(ContactCoupling::parallel), true);
     sim.keep_breaks(record);
     sim.loading().y = AxisDrive::at_rate(2000);
     sim.loading().x = AxisDrive::at_rate(-1500);
@@ -275,7 +275,7 @@ TEST(Features, BreaksAreCountedWithoutALogWhereNobodyReadsTheEvents) {
 TEST(Features, WallsKeepShearOnlyWhereTheyAreRough) {
   SimulationLaws laws = sand_laws();
   laws.wall.friction = 0.5;
-  Simulation const sim = packing(laws, false);
+  Simulation const sim = small_packing(laws, false);
   EXPECT_GT(sim.assembly().wall_contacts().shear.extent(0), 0u);
 }
 

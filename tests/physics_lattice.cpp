@@ -2,7 +2,7 @@
 #include "kernels/stability.hpp"
 #include "scenes.hpp"
 
-namespace clathra {
+namespace clathra::lattice {
 namespace {
 
 constexpr double d = 2 * grain_radius, dt = 1e-7;
@@ -164,4 +164,4 @@ TEST(MechanicalCoordination, LeavesRattlersOut) {
 }
 
 }  // namespace
-}  // namespace clathra
+}  // namespace clathra::lattice

@@ -46,3 +46,12 @@ inline Exact k_bs(Exact k_n, Exact k) { return 2 * k_bn(k_n, k) / 3; }
 inline Exact k_bm(Exact B, Exact E_m, Exact h_0) { return k_mh(B, E_m, h_0) * B * B / 12; }
 
 }  // namespace clathra::printed
+
+namespace clathra {
+
+/// The critical thickness at a saturation [%] of discs of d50 = 0.1694 mm.
+inline double h_max_of(double saturation) {
+  return static_cast<double>(printed::critical_thickness(saturation / 100, 0.1694e-3L));
+}
+
+}  // namespace clathra

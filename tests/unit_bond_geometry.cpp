@@ -9,8 +9,6 @@ namespace {
 
 constexpr double micrometre = 1e-6;
 
-double h_max_of(double saturation) { return static_cast<double>(printed::critical_thickness(saturation / 100, 0.1694e-3L)); }
-
 TEST(BondGeometry, HasTheWidthThicknessAndAreaOfTheTable) {
   for (golden::Bond const& bond : golden::bonds) {
     SCOPED_TRACE(testing::Message() << "S = " << bond.saturation << " %, h/h_max = " << bond.share);

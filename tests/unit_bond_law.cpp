@@ -7,8 +7,6 @@
 namespace clathra {
 namespace {
 
-double h_max_of(double saturation) { return static_cast<double>(printed::critical_thickness(saturation / 100, 0.1694e-3L)); }
-
 /// The thickness-dependent law of the paper at a saturation [%], with R_r on the scale of the bond width.
 BondLaw law_at(double saturation) {
   BondLaw law;

@@ -11,8 +11,6 @@ namespace {
 /// The strength as printed: Eq. 15, and R_r / L_r in the place of R_r.
 constexpr BondStrengthLaw printed_law{1.421e7, 2.571e7, 1, 0};
 
-double h_max_of(double saturation) { return static_cast<double>(printed::critical_thickness(saturation / 100, 0.1694e-3L)); }
-
 BondStrength strength_of(double saturation, double share) {
   double const h_max = h_max_of(saturation), gap = share * h_max;
   return bond_strength(printed_law, bond_width(golden::radius, h_max - gap), gap);

@@ -32,9 +32,9 @@ constexpr RateEffect heavier_rotation[] = {
     {0.001, {0.0117, 0.0314}, {-0.0080, 0.0031}},
 };
 // clang-format on
-constexpr double saturation = 0.55, most_inertia = 3, most_wave = 2, slack = 1e-6;
+constexpr double saturation = 0.55, most_inertia = 3, most_wave = 2, number_slack = 1e-6;
 
-bool is_near(double a, double b) { return std::fabs(a - b) <= slack * std::fabs(b); }
+bool are_close(double a, double b) { return std::fabs(a - b) <= number_slack * std::fabs(b); }
 
 std::string text_of(char const* format, double a) {
   char text[160];
@@ -50,7 +50,7 @@ MeasuredError between(MeasuredError const& a, MeasuredError const& b, double par
 /// Of one material at a rate within a table or below it.
 MeasuredError error_at(std::span<RateEffect const> table, double rate, MeasuredError RateEffect::*material) {
   auto const above =
-      std::find_if(table.begin(), table.end(), [&](auto const& row) { return row.inertial_number * (1 + slack) >= rate; });
+      std::find_if(table.begin(), table.end(), [&](auto const& row) { return row.inertial_number * (1 + number_slack) >= rate; });
   if (above == table.begin()) return table.front().*material;
   RateEffect const& slow = *(above - 1);
   if (above == table.end()) return slow.*material;
@@ -62,9 +62,11 @@ MeasuredError sum(MeasuredError const& a, MeasuredError const& b) {
   return {a.error + b.error, std::hypot(a.half_width, b.half_width)};
 }
 
-bool is_faster(double rate, std::span<RateEffect const> table) { return rate > table.back().inertial_number * (1 + slack); }
+bool is_faster(double rate, std::span<RateEffect const> table) {
+  return rate > table.back().inertial_number * (1 + number_slack);
+}
 
-bool is_same(double a, double b) { return a == b || is_near(a, b); }
+bool is_same(double a, double b) { return a == b || are_close(a, b); }
 template <class T>
 bool is_same(T const& a, T const& b) {
   return a == b;
@@ -135,7 +137,7 @@ std::vector<std::string> other_keys(Scene const& scene) {
   constexpr double past_the_peak = 0.05, least_step = 0.475;  // half of the usual share of the limit was measured
   std::vector<std::string> keys;
   if (scene.test.axial_strain < past_the_peak) keys.emplace_back("test.axial_strain");
-  if (scene.run.step_choice().safety < least_step * (1 - slack)) keys.emplace_back("run.time_step_safety");
+  if (scene.run.step_choice().safety < least_step * (1 - number_slack)) keys.emplace_back("run.time_step_safety");
   if (scene.specimen.is_read()) {
     keys.emplace_back("specimen.file");
     return keys;
@@ -143,9 +145,9 @@ std::vector<std::string> other_keys(Scene const& scene) {
   if (std::int64_t const discs = scene.specimen.particles; discs > 0 && (discs < fewest || discs > most))
     keys.emplace_back("specimen.particles");
   bool const box = scene.specimen.width > 0 && scene.specimen.height > 0 && scene.specimen.particles > 0;  // the fourth follows
-  if (scene.specimen.void_ratio > 0 ? !is_near(scene.specimen.void_ratio, void_ratio) : box)
+  if (scene.specimen.void_ratio > 0 ? !are_close(scene.specimen.void_ratio, void_ratio) : box)
     keys.emplace_back("specimen.void_ratio");
-  if (scene.grading.d50 > 0 ? !is_near(scene.grading.d50, d50) : box && scene.specimen.void_ratio > 0)
+  if (scene.grading.d50 > 0 ? !are_close(scene.grading.d50, d50) : box && scene.specimen.void_ratio > 0)
     keys.emplace_back("grading.d50");
   return keys;
 }
@@ -161,12 +163,12 @@ std::string out_of_range(Scene const& scene, RateNumbers const& n) {
     for (std::string const& key : keys) names += (names.empty() ? "" : ", ") + key;
     return names;
   }
-  if (has_bonds(scene) && scene.hydrate.saturation > saturation * (1 + slack)) return "only up to a saturation of 55 %";
-  if (scene.run.rotational_inertia_factor > most_inertia * (1 + slack)) return "only up to moments of inertia times 3";
+  if (has_bonds(scene) && scene.hydrate.saturation > saturation * (1 + number_slack)) return "only up to a saturation of 55 %";
+  if (scene.run.rotational_inertia_factor > most_inertia * (1 + number_slack)) return "only up to moments of inertia times 3";
   if (is_faster(n.inertial_number, rates)) return text_of("only up to I = %.3g", std::end(rates)[-1].inertial_number);
   if (scene.run.rotational_inertia_factor > 1 && is_faster(n.inertial_number, heavier_rotation))
     return text_of("only up to I = %.3g with heavier rotation", std::end(heavier_rotation)[-1].inertial_number);
-  if (n.platen_wave_stress > most_wave * (1 + slack)) return text_of("only up to W = %.3g", most_wave);
+  if (n.platen_wave_stress > most_wave * (1 + number_slack)) return text_of("only up to W = %.3g", most_wave);
   return {};
 }
 
@@ -188,7 +190,7 @@ ExpectedError expected_error(Scene const& scene, RateNumbers const& n) {
   MeasuredError const sand = error_of(scene.run, n.inertial_number, &RateEffect::sand, mixed.sand),
                       bonded = error_of(scene.run, n.inertial_number, &RateEffect::bonded, mixed.bonded);
   auto const farthest = [](MeasuredError const& e) { return std::fabs(e.error) + e.half_width; };
-  bool const with_bonds = has_bonds(scene), full = with_bonds && is_near(scene.hydrate.saturation, saturation);
+  bool const with_bonds = has_bonds(scene), full = with_bonds && are_close(scene.hydrate.saturation, saturation);
   MeasuredError const worse = farthest(sand) > farthest(bonded) ? sand : bonded;
   ExpectedError result{!with_bonds ? sand : full ? bonded : worse, "2000 particles at 1 MPa"};
   if (with_bonds && !full) result.range += ", the worse of sand and 55 %";

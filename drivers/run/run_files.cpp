@@ -11,7 +11,7 @@
 namespace clathra {
 namespace {
 
-constexpr double slack = 1e-9;  // of the interval: strains are sums of many steps
+constexpr double strain_slack = 1e-9;  // of the interval: strains are sums of many steps
 
 }  // namespace
 
@@ -34,7 +34,7 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
   if (output_.snapshots > 0) interval_ = scene.test.axial_strain / output_.snapshots;
   if (!before) return;
   since_snapshot_ = test.events_after(snapshots.empty() ? -1 : snapshots.back().step);
-  if (interval_ > 0) regular_ = 1 + static_cast<int>(std::floor(last_record / interval_ + slack));
+  if (interval_ > 0) regular_ = 1 + static_cast<int>(std::floor(last_record / interval_ + strain_slack));
   auto const& strains = output_.snapshots_at;
   given_ = static_cast<std::size_t>(std::upper_bound(strains.begin(), strains.end(), test.axial_strain()) - strains.begin());
 }
@@ -68,7 +68,7 @@ void RunFiles::write_consolidation(std::vector<HistoryRow> const& rows) {
 void RunFiles::write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy) {
   on_root(ranks_, [&] { write_row(row, energy); });
   take_events(test);
-  bool const regular = interval_ > 0 && row.eps1 >= (regular_ - slack) * interval_;
+  bool const regular = interval_ > 0 && row.eps1 >= (regular_ - strain_slack) * interval_;
   bool const given = row.eps1 >= next_snapshot_at();
   if (!regular && !given) return;
   write_snapshot(test);

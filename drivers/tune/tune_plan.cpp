@@ -67,7 +67,7 @@ std::vector<std::string> sample_of_rung(Scene const& scene, SpecimenDesign const
 }
 
 /// Of a level whose narrower side has grains enough across.
-std::int64_t fewest_discs(SpecimenDesign const& design) {
+std::int64_t fewest_discs_of(SpecimenDesign const& design) {
   double const side = std::min(design.width, design.height),
                share = std::pow(fewest_grains_across * design.grading.largest() / side, 2);
   constexpr double spare = 1.05;  // the number of discs is whole, the box follows
@@ -107,7 +107,7 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
   if (base.specimen.is_read())
     throw Refused("tune needs specimens of several seeds: a specimen from a file (specimen.file) is one only");
   SpecimenDesign const design = design_sample(base);
-  discs = std::max(discs, fewest_discs(design));
+  discs = std::max(discs, fewest_discs_of(design));
   plan.reduced = discs < design.particles;
   plan.discs = std::min(discs, design.particles);
   for (double const rate : ladder_rates)

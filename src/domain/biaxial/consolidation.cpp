@@ -36,16 +36,16 @@ void BiaxialTest::State::begin_stage(char const* name) {
 /// before.
 void BiaxialTest::State::record_consolidation(bool anyway) {
   bool const first = consolidation.empty() || consolidation.back().stage != stage;
-  double rate = 0;
+  double fastest = 0;
   if (!first) {
     HistoryRow const& last = consolidation.back();
     double const time = simulation->assembly().time() - start_time - last.time_s;
     bool const due = std::abs(mean_stress(*simulation) - last.p_Pa) > stress_of_row * scene.test.confining_stress;
     if (time <= 0 || (!due && !anyway)) return;
     double const vertical = eps1() - last.eps1, lateral = eps_v() - last.eps_v - vertical;
-    rate = std::max(std::abs(vertical), std::abs(lateral)) / time;
+    fastest = std::max(std::abs(vertical), std::abs(lateral)) / time;
   }
-  consolidation.push_back(row(simulation->assembly().measures(), rate));
+  consolidation.push_back(row(simulation->assembly().measures(), fastest));
   simulation->watch_deviator();
 }
 

@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "domain/simulation/printed_text.hpp"
 
 namespace clathra {
 
 namespace {
-
-/// A text with up to four numbers put in.
-template <class... Numbers>
-std::string text_of(char const* format, Numbers... numbers) {
-  char text[320];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
-}
 
 double share(std::int64_t part, std::int64_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
@@ -81,7 +74,7 @@ bool ShearWatch::is_slow(double axial_strain) const {
 }
 
 std::string ShearWatch::of_kinetic_energy() const {
-  return text_of(
+  return printed_text(
       "the kinetic energy of the scaled masses was above %g of the elastic energy in %lld of %lld checks (%.3g at most)",
       kinetic_limit, static_cast<long long>(all_.fast), static_cast<long long>(all_.checks), all_.largest_kinetic);
 }
@@ -90,29 +83,29 @@ std::vector<std::string> ShearWatch::warnings(bool bonded, bool began_at_rest) c
   char const* const advice = began_at_rest ? "lower test.inertial_number" : "the test did not begin at rest";
   std::vector<std::string> texts;
   if (!balanced(bonded))
-    texts.push_back(
-        text_of("forces were out of balance on the way to the peak of q, by %.2g of the mean contact force (%g is quasi-static): "
-                "the peak is likely to be more than 2 %% off, %s",
-                to_peak_.mean_unbalanced, unbalanced_to_peak_limit, advice));
+    texts.push_back(printed_text(
+        "forces were out of balance on the way to the peak of q, by %.2g of the mean contact force (%g is quasi-static): "
+        "the peak is likely to be more than 2 %% off, %s",
+        to_peak_.mean_unbalanced, unbalanced_to_peak_limit, advice));
   if (to_peak_.largest_mismatch > mismatch_limit)
-    texts.push_back(
-        text_of("q on the walls and q of the contacts were up to %.2g of p apart on the way to the peak (%g is usual): stress "
-                "varies along the specimen, %s",
-                to_peak_.largest_mismatch, mismatch_limit, advice));
+    texts.push_back(printed_text(
+        "q on the walls and q of the contacts were up to %.2g of p apart on the way to the peak (%g is usual): stress "
+        "varies along the specimen, %s",
+        to_peak_.largest_mismatch, mismatch_limit, advice));
   if (share(to_peak_.held, to_peak_.checks) < least_held)
-    texts.push_back(
-        text_of("sigma_3 was within %g %% in only %.1f %% of the checks up to the peak of q (fewer than %g %%): the servo walls "
-                "did not hold it, %s",
-                100 * stress_held, 100 * share(to_peak_.held, to_peak_.checks), 100 * least_held, advice));
+    texts.push_back(printed_text(
+        "sigma_3 was within %g %% in only %.1f %% of the checks up to the peak of q (fewer than %g %%): the servo walls "
+        "did not hold it, %s",
+        100 * stress_held, 100 * share(to_peak_.held, to_peak_.checks), 100 * least_held, advice));
   if (all_.largest_stress_error > stress_error_limit)
-    texts.push_back(text_of("sigma_3 was off by up to %.3g %% (%g %% are allowed): the servo walls did not hold it, %s%s",
-                            100 * all_.largest_stress_error, 100 * stress_error_limit, advice,
-                            began_at_rest ? " or take more particles" : ""));
+    texts.push_back(printed_text("sigma_3 was off by up to %.3g %% (%g %% are allowed): the servo walls did not hold it, %s%s",
+                                 100 * all_.largest_stress_error, 100 * stress_error_limit, advice,
+                                 began_at_rest ? " or take more particles" : ""));
   if (deep_share_ > deep_overlap_share)
     texts.push_back(
-        text_of("%.3g %% of the contacts overlapped by more than 10 %% of the smaller radius at %.3g %% strain, the "
-                "deepest of the test by %.3g %%: the grains are too soft for this stress (grains.normal_stiffness)",
-                deep_share_ * 100, deep_eps1_ * 100, deepest_ * 100));
+        printed_text("%.3g %% of the contacts overlapped by more than 10 %% of the smaller radius at %.3g %% strain, the "
+                     "deepest of the test by %.3g %%: the grains are too soft for this stress (grains.normal_stiffness)",
+                     deep_share_ * 100, deep_eps1_ * 100, deepest_ * 100));
   return texts;
 }
 

@@ -9,9 +9,9 @@ namespace clathra {
 
 namespace {
 
-constexpr double reserve = 0.01;      // in void ratio: what is left to close with grains as stiff as the scene's
-constexpr double far_off = 0.02;      // in void ratio: too loose to be held where it did not resist
-constexpr double least_share = 1e-4;  // of the friction
+constexpr double void_reserve = 0.01;  // in void ratio: what is left to close with grains as stiff as the scene's
+constexpr double far_off = 0.02;       // in void ratio: too loose to be held where it did not resist
+constexpr double least_share = 1e-4;   // of the friction
 constexpr double flowing_modulus = 0.4, resting_modulus = 0.3;  // stress for a strain of its area, over k_n
 // Inertial numbers: while discs hardly touch, of the fall of the height alone, of the closing of soft grains, and of that of the
 // scene's; and a cap on the walls' own speed. At five times the first some of 200,000 discs met nearly centre to centre. Half the
@@ -130,7 +130,7 @@ class Compression {
         1 / modulus(simulation.assembly().laws.contact.grain.normal_stiffness) - 1 / modulus(scene_.grains.normal_stiffness);
     close(simulation, a, {wanted_ + unjammed, vertical_rate, 0, true}, laws);
     a.blocked = false;
-    close(simulation, a, {wanted_ + reserve, soft_rate, (1 + wanted_) * give}, laws);
+    close(simulation, a, {wanted_ + void_reserve, soft_rate, (1 + wanted_) * give}, laws);
     a.blocked = false;  // soft grains may have been
     a.strain = 0.5 * give * mean_inside(simulation);
     simulation.stop_discs();

@@ -11,7 +11,7 @@ namespace clathra {
 namespace {
 
 // Inertial numbers of the closing of a layer, far from jamming and near it.
-constexpr double loose_rate = 0.015, near_rate = 5e-3;
+constexpr double far_rate = 0.015, near_rate = 5e-3;
 constexpr double slowing_range = 0.15;  // in void ratio
 // Of the friction, in layers: with all of it those below jam as a layer closes above them, again and again, and end looser, with
 // half the lateral stress of those above; without it specimens have 3 % more contacts than such that are closed at once.
@@ -30,10 +30,10 @@ double highest_point(Specimen const& specimen, Ranks const& ranks) {
 
 /// How a layer closes on those below it.
 struct LayerClosing {
-  double floor;                  ///< what lies above it closes [m]
-  double void_ratio;             ///< of all at its end
-  double loose_rate, near_rate;  ///< of the height above the floor, far from jamming and near it [1/s]
-  double resistance;             ///< it ends at this vertical stress, too [Pa]
+  double floor;                ///< what lies above it closes [m]
+  double void_ratio;           ///< of all at its end
+  double far_rate, near_rate;  ///< of the height above the floor, far from jamming and near it [1/s]
+  double resistance;           ///< it ends at this vertical stress, too [Pa]
 };
 
 /// Strains what lies above the floor, top wall and discs together, ever slower as it is about to jam. A wall that came down by
@@ -44,7 +44,7 @@ void compact(Simulation& simulation, LayerClosing const& layer, Progress const& 
   simulation.evaluate_forces();
   while (simulation.assembly().void_ratio() > layer.void_ratio && stress_inside(simulation).y < layer.resistance) {
     double const far = std::clamp((simulation.assembly().void_ratio() - layer.void_ratio) / slowing_range, 0.0, 1.0);
-    double const rate = layer.near_rate + far * (layer.loose_rate - layer.near_rate);
+    double const rate = layer.near_rate + far * (layer.far_rate - layer.near_rate);
     simulation.strain_above(layer.floor, rate * steering * simulation.time_step);
     simulation.step(steering);
     if (simulation.assembly().steps() % 500 == 0)
@@ -74,7 +74,7 @@ Specimen compacted_layers(Scene const& scene, SpecimenDesign const& design, Simu
         strain_rate_of(1, scene.specimen.preparation_stress, simulation.assembly().facts.moving_density(), specimen.d50) /
         slowness;
     compact(simulation,
-            {floor, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, unit * loose_rate, unit * near_rate,
+            {floor, under_compaction_void_ratio(design.void_ratio, layer, layers) + unjammed, unit * far_rate, unit * near_rate,
              20 * scene.specimen.preparation_stress},
             stage, counted);
     disc_steps += simulation.assembly().steps() * simulation.assembly().discs();

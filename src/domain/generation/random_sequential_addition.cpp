@@ -52,7 +52,7 @@ class Occupancy {
   std::vector<std::vector<PlacedDisc>> cells_;
 };
 
-struct Rectangle {
+struct Stratum {
   double left, right, bottom, top;
 };
 
@@ -72,7 +72,7 @@ class Strata {
   }
 
   /// Where the centre of the n-th disc is to lie, n from 0 on. Whenever all parts have had a disc they are shuffled anew.
-  Rectangle of(std::size_t n, std::uint64_t seed, std::uint64_t stream) {
+  Stratum of(std::size_t n, std::uint64_t seed, std::uint64_t stream) {
     std::size_t const turn = n % turns_.size();
     if (turn == 0) {
       std::iota(turns_.begin(), turns_.end(), std::size_t(0));
@@ -91,7 +91,7 @@ class Strata {
 };
 
 /// A part of a region without the margins that discs of a radius keep from its closed sides.
-Rectangle within(Region const& region, Rectangle part, double radius) {
+Stratum inside_margins(Region const& region, Stratum part, double radius) {
   double const margin = region.periodic ? 0 : radius;
   part.left = std::max(part.left, region.left + (region.open_left ? 0 : margin));
   part.right = std::min(part.right, region.left + region.width - (region.open_right ? 0 : margin));
@@ -121,7 +121,7 @@ std::optional<Placement> place_by_random_addition(std::vector<double> const& rad
   std::uint64_t counter = 0;
   for (std::size_t n = 0; n < order.size(); ++n) {
     std::size_t const i = order[n];
-    Rectangle const part = within(region, strata.of(n, seed, of_strata * (1 + stream)), radii[i]);
+    Stratum const part = inside_margins(region, strata.of(n, seed, of_strata * (1 + stream)), radii[i]);
     int tries = 0;
     double x = 0, y = 0;
     do {

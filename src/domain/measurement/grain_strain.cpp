@@ -10,7 +10,6 @@
 namespace clathra {
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double farthest = 2;  // of a node from the centre that it is tied to [d50]
 
 std::size_t place_of(int column, int row, int columns) {

@@ -13,11 +13,11 @@
 namespace clathra {
 namespace {
 
-constexpr double none = 1e300;
+constexpr double farthest_of_all = 1e300;
 
 /// The disc nearest to each wall of those of this rank.
 void look_at_walls(Specimen const& part, std::array<DiscAtWall, 4>& at_wall) {
-  for (DiscAtWall& at : at_wall) at = {-1, none, none};
+  for (DiscAtWall& at : at_wall) at = {-1, farthest_of_all, farthest_of_all};
   for (std::size_t i = 0; i < part.size(); ++i) {
     double const depths[] = {part.x[i] - part.left, part.right - part.x[i], part.y[i] - part.bottom, part.top - part.y[i]};
     for (std::size_t wall = 0; wall < 4; ++wall) {
@@ -29,7 +29,7 @@ void look_at_walls(Specimen const& part, std::array<DiscAtWall, 4>& at_wall) {
 }
 
 /// The smallest of the ranks' ids that count.
-int smallest_id(Ranks const& ranks, bool counts, int id) { return static_cast<int>(ranks.min(counts ? id : none)); }
+int smallest_id(Ranks const& ranks, bool counts, int id) { return static_cast<int>(ranks.min(counts ? id : farthest_of_all)); }
 
 /// Columns of motion that are empty stand for rest.
 FastestDisc fastest_of(Specimen const& part, Ranks const& ranks) {
@@ -67,7 +67,7 @@ void agree(Ranks const& ranks, OverlappingPair& deepest) {
     mine = mine && *id == smallest;
     *id = smallest;
   }
-  double place[] = {mine ? deepest.x : -none, mine ? deepest.y : -none};
+  double place[] = {mine ? deepest.x : -farthest_of_all, mine ? deepest.y : -farthest_of_all};
   ranks.max(place, 2);
   deepest = {share, deepest.id_a, deepest.id_b, place[0], place[1]};
 }

@@ -10,8 +10,6 @@
 namespace clathra {
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-
 /// Sums over discs for the fit of u = u_0 + G X.
 struct Moments {
   double count = 0;

@@ -3,11 +3,15 @@
 /// grains, so that single ones do not show; grain_strain() follows single grains and their rotations, at the resolution of a
 /// grain.
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "domain/measurement/snapshot.hpp"
 
 namespace clathra {
+
+/// A strain where none can be told.
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Width of the window over which shear_strain() averages, in mean diameters.
 inline constexpr double strain_window = 7.5;

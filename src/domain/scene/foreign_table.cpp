@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t";
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   auto const first = text.find_first_not_of(blanks);
   return first == text.npos ? std::string_view() : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
@@ -66,10 +66,10 @@ std::vector<std::string> cells_of(std::string_view text, char separator, std::si
     bool const in_quotes = text.starts_with('"');
     std::string const inside = in_quotes ? take_quoted(text) : "";
     end = text.find_first_of(ends);
-    std::string_view const outside = trimmed(text.substr(0, end));
+    std::string_view const outside = without_blanks(text.substr(0, end));
     if (in_quotes && !outside.empty())
-      refuse_line(line, "a quote has no end on its line, or something behind it: " + quoted(outside));
-    cells.emplace_back(in_quotes ? trimmed(inside) : outside);
+      refuse_line(line, "a quote has no end on its line, or something behind it: " + quote_of(outside));
+    cells.emplace_back(in_quotes ? without_blanks(inside) : outside);
     if (end != text.npos) text.remove_prefix(end + 1);
   }
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
@@ -80,7 +80,7 @@ std::vector<std::string> cells_of(std::string_view text, char separator, std::si
 void refuse_sieve_number(ForeignTable const& table, std::string_view text, std::size_t line) {
   auto const behind = text.find_first_not_of("0123456789", 1);
   if (table.header.cells.size() < 3 || behind == 1 || behind == text.npos || text[behind] != table.separator) return;
-  refuse_line(line, quoted(text) +
+  refuse_line(line, quote_of(text) +
                         " may be a comment or the row of a sieve number: put a blank behind the '#' of a comment, write a number "
                         "without '#'");
 }
@@ -95,7 +95,7 @@ ForeignTable read_foreign_table(std::string_view text) {
   ForeignTable table;
   text = decoded(text);
   for (std::size_t line = 1; !text.empty(); ++line) {
-    std::string_view const whole = take_line(text), shown = trimmed(whole);
+    std::string_view const whole = take_line(text), shown = without_blanks(whole);
     bool const headed = !table.header.cells.empty();
     if (shown.starts_with('#')) {
       refuse_sieve_number(table, shown, line);

@@ -67,12 +67,12 @@ double length_unit(Words const& words) {
 void require_one_unit(ForeignRow const& header, std::string const& name) {
   Words const words = words_of(name);
   if (name.find("\xe2\x80\xb0") != name.npos || has(words, {"permille", "promille", "mille"}))
-    refuse_line(header.line, quoted(name) + " is in per mille: write per cent");
+    refuse_line(header.line, quote_of(name) + " is in per mille: write per cent");
   double metre = 0;
   for (std::string const& word : words) {
     double const unit = length_unit({word});
     if (unit == 0) continue;
-    if (metre > 0 && unit != metre) refuse_line(header.line, quoted(name) + " states two units: leave one of them");
+    if (metre > 0 && unit != metre) refuse_line(header.line, quote_of(name) + " states two units: leave one of them");
     metre = unit;
   }
 }
@@ -105,7 +105,7 @@ std::size_t find_column(ForeignRow const& header, bool (*is_kind)(Words const&),
   for (std::size_t k = 0; k < header.cells.size(); ++k) {
     if (!is_kind(words_of(header.cells[k]))) continue;
     if (found < header.cells.size())
-      refuse_line(header.line, "both " + quoted(header.cells[found]) + " and " + quoted(header.cells[k]) + " name " + kind +
+      refuse_line(header.line, "both " + quote_of(header.cells[found]) + " and " + quote_of(header.cells[k]) + " name " + kind +
                                    ": leave one of them");
     found = k;
   }
@@ -115,7 +115,7 @@ std::size_t find_column(ForeignRow const& header, bool (*is_kind)(Words const&),
 /// Why no column is one of sizes: a name that comes near.
 std::string no_diameter(ForeignRow const& header) {
   for (std::string const& name : header.cells)
-    if (has(words_of(name), sizes)) return quoted(name) + " says no unit of the sizes that is understood (mm, um, m)";
+    if (has(words_of(name), sizes)) return quote_of(name) + " says no unit of the sizes that is understood (mm, um, m)";
   return "no column says the sizes";
 }
 
@@ -124,10 +124,10 @@ std::string no_share(ForeignRow const& header) {
   for (std::string const& name : header.cells) {
     Words const words = words_of(name);
     if (has(words, retained))
-      return quoted(name) + " may be what each sieve holds for itself: give what passes it, or say cumulative_percent_retained";
+      return quote_of(name) + " may be what each sieve holds for itself: give what passes it, or say cumulative_percent_retained";
   }
   for (std::string const& name : header.cells)
-    if (has(words_of(name), masses)) return quoted(name) + " says masses, not what is finer than each size, in per cent of all";
+    if (has(words_of(name), masses)) return quote_of(name) + " says masses, not what is finer than each size, in per cent of all";
   return "no column says what is finer than each size";
 }
 
@@ -137,7 +137,7 @@ GradingColumns find_grading_columns(ForeignRow const& header) {
   for (std::string const& name : header.cells) require_one_unit(header, name);
   GradingColumns columns;
   std::size_t const none = header.cells.size();
-  std::string const shown = ": the header is " + quoted(header.text);
+  std::string const shown = ": the header is " + quote_of(header.text);
   columns.diameter = find_column(header, is_diameter, "the diameter");
   if (columns.diameter == none) refuse_line(header.line, no_diameter(header) + shown + std::string(understood));
   columns.metre = length_unit(words_of(header.cells[columns.diameter]));

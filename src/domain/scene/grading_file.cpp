@@ -57,23 +57,23 @@ void set_points(ForeignTable& table, std::initializer_list<std::size_t> columns)
       cell[at] = '.';
     }
   if (comma > 0 && point > 0)
-    refuse_line(comma, quoted(with_comma) + " has a comma, line " + std::to_string(point) +
+    refuse_line(comma, quote_of(with_comma) + " has a comma, line " + std::to_string(point) +
                            " a decimal point: write all numbers with a point");
   if (comma > 0 && decimal == 0)
-    refuse_line(comma, quoted(with_comma) + " may be a thousand times what it is with a decimal comma: write it with a point");
+    refuse_line(comma, quote_of(with_comma) + " may be a thousand times what it is with a decimal comma: write it with a point");
 }
 
 double number_of(ForeignRow const& row, std::size_t column, std::string_view cell) {
   try {
     return parse_number(in_ascii(cell));
   } catch (std::invalid_argument const&) {
-    refuse_line(row.line, "column " + std::to_string(column + 1) + " needs a number, got " + quoted(row.cells[column]) + " in " +
-                              quoted(row.text));
+    refuse_line(row.line, "column " + std::to_string(column + 1) + " needs a number, got " + quote_of(row.cells[column]) +
+                              " in " + quote_of(row.text));
   }
 }
 
 std::string separator_text(char separator) {
-  return separator == '\t' ? "tabs" : separator == ' ' ? "blanks" : quoted({&separator, 1});
+  return separator == '\t' ? "tabs" : separator == ' ' ? "blanks" : quote_of({&separator, 1});
 }
 
 /// Each row must have the cells of its header.
@@ -84,14 +84,14 @@ void check_cells(ForeignTable const& table, GradingColumns const& columns) {
     std::string const cause = row.cells.size() < needed ? ": the header is cut at " + separator_text(table.separator)
                               : table.separator == ','  ? ": beside decimal commas columns need ';' or tabs between them"
                                                         : "";
-    refuse_line(row.line, quoted(row.text) + " has " + std::to_string(row.cells.size()) + " of " + std::to_string(names) +
+    refuse_line(row.line, quote_of(row.text) + " has " + std::to_string(row.cells.size()) + " of " + std::to_string(names) +
                               " cells" + cause);
   }
 }
 
 /// The file's rows by size, the coarse or the fine ones first there.
 std::vector<Sieve> sieves_of(ForeignTable& table, GradingColumns const& columns) {
-  if (table.rows.empty()) refuse_line(table.header.line, "no rows under the header " + quoted(table.header.text));
+  if (table.rows.empty()) refuse_line(table.header.line, "no rows under the header " + quote_of(table.header.text));
   check_cells(table, columns);
   set_points(table, {columns.diameter, columns.share});
   std::vector<Sieve> sieves;
@@ -100,10 +100,10 @@ std::vector<Sieve> sieves_of(ForeignTable& table, GradingColumns const& columns)
     Sieve const sieve{row.line, number_of(row, columns.diameter, row.cells[columns.diameter]) * columns.metre,
                       number_of(row, columns.share, share)};
     if (!(sieve.diameter > 0))
-      refuse_line(row.line, "a size must be above 0, got " + quoted(row.cells[columns.diameter]) +
+      refuse_line(row.line, "a size must be above 0, got " + quote_of(row.cells[columns.diameter]) +
                                 ": give the size below which there is nothing");
     if (!(sieve.share >= 0 && sieve.share <= 100))
-      refuse_line(row.line, "what is finer must be 0 to 100 %, got " + quoted(row.cells[columns.share]));
+      refuse_line(row.line, "what is finer must be 0 to 100 %, got " + quote_of(row.cells[columns.share]));
     sieves.push_back(sieve);
   }
   std::stable_sort(sieves.begin(), sieves.end(), [](Sieve const& a, Sieve const& b) { return a.diameter < b.diameter; });
@@ -116,7 +116,7 @@ ShareUnit unit_of(ForeignTable const& table, GradingColumns const& columns) {
     std::string_view const cell = row.cells[columns.share];
     if (!cell.ends_with('%')) continue;
     if (columns.unit != ShareUnit::fraction) return ShareUnit::percent;
-    refuse_line(row.line, quoted(cell) + " is in per cent, the column " + quoted(table.header.cells[columns.share]) +
+    refuse_line(row.line, quote_of(cell) + " is in per cent, the column " + quote_of(table.header.cells[columns.share]) +
                               " in fractions: name it percent_finer, or write fractions");
   }
   return columns.unit;
@@ -176,7 +176,7 @@ Grading grading_of(ForeignTable table) {
   ForeignRow const& header = table.header;
   if (header.cells.empty()) refuse_line(0, "is empty: a grading needs a header such as d_mm,percent_finer and rows under it");
   if (std::string_view const first = header.cells[0]; first.find_first_not_of("0123456789.,+-eE") == first.npos)
-    refuse_line(header.line, "there is no header above " + quoted(header.text) + ": put d_mm,percent_finer there" +
+    refuse_line(header.line, "there is no header above " + quote_of(header.text) + ": put d_mm,percent_finer there" +
                                  (table.comment_above > 0
                                       ? ", or take the '#' of line " + std::to_string(table.comment_above) + " away if that is it"
                                       : ""));
@@ -196,7 +196,7 @@ Grading grading_of(ForeignTable table) {
   if (!(grading.d50() >= smallest_d50 && grading.d50() <= largest_d50))
     refuse_line(header.line, "half of its grains are finer than " + number_text(grading.d50() * 1e3) +
                                  " mm, no soil is: its sizes are in another unit than the column " +
-                                 quoted(header.cells[columns.diameter]) + " says");
+                                 quote_of(header.cells[columns.diameter]) + " says");
   return grading;
 }
 

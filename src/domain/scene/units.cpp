@@ -106,14 +106,14 @@ double shifted_number(std::string_view text, int decimals) {
     std::string_view part = text.substr(split + 1);
     if (part[0] == '+') part.remove_prefix(1);
     if (std::from_chars(part.data(), part.data() + part.size(), exponent).ec != std::errc{})
-      throw std::invalid_argument("is out of range: " + quoted(text));
+      throw std::invalid_argument("is out of range: " + quote_of(text));
   }
   digits += 'e';
   digits += std::to_string(exponent + decimals);
   double value = 0;
   auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw std::invalid_argument("is out of range: " + quoted(text));
+    throw std::invalid_argument("is out of range: " + quote_of(text));
   return value;
 }
 
@@ -162,12 +162,12 @@ void multiply(Unit& product, std::string_view factor, int sign, std::string_view
     std::string_view const text = factor.substr(hat + 1);
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), power);
     if (error != std::errc{} || end != text.data() + text.size() || power < -4 || power > 4 || power == 0)
-      throw std::invalid_argument("has a unit with a strange power: " + quoted(whole));
+      throw std::invalid_argument("has a unit with a strange power: " + quote_of(whole));
     factor = factor.substr(0, hat);
   }
   Unit const* const unit = find_unit(factor);
   if (!unit)
-    throw std::invalid_argument("has an unknown unit " + quoted(factor) + " in " + quoted(whole) + unit_suggestion(factor));
+    throw std::invalid_argument("has an unknown unit " + quote_of(factor) + " in " + quote_of(whole) + unit_suggestion(factor));
   power *= sign;
   product.decimals += unit->decimals * power;
   for (int i = 0; i < power; ++i) product.factor *= unit->factor;
@@ -184,7 +184,7 @@ Unit parse_unit(std::string_view text, std::string_view whole) {
   Unit product{text, 0, 1, {}};
   int sign = 1, factors = 0;
   for (std::size_t at = 0;; ++factors) {
-    if (factors == 8) throw std::invalid_argument("has a unit with too many parts: " + quoted(whole));
+    if (factors == 8) throw std::invalid_argument("has a unit with too many parts: " + quote_of(whole));
     auto const end = text.find_first_of("*/", at);
     multiply(product, trimmed(text.substr(at, end == std::string_view::npos ? end : end - at)), sign, whole);
     if (end == std::string_view::npos) break;
@@ -229,7 +229,7 @@ std::string comma_hint(std::string_view number, std::string_view rest) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string quote_of(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string shown;
   std::size_t at = 0;
@@ -263,27 +263,29 @@ double parse_quantity(std::string_view text, Dimension dimension) {
                                 "; example: " + std::string(wanted.example));
   };
   std::size_t const length = number_length(whole);
-  if (length == 0) refuse(quoted(whole));
+  if (length == 0) refuse(quote_of(whole));
   std::string_view const number = whole.substr(0, length), unit_text = trimmed(whole.substr(length));
   if (std::string hint = comma_hint(number, unit_text); !hint.empty()) throw std::invalid_argument(std::move(hint));
   if (unit_text.empty()) {
-    if (dimension == Dimension::temperature) refuse("a bare number (" + quoted(whole) + "), which could be degC or K");
+    if (dimension == Dimension::temperature) refuse("a bare number (" + quote_of(whole) + "), which could be degC or K");
     return shifted_number(number, 0);
   }
   if (double const turn = dimension == Dimension::ratio ? radians_in(unit_text) : 0; turn > 0)
-    throw std::invalid_argument("is an angle, " + quoted(whole) + ", where a coefficient is needed: the tangent of the angle, " +
+    throw std::invalid_argument("is an angle, " + quote_of(whole) +
+                                ", where a coefficient is needed: the tangent of the angle, " +
                                 short_number(std::tan(shifted_number(number, 0) * turn)));
   Unit const unit = parse_unit(unit_text, whole);
-  if (!fits(unit.powers, dimension)) refuse(std::string(name_of(unit.powers)) + " (" + quoted(whole) + ")");
+  if (!fits(unit.powers, dimension)) refuse(std::string(name_of(unit.powers)) + " (" + quote_of(whole) + ")");
   double value = shifted_number(number, unit.decimals) * unit.factor / unit.divisor;
   if (unit.offset != 0) value += unit.offset;
-  if (!std::isfinite(value)) throw std::invalid_argument("is out of range: " + quoted(whole));
+  if (!std::isfinite(value)) throw std::invalid_argument("is out of range: " + quote_of(whole));
   return value;
 }
 
 double parse_number(std::string_view text) {
   std::string_view const whole = trimmed(text);
-  if (whole.empty() || number_length(whole) != whole.size()) throw std::invalid_argument("needs a number, got " + quoted(whole));
+  if (whole.empty() || number_length(whole) != whole.size())
+    throw std::invalid_argument("needs a number, got " + quote_of(whole));
   return shifted_number(whole, 0);
 }
 

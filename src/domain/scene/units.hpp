@@ -38,7 +38,7 @@ std::string format_quantity(double value, Dimension dimension);
 std::string format_number(double value);
 
 /// A text in quotes for a message: no more than 40 of its bytes, question marks for those that a terminal may not show.
-std::string quoted(std::string_view text);
+std::string quote_of(std::string_view text);
 
 /// The signs that people copy from elsewhere, in the letters of our units: two kinds of mu, degrees, powers, the space that does
 /// not break.

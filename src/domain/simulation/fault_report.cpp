@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <vector>
+
+#include "domain/simulation/printed_text.hpp"
 
 namespace clathra {
 namespace {
 
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
-
-template <class... Numbers>
-std::string text_of(char const* format, Numbers... numbers) {
-  char text[320];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
-}
 
 /// Positions of this rank's discs and its ghosts, on the host.
 struct Discs {
@@ -77,9 +71,9 @@ Deepest deepest_contact(Assembly const& assembly, Discs const& discs, int i) {
 std::string advice_on_rows(double skin, double d50) {
   constexpr double wide = 2 * chosen_skin;
   if (d50 > 0 && skin > wide * d50)
-    return text_of("give a smaller run.verlet_skin, or none: %.3g mm are %.3g of d50, where %g are usual", skin * 1e3, skin / d50,
-                   chosen_skin);
-  return text_of("a particle can have %d: make the grading's largest particle smaller, or its smallest larger", longest_row);
+    return printed_text("give a smaller run.verlet_skin, or none: %.3g mm are %.3g of d50, where %g are usual", skin * 1e3,
+                        skin / d50, chosen_skin);
+  return printed_text("a particle can have %d: make the grading's largest particle smaller, or its smallest larger", longest_row);
 }
 
 std::string advice(Fault what, double share) {
@@ -115,17 +109,18 @@ std::string fault_text(Assembly const& assembly, ReportedFault const& fault, dou
   place[0] = found[0];
   place[1] = found[1];
   double const share = assembly.now.orders.dt / assembly.stable_limit();
-  std::string text = text_of("step %lld, time %g s: particle %d %s", static_cast<long long>(assembly.steps()), assembly.time(),
-                             fault.id, cause[static_cast<int>(fault.what)]);
-  if (fault.last_good < assembly.steps()) text += text_of(", since a step after %lld", static_cast<long long>(fault.last_good));
-  text += text_of("; it is at (%.6g, %.6g) mm", place[0] * 1e3, place[1] * 1e3);
-  if (lost > 1) text += text_of(", %lld particles are like it", static_cast<long long>(lost));
+  std::string text = printed_text("step %lld, time %g s: particle %d %s", static_cast<long long>(assembly.steps()),
+                                  assembly.time(), fault.id, cause[static_cast<int>(fault.what)]);
+  if (fault.last_good < assembly.steps())
+    text += printed_text(", since a step after %lld", static_cast<long long>(fault.last_good));
+  text += printed_text("; it is at (%.6g, %.6g) mm", place[0] * 1e3, place[1] * 1e3);
+  if (lost > 1) text += printed_text(", %lld particles are like it", static_cast<long long>(lost));
   if (found[3] >= 0)
-    text += text_of("; its deepest contact, with particle %d, overlaps by %.3g of the smaller radius", static_cast<int>(found[3]),
-                    found[2]);
-  if (found[3] == -1) text += text_of("; it is %.3g of its radius deep in a wall", found[2]);
+    text += printed_text("; its deepest contact, with particle %d, overlaps by %.3g of the smaller radius",
+                         static_cast<int>(found[3]), found[2]);
+  if (found[3] == -1) text += printed_text("; it is %.3g of its radius deep in a wall", found[2]);
   if (std::isfinite(share) && share > 1e-6)
-    text += text_of("; the time step is %.3g of the stable limit of the present contacts", share);
+    text += printed_text("; the time step is %.3g of the stable limit of the present contacts", share);
   return text + ": " +
          (fault.what == Fault::row_overflow ? advice_on_rows(assembly.upkeep.skin(), assembly.facts.d50)
                                             : advice(fault.what, share));

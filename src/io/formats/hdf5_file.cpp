@@ -16,21 +16,15 @@
 #include "io/errors/rank_errors.hpp"
 
 namespace clathra {
-namespace {
-
-constexpr hsize_t chunk_rows = 65536;
-constexpr unsigned compression = 4;  // of gzip; 1 gives 5 % more bytes in 3/4 of the time, 6 gives 1 % less in twice the time
-constexpr hsize_t most_rows = 1'000'000'000;  // a column that claims more is taken for damage
-constexpr hsize_t longest_text = 16 << 20;    // [bytes]
 
 /// An HDF5 identifier that is closed when it goes. Errors of closing a column show again when the file is flushed.
-class Id {
+class Hdf5Id {
  public:
-  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Id(Id const&) = delete;
-  Id& operator=(Id const&) = delete;
-  ~Id() {
+  Hdf5Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Hdf5Id(Hdf5Id const&) = delete;
+  Hdf5Id& operator=(Hdf5Id const&) = delete;
+  ~Hdf5Id() {
     if (id_ >= 0) close_(id_);
   }
   operator hid_t() const { return id_; }
@@ -39,6 +33,13 @@ class Id {
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
+
+namespace {
+
+constexpr hsize_t chunk_rows = 65536;
+constexpr unsigned compression = 4;  // of gzip; 1 gives 5 % more bytes in 3/4 of the time, 6 gives 1 % less in twice the time
+constexpr hsize_t most_rows = 1'000'000'000;  // a column that claims more is taken for damage
+constexpr hsize_t longest_text = 16 << 20;    // [bytes]
 
 /// H5dont_atexit() first of all: 1.10.8 crashes in its exit handler after a full disk. HDF5's own error print is silenced.
 void start_hdf5() {
@@ -80,19 +81,19 @@ std::size_t slash(std::string const& name) { return name.find('/'); }
 
 /// An attribute of one value. @return false where HDF5 refused
 bool write_attribute(hid_t object, char const* name, hid_t type, void const* value) {
-  Id const scalar(H5Screate(H5S_SCALAR), H5Sclose);
-  Id const attribute(H5Acreate2(object, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  Hdf5Id const scalar(H5Screate(H5S_SCALAR), H5Sclose);
+  Hdf5Id const attribute(H5Acreate2(object, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   return attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
 }
 
 bool write_text_attribute(hid_t object, char const* name, std::string const& text) {
-  Id const type(H5Tcopy(H5T_C_S1), H5Tclose);
+  Hdf5Id const type(H5Tcopy(H5T_C_S1), H5Tclose);
   return H5Tset_size(type, std::max<std::size_t>(1, text.size())) >= 0 && write_attribute(object, name, type, text.c_str());
 }
 
 bool read_attribute(hid_t object, char const* name, hid_t type, void* value) {
-  Id const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
+  Hdf5Id const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  Hdf5Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
   return space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, type, value) >= 0;
 }
 
@@ -118,9 +119,9 @@ std::optional<std::string> read_string(hid_t type, hid_t space, hsize_t longest,
 
 std::optional<std::string> read_text_attribute(hid_t object, char const* name) {
   if (object < 0 || H5Aexists(object, name) <= 0) return {};
-  Id const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
-  Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
+  Hdf5Id const attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  Hdf5Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
+  Hdf5Id const space(attribute >= 0 ? H5Aget_space(attribute) : -1, H5Sclose);
   return read_string(type, space, 4096, [&](void* value) { return H5Aread(attribute, type, value); });
 }
 
@@ -146,7 +147,7 @@ RowRange rows_of_rank(std::int64_t size, Ranks const& ranks) {
 Hdf5File Hdf5File::create(std::filesystem::path const& path, Ranks const& ranks) {
   start_hdf5();
   errno = 0;
-  Id const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  Hdf5Id const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   if (!ranks.alone()) share_among_ranks(access);
   hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (ranks.any(file < 0))
@@ -187,7 +188,7 @@ void Hdf5File::close() {
 void Hdf5File::make_group(std::string const& name) {
   std::string const group = name.substr(0, slash(name));
   if (group == name || H5Lexists(file_, group.c_str(), H5P_DEFAULT) > 0) return;
-  Id const made(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  Hdf5Id const made(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   if (made < 0) fail(ExitCode::io_error, fmt::format("cannot make group {}: {}", group, hdf5_reason()));
 }
 
@@ -199,14 +200,14 @@ void Hdf5File::write_column(std::string const& name, void const* values, std::si
   hsize_t const shape[] = {static_cast<hsize_t>(ranks_.sum(static_cast<std::int64_t>(rows))), width};
   hsize_t const chunk[] = {std::min<hsize_t>(shape[0], chunk_rows), 1};
   int const rank = width == 1 ? 1 : 2;
-  Id const space(H5Screate_simple(rank, shape, nullptr), H5Sclose);
-  Id const filters(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  Hdf5Id const space(H5Screate_simple(rank, shape, nullptr), H5Sclose);
+  Hdf5Id const filters(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   // Without the time of its making: the same content is the same file, whenever it was written.
   bool const ready = space >= 0 && filters >= 0 && H5Pset_obj_track_times(filters, false) >= 0 &&
                      (shape[0] == 0 || (H5Pset_chunk(filters, rank, chunk) >= 0 && H5Pset_shuffle(filters) >= 0 &&
                                         H5Pset_deflate(filters, compression) >= 0 && H5Pset_fletcher32(filters) >= 0));
-  Id const column(ready ? H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, filters, H5P_DEFAULT) : -1, H5Dclose);
-  Id const part(H5Screate_simple(rank, own, nullptr), H5Sclose);
+  Hdf5Id const column(ready ? H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, filters, H5P_DEFAULT) : -1, H5Dclose);
+  Hdf5Id const part(H5Screate_simple(rank, own, nullptr), H5Sclose);
   if (!ranks_.alone()) {
     write_together(transfer);
     if (rows == 0) {  // nothing to add, but all take part
@@ -245,14 +246,14 @@ void Hdf5File::set_attribute(std::string const& name, std::string const& text) {
 }
 
 void Hdf5File::set_column_attribute(std::string const& column, std::string const& name, double value) {
-  Id const opened(H5Dopen2(file_, column.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Id const opened(H5Dopen2(file_, column.c_str(), H5P_DEFAULT), H5Dclose);
   if (opened < 0 || !write_attribute(opened, name.c_str(), H5T_NATIVE_DOUBLE, &value))
     fail(ExitCode::io_error, fmt::format("cannot write {} of {}: {}", name, column, hdf5_reason()));
 }
 
 /// A column that is there and has the shape that it should have.
 struct Hdf5File::OpenColumn {
-  Id column, space;
+  Hdf5Id column, space;
   std::size_t rows;
 };
 
@@ -261,8 +262,8 @@ Hdf5File::OpenColumn Hdf5File::open_column(std::string const& name, std::size_t 
   if (auto const end = slash(name); end != std::string::npos)
     if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
   if (H5Lexists(file_, name.c_str(), H5P_DEFAULT) <= 0) damaged("is missing");
-  Id column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  Id space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
+  Hdf5Id column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Id space(column >= 0 ? H5Dget_space(column) : -1, H5Sclose);
   if (space < 0) damaged("cannot be opened: " + hdf5_reason());
   hsize_t shape[2] = {0, 1};
   int const rank = width == 1 ? 1 : 2;
@@ -294,7 +295,7 @@ std::vector<T> Hdf5File::read(std::string const& name, RowRange const& rows) con
   hsize_t const first = rows.begin, count = rows.end - rows.begin;
   std::vector<T> values(count);
   if (values.empty()) return values;
-  Id const part(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  Hdf5Id const part(H5Screate_simple(1, &count, nullptr), H5Sclose);
   if (H5Sselect_hyperslab(open.space, H5S_SELECT_SET, &first, nullptr, &count, nullptr) < 0 ||
       H5Dread(open.column, type_of<T>(), part, open.space, H5P_DEFAULT, values.data()) < 0)
     fail(ExitCode::bad_input, fmt::format("{} cannot be read: {}", name, hdf5_reason()));
@@ -313,8 +314,8 @@ CLATHRA_COLUMN(std::uint8_t)
 #undef CLATHRA_COLUMN
 
 std::string Hdf5File::read_text(std::string const& name) const {
-  Id const set(has(name) ? H5Dopen2(file_, name.c_str(), H5P_DEFAULT) : -1, H5Dclose);
-  Id const type(set >= 0 ? H5Dget_type(set) : -1, H5Tclose), space(set >= 0 ? H5Dget_space(set) : -1, H5Sclose);
+  Hdf5Id const set(has(name) ? H5Dopen2(file_, name.c_str(), H5P_DEFAULT) : -1, H5Dclose);
+  Hdf5Id const type(set >= 0 ? H5Dget_type(set) : -1, H5Tclose), space(set >= 0 ? H5Dget_space(set) : -1, H5Sclose);
   if (auto text = read_string(type, space, longest_text,
                               [&](void* value) { return H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value); }))
     return *text;
@@ -325,8 +326,8 @@ std::string Hdf5File::read_text(std::string const& name) const {
 }
 
 void Hdf5File::require_number(std::string const& name) const {
-  Id const attribute(has_attribute(name) ? H5Aopen(file_, name.c_str(), H5P_DEFAULT) : -1, H5Aclose);
-  Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
+  Hdf5Id const attribute(has_attribute(name) ? H5Aopen(file_, name.c_str(), H5P_DEFAULT) : -1, H5Aclose);
+  Hdf5Id const type(attribute >= 0 ? H5Aget_type(attribute) : -1, H5Tclose);
   if (type >= 0 && H5Tget_class(type) == H5T_STRING)
     fail(ExitCode::bad_input, fmt::format("attribute {} is a text, it must be a number without a unit", name));
 }
@@ -356,7 +357,7 @@ std::string Hdf5File::text_attribute(std::string const& name) const {
 
 std::optional<std::string> Hdf5File::unit_of_column(std::string const& name) const {
   if (!has(name)) return {};
-  Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Id const column(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
   return read_text_attribute(column, "unit");
 }
 std::optional<std::string> Hdf5File::unit_of_attribute(std::string const& name) const {

@@ -8,11 +8,10 @@
 
 #include "domain/measurement/test_numbers.hpp"
 #include "io/report/markup.hpp"
+#include "io/results/shown_units.hpp"
 
 namespace clathra {
 namespace {
-
-constexpr double percent = 100, mega = 1e-6;
 
 /// A column of every run that has it against its axial strain.
 Plot plot_of(std::vector<RunResults> const& runs, Variable const& what) {

@@ -32,7 +32,7 @@ void move_all(auto& from, auto& to) {
 }
 
 /// A picture in it may be large, so it is copied once.
-void add_moved(std::string& svg, Box const& box, double x, double y) {
+void add_moved(std::string& svg, Drawing const& box, double x, double y) {
   svg += fmt::format("<g transform=\"translate({:g} {:g})\">", x, y);
   svg += box.svg;
   svg += "</g>\n";
@@ -86,7 +86,7 @@ std::string data_rows(std::vector<DataColumns> const& series) {
   return text;
 }
 
-Piece drawing(Box box, std::string const& classes, std::string const& title, std::string const& description, DrawnData data) {
+Piece drawing(Drawing box, std::string const& classes, std::string const& title, std::string const& description, DrawnData data) {
   Piece piece(
       fmt::format("<svg class=\"{}\" viewBox=\"0 0 {:g} {:.0f}\" role=\"img\"><title>{}</title><desc>{}</desc>\n{}</svg>\n",
                   classes, box.width, box.height, escaped(title), escaped(description), box.svg));
@@ -95,9 +95,9 @@ Piece drawing(Box box, std::string const& classes, std::string const& title, std
   return piece;
 }
 
-Box row_of(std::vector<Box> const& boxes) {
-  Box row;
-  for (Box const& box : boxes) {
+Drawing row_of(std::vector<Drawing> const& boxes) {
+  Drawing row;
+  for (Drawing const& box : boxes) {
     if (row.width > 0) row.width += gap;
     add_moved(row.svg, box, row.width, 0);
     row.width += box.width;
@@ -106,9 +106,9 @@ Box row_of(std::vector<Box> const& boxes) {
   return row;
 }
 
-Box column_of(std::vector<Box> const& boxes) {
-  Box column;
-  for (Box const& box : boxes) {
+Drawing column_of(std::vector<Drawing> const& boxes) {
+  Drawing column;
+  for (Drawing const& box : boxes) {
     if (column.height > 0) column.height += gap / 2;
     add_moved(column.svg, box, 0, column.height);
     column.height += box.height;
@@ -117,10 +117,10 @@ Box column_of(std::vector<Box> const& boxes) {
   return column;
 }
 
-Box lines_of(std::vector<Box> const& boxes, double width) {
-  std::vector<Box> lines, line;
+Drawing lines_of(std::vector<Drawing> const& boxes, double width) {
+  std::vector<Drawing> lines, line;
   double taken = 0;
-  for (Box const& box : boxes) {
+  for (Drawing const& box : boxes) {
     if (!line.empty() && taken + gap + box.width > width) {
       lines.push_back(row_of(line));
       line.clear();
@@ -133,7 +133,7 @@ Box lines_of(std::vector<Box> const& boxes, double width) {
   return column_of(lines);
 }
 
-Box text_box(std::string const& text, char const* at, double width) {
+Drawing text_box(std::string const& text, char const* at, double width) {
   auto const letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
   if (width == 0) width = mean_letter * static_cast<double>(letters);
   double const x = at == std::string("start") ? 0 : at == std::string("end") ? width : width / 2;

@@ -9,7 +9,7 @@
 namespace clathra {
 
 /// What is drawn, as SVG between (0, 0) and (width, height).
-struct Box {
+struct Drawing {
   double width = 0, height = 0;
   std::string svg;
 };
@@ -31,14 +31,14 @@ std::string data_rows(std::vector<DataColumns> const& series);
 /// A figure as it becomes a file.
 struct Figure {
   std::string heading, caption;
-  Box box;
+  Drawing box;
   std::vector<DrawnData> data;  ///< all with the same head
 };
 
 /// A part of a page: its HTML, and what of it becomes files.
 struct Piece {
   std::string html;
-  std::vector<Box> boxes;       ///< of a figure that is being put together, from the left or from above
+  std::vector<Drawing> boxes;   ///< of a figure that is being put together, from the left or from above
   std::vector<DrawnData> data;  ///< of that figure
   std::vector<Figure> figures;  ///< that are complete
 
@@ -54,15 +54,15 @@ struct Piece {
 extern std::string_view const drawing_style;
 
 /// An inline SVG. @param classes  of the element
-Piece drawing(Box box, std::string const& classes, std::string const& title, std::string const& description, DrawnData data);
+Piece drawing(Drawing box, std::string const& classes, std::string const& title, std::string const& description, DrawnData data);
 
 /// Boxes beside each other, below each other, and in lines that are full at a width.
-Box row_of(std::vector<Box> const& boxes);
-Box column_of(std::vector<Box> const& boxes);
-Box lines_of(std::vector<Box> const& boxes, double width);
+Drawing row_of(std::vector<Drawing> const& boxes);
+Drawing column_of(std::vector<Drawing> const& boxes);
+Drawing lines_of(std::vector<Drawing> const& boxes, double width);
 
 /// A line of text that is not yet escaped. @param at  "start", "middle" or "end" of the box  @param width  0 = as the text needs
-Box text_box(std::string const& text, char const* at = "start", double width = 0);
+Drawing text_box(std::string const& text, char const* at = "start", double width = 0);
 
 /// The figure as an SVG that needs nothing but itself.
 std::string svg_file(Figure const& figure);

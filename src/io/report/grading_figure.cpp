@@ -5,11 +5,11 @@
 
 #include "domain/scene/grading.hpp"
 #include "io/report/markup.hpp"
+#include "io/results/shown_units.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr double percent = 100;
 constexpr Variable diameter{"diameter [mm], logarithmic", "diameter_m", 1e3};
 
 /// An axis over the diameters of all curves, with some room at both ends.

@@ -9,14 +9,11 @@
 
 #include "io/report/markup.hpp"
 #include "io/results/interval_text.hpp"
+#include "io/results/shown_units.hpp"
+#include "io/scene/schema.hpp"
 
 namespace clathra {
-namespace {
-
-constexpr double percent = 100;
-constexpr char saturation_key[] = "hydrate.saturation";
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<MemberResult> const& members,
                                           std::vector<std::filesystem::path> const& folders) {

@@ -15,12 +15,11 @@
 #include "io/report/maps.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/rose_diagrams.hpp"
+#include "io/results/shown_units.hpp"
 #include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 namespace {
-
-constexpr double percent = 100, milli = 1e3;
 
 /// A run's snapshots as they are shown, with the view that they share.
 struct Shown {

@@ -113,18 +113,18 @@ namespace {
 constexpr double file_width = 480;  // of legends and bars in files
 
 /// An entry of a legend: a mark of this size and its name.
-Piece entry(Box const& mark, std::string const& name) {
+Piece entry(Drawing const& mark, std::string const& name) {
   Piece piece(fmt::format("<li><svg width=\"{0:g}\" height=\"{1:g}\" aria-hidden=\"true\">{2}</svg>{3}</li>", mark.width,
                           mark.height, mark.svg, escaped(name)));
   constexpr double middle = 10;
-  Box const lowered{mark.width, 2 * middle,
-                    fmt::format("<g transform=\"translate(0 {:g})\">{}</g>", middle - mark.height / 2, mark.svg)};
+  Drawing const lowered{mark.width, 2 * middle,
+                        fmt::format("<g transform=\"translate(0 {:g})\">{}</g>", middle - mark.height / 2, mark.svg)};
   piece.boxes.push_back(row_of({lowered, text_box(name)}));
   return piece;
 }
 
 /// The boxes of a piece become one, within other HTML.
-Piece joined(Piece piece, Box (*join)(std::vector<Box> const&), std::string const& before, std::string const& after) {
+Piece joined(Piece piece, Drawing (*join)(std::vector<Drawing> const&), std::string const& before, std::string const& after) {
   piece.html = before + piece.html + after;
   piece.boxes = {join(piece.boxes)};
   return piece;
@@ -145,7 +145,7 @@ Piece patch_entry(Rgb colour, std::string const& name) {
 
 Piece legend(Piece entries) {
   if (entries.empty()) return entries;
-  auto const lines = [](std::vector<Box> const& boxes) { return lines_of(boxes, file_width); };
+  auto const lines = [](std::vector<Drawing> const& boxes) { return lines_of(boxes, file_width); };
   return joined(std::move(entries), lines, "<ul class=\"legend\">", "</ul>\n");
 }
 
@@ -164,7 +164,7 @@ Piece colour_bar(std::string const& title, std::string const& low, std::string c
   for (int i = 0; i < steps; ++i)
     bar += fmt::format("<rect x=\"{:g}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\"/>", file_width / steps * i,
                        file_width / steps + 0.5, height, hex(ramp((i + 0.5) / steps)));
-  Box ends = text_box(low, "start", file_width);
+  Drawing ends = text_box(low, "start", file_width);
   ends.svg += text_box(high, "end", file_width).svg;
   piece.boxes.push_back(column_of({text_box(title), {file_width, height, bar}, ends}));
   return piece;

@@ -8,11 +8,10 @@
 #include "io/report/markup.hpp"
 #include "io/report/paper_figures.hpp"
 #include "io/report/strength.hpp"
+#include "io/results/shown_units.hpp"
 
 namespace clathra {
 namespace {
-
-constexpr double percent = 100;
 
 /// The groups of these names in this order, with strokes of their own.
 std::vector<GroupCurves> chosen(Reproduction const& r, std::vector<GroupCurves> const& all, PaperSeries const& series) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "domain/measurement/fabric.hpp"
 #include "domain/measurement/shear_band.hpp"
@@ -13,12 +12,12 @@
 #include "io/report/markup.hpp"
 #include "io/report/paper_figures.hpp"
 #include "io/report/rose_diagrams.hpp"
+#include "io/results/shown_units.hpp"
 #include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr double percent = 100, degrees = 180 / std::numbers::pi;
 constexpr std::size_t picture_bytes = 220'000;
 
 Piece grading_of(PaperFigure const& f, ShownTest const& test) {

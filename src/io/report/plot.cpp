@@ -202,9 +202,9 @@ Piece drawing(Plot const& plot) {
   std::string drawn;
   for (Area const& area : plot.areas) drawn += polygon(scale, area);
   for (Curve const& curve : plot.curves) drawn += polylines(scale, curve);
-  Box const box{drawing_width, plot.height,
-                fmt::format("{}<g class=\"curves\" data-x=\"{} {}\" data-y=\"{} {}\" data-frame=\"{} {} {} {}\">\n{}</g>",
-                            axes(scale), plot.x.from, plot.x.to, plot.y.from, plot.y.to, left, top, width, height, drawn)};
+  Drawing const box{drawing_width, plot.height,
+                    fmt::format("{}<g class=\"curves\" data-x=\"{} {}\" data-y=\"{} {}\" data-frame=\"{} {} {} {}\">\n{}</g>",
+                                axes(scale), plot.x.from, plot.x.to, plot.y.from, plot.y.to, left, top, width, height, drawn)};
   return drawing(box, "plot", plot.title, plot.description, data_of(plot));
 }
 

@@ -76,7 +76,7 @@ Piece diagram(Values const& now, Values const& before, double anisotropy, double
   double most = 1 + anisotropy;
   for (std::size_t i = 0; i < Rose::bins; ++i) most = std::max({most, now[i], before[i]});
   double const unit = largest / most;
-  Box const box{
+  Drawing const box{
       size, size,
       fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.75\" stroke=\"#fff\" stroke-width=\"0.7\"/>"
                   "<g fill=\"none\">{}<polygon points=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" stroke-dasharray=\"4 3\"/>"

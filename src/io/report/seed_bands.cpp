@@ -10,7 +10,7 @@
 namespace clathra {
 namespace {
 
-constexpr int points = 200;
+constexpr int band_points = 200;
 
 void add_statistics(SeedBand& band, PossibleRange const& range) {
   for (std::size_t i = 0; i < band.eps1.size(); ++i) {
@@ -43,7 +43,7 @@ std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_f
     if (known) {
       double end = runs.front().history["eps1"].back();
       for (RunResults const& run : runs) end = std::min(end, run.history["eps1"].back());
-      for (int i = 0; i <= points; ++i) band.eps1.push_back(end * i / points);
+      for (int i = 0; i <= band_points; ++i) band.eps1.push_back(end * i / band_points);
       for (RunResults const& run : runs) {
         std::vector<double> values;
         for (double const strain : band.eps1) values.push_back(value_at(run.history["eps1"], run.history[column], strain));

@@ -11,15 +11,13 @@
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
 #include "io/results/interval_text.hpp"
+#include "io/results/shown_units.hpp"
 #include "io/results/strength_groups.hpp"
 #include "io/results/tested_material.hpp"
+#include "io/scene/schema.hpp"
 
 namespace clathra {
 namespace {
-
-constexpr double mega = 1e-6, degrees = 180 / std::numbers::pi;
-
-constexpr char saturation_key[] = "hydrate.saturation";
 
 /// "a" or "a, b and c"
 std::string listed(std::vector<std::string> const& names) {

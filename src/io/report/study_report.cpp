@@ -15,11 +15,11 @@
 #include "io/formats/text_file.hpp"
 #include "io/report/group_curves.hpp"
 #include "io/report/markup.hpp"
+#include "io/results/shown_units.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr double percent = 100, mega = 1e-6;
 constexpr std::size_t most_seeds_drawn = 10, most_small_figures = 60;  // of one kind; a page stays below a few megabytes
 constexpr char peak_number[] = "peak_q_Pa";
 constexpr std::size_t multiplied = 3;  // of the shown bands are also shown group by group
@@ -71,7 +71,7 @@ std::string rising_seeds(GroupNumbers const& group) {
   return fmt::format("<small class=\"unit\">({}still rising)</small>", of_all);
 }
 
-std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> const& columns, char const* what) {
+std::string table_of_groups(std::vector<GroupNumbers> const& groups, std::vector<Column> const& columns, char const* what) {
   std::string head = fmt::format("<th>{}</th><th>seeds</th>", what), rows;
   std::vector<Column> used;
   for (Column const& column : columns)
@@ -100,14 +100,14 @@ std::string table(std::vector<GroupNumbers> const& groups, std::vector<Column> c
 
 Piece strength_part(std::vector<GroupNumbers> const& materials) {
   if (materials.empty()) return "";
-  Piece text = "<h2>Strength</h2>\n" + table(materials,
-                                             {{"peak_cohesion_Pa", "c at the peak", "MPa", mega},
-                                              {"peak_friction_angle_deg", "φ at the peak", "°", 1},
-                                              {"peak_r_squared", "R²", "", 1},
-                                              {"peak_curvature_per_Pa", "curvature", "1/MPa", 1e6},
-                                              {"residual_cohesion_Pa", "residual c", "MPa", mega},
-                                              {"residual_friction_angle_deg", "residual φ", "°", 1}},
-                                             "material");
+  Piece text = "<h2>Strength</h2>\n" + table_of_groups(materials,
+                                                       {{"peak_cohesion_Pa", "c at the peak", "MPa", mega},
+                                                        {"peak_friction_angle_deg", "φ at the peak", "°", 1},
+                                                        {"peak_r_squared", "R²", "", 1},
+                                                        {"peak_curvature_per_Pa", "curvature", "1/MPa", 1e6},
+                                                        {"residual_cohesion_Pa", "residual c", "MPa", mega},
+                                                        {"residual_friction_angle_deg", "residual φ", "°", 1}},
+                                                       "material");
   return text + side_by_side(strength_figure(materials, "Cohesion", {"cohesion c [MPa]", "peak_cohesion_Pa", mega}) +
                              strength_figure(materials, "Friction angle", {"friction angle φ [°]", "peak_friction_angle_deg"}));
 }
@@ -231,8 +231,8 @@ std::vector<Figure> write_study_report(Study const& study, std::vector<MemberRes
       "<p class=\"lead\">{} finished members in {} group{}, which differ in {}. Numbers are means over the seeds ± half of their "
       "95 % confidence interval (Student t).</p>\n",
       finished, groups.size(), groups.size() == 1 ? "" : "s", escaped(varied_keys(study)));
-  body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" + table(groups, result_columns(), "group") +
-          note_on_rising(study, members);
+  body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" +
+          table_of_groups(groups, result_columns(), "group") + note_on_rising(study, members);
   Piece overlays, multiples;
   for (ShownBand const& what : shown_bands) overlays += overlay(curves, what);
   body += "<h2>Curves</h2>\n" + side_by_side(std::move(overlays)) + strength_part(envelopes_by_material(study, members));

@@ -10,15 +10,15 @@
 #include "domain/measurement/test_numbers.hpp"
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
+#include "io/results/shown_units.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr double percent = 100, mega = 1e-6;
 constexpr char unknown[] = "–";
 
 /// A line below the other.
-std::string lines_of(std::string text) {
+std::string in_lines(std::string text) {
   for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos;) text.replace(at, 1, "<br>");
   return text;
 }
@@ -32,13 +32,13 @@ std::string count(std::optional<double> value) { return value ? grouped(*value) 
 /// What concerns only specimens with hydrate.
 std::string bonded(RunResults const& run, std::string const& text) { return run.has_bonds() ? text : unknown; }
 
-struct Quantity {
+struct TableRow {
   char const* name;
   char const* unit;
   std::function<std::string(RunResults const&, TestNumbers const&)> text;
 };
 
-std::vector<Quantity> specimen_quantities() {
+std::vector<TableRow> specimen_quantities() {
   using Run = RunResults const&;
   using Numbers = TestNumbers const&;
   return {
@@ -52,10 +52,10 @@ std::vector<Quantity> specimen_quantities() {
       {"void ratio at the start", "", [](Run r, Numbers) { return shown(r.history["void_ratio"].front(), "{:.4f}"); }},
       {"bonds at the start", "", [](Run r, Numbers) { return count(r.history["bonds_intact"].front()); }},
       {"bond law", "",
-       [](Run r, Numbers) { return r.has_bonds() ? lines_of(escaped(r.bond_variant())) : std::string("none (clean sand)"); }}};
+       [](Run r, Numbers) { return r.has_bonds() ? in_lines(escaped(r.bond_variant())) : std::string("none (clean sand)"); }}};
 }
 
-std::vector<Quantity> result_quantities() {
+std::vector<TableRow> result_quantities() {
   using Run = RunResults const&;
   using Numbers = TestNumbers const&;
   return {{"peak q", "MPa",
@@ -74,7 +74,7 @@ std::vector<Quantity> result_quantities() {
           {"intact bonds at the end", "%", [](Run r, Numbers n) { return bonded(r, shown(n.intact_end, "{:.1f}")); }}};
 }
 
-std::vector<Quantity> cost_quantities() {
+std::vector<TableRow> cost_quantities() {
   using Run = RunResults const&;
   using Numbers = TestNumbers const&;
   return {
@@ -153,7 +153,7 @@ std::string summary_table(std::vector<RunResults> const& runs) {
     head += "<th>" + escaped(run.name) + "</th>";
   }
   for (auto const& group : {specimen_quantities(), result_quantities(), cost_quantities()})
-    for (Quantity const& quantity : group) {
+    for (TableRow const& quantity : group) {
       rows += fmt::format("<tr><th>{}{}</th>", quantity.name,
                           *quantity.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", quantity.unit) : "");
       for (std::size_t i = 0; i < runs.size(); ++i) rows += cell(runs[i], quantity.text(runs[i], numbers[i]));

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr char format_name[] = "clathra checkpoint";
+constexpr char checkpoint_format[] = "clathra checkpoint";
 
 /// Of a checkpoint RUN/ckpt/0.h5.
 std::filesystem::path run_folder_of(std::filesystem::path const& checkpoint) { return checkpoint.parent_path().parent_path(); }
@@ -32,7 +32,7 @@ void write_discs(Hdf5File& file, DiscColumns const& discs) {
   for (DiscColumns::Column const& column : discs.history) file.write("rows/" + column.name, column.numbers(), "");
 }
 
-void write_events(Hdf5File& file, TestState const& state) {
+void write_test_events(Hdf5File& file, TestState const& state) {
   BreakEvents const& events = state.simulation.broken;
   write_event_columns(file, events);
   std::vector<std::uint8_t> taken;
@@ -47,7 +47,7 @@ void write_events(Hdf5File& file, TestState const& state) {
   file.write("events/y", y, "m");
 }
 
-void read_events(Hdf5File const& file, TestState& state, Ranks const& ranks) {
+void read_test_events(Hdf5File const& file, TestState& state, Ranks const& ranks) {
   std::int64_t const count = file.integer_attribute("events");
   if (count < 0) file.fail(ExitCode::bad_input, fmt::format("claims {} events", count));
   RowRange const rows = rows_of_rank(count, ranks);
@@ -132,7 +132,7 @@ void write_checkpoint_content(std::filesystem::path const& path, Scene const& sc
                       {"disc_columns", names.discs},
                       {"history_columns", names.history}};
   auto const write_content = [&](Hdf5File& file) {
-    file.set_attribute("format", std::string(format_name));
+    file.set_attribute("format", std::string(checkpoint_format));
     file.set_attribute("version", checkpoint_version);
     file.set_attribute("precision", std::string("double"));
     file.set_attribute("particles", total(lengths.size()));
@@ -141,14 +141,14 @@ void write_checkpoint_content(std::filesystem::path const& path, Scene const& sc
     file.set_attribute("state_hash", hash_text(state.hash));
     file.write_text("about", about.dump());
     write_discs(file, s.discs);
-    write_events(file, state);
+    write_test_events(file, state);
   };
   replace_hdf5_file(path, write_content, ranks);
 }
 
 TestState read_checkpoint_content(std::filesystem::path const& path, Scene const& scene, Ranks const& ranks) {
   Hdf5File const file = Hdf5File::open(path);
-  if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a checkpoint of Clathra");
+  if (file.text_attribute("format") != checkpoint_format) file.fail(ExitCode::bad_input, "is not a checkpoint of Clathra");
   if (std::int64_t const version = file.integer_attribute("version"); version != checkpoint_version)
     file.fail(ExitCode::refused, fmt::format("has version {}, this program reads {}", version, checkpoint_version));
   if (std::string const precision = file.text_attribute("precision"); precision != "double")
@@ -170,7 +170,7 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
     file.fail(ExitCode::bad_input, fmt::format("about: {}", problem.what()));
   }
   state.simulation.discs = read_discs(file, names, ranks);
-  read_events(file, state, ranks);
+  read_test_events(file, state, ranks);
   return state;
 }
 
@@ -178,7 +178,7 @@ std::string checkpoint_state_hash(std::filesystem::path const& path) { return Hd
 
 bool is_checkpoint(std::filesystem::path const& path) {
   Hdf5File const file = Hdf5File::open(path);
-  return file.has_attribute("format") && file.text_attribute("format") == format_name;
+  return file.has_attribute("format") && file.text_attribute("format") == checkpoint_format;
 }
 
 }  // namespace clathra

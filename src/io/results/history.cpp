@@ -13,7 +13,7 @@
 namespace clathra {
 namespace {
 
-struct Names {
+struct HistoryNames {
   std::vector<std::string> columns;
   template <class Value>
   void operator()(char const* name, Value const&) {
@@ -53,7 +53,7 @@ struct Parse {
 
 /// @throws FileProblem where a column of the record is missing
 void require_columns(std::vector<std::string> const& columns, std::filesystem::path const& path) {
-  Names wanted;
+  HistoryNames wanted;
   HistoryRow const row;
   for_each_column(row, wanted);
   for (std::string const& name : wanted.columns)
@@ -91,7 +91,7 @@ std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::u
 }
 
 HistoryFile::HistoryFile(std::filesystem::path path, bool energy) : file_(std::move(path)) {
-  Names names;
+  HistoryNames names;
   HistoryRow const row;
   EnergyRow const ledger;
   for_each_column(row, names);

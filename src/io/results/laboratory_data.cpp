@@ -11,13 +11,14 @@
 #include "io/errors/printable.hpp"
 #include "io/errors/problems.hpp"
 #include "io/formats/text_file.hpp"
+#include "io/results/shown_units.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr std::string_view header = "figure,name,saturation_pct,confining_stress_MPa,x,y";
-constexpr std::size_t largest_file = std::size_t{16} << 20;
-constexpr double percent = 100, mega = 1e6;
+constexpr std::string_view header_line = "figure,name,saturation_pct,confining_stress_MPa,x,y";
+constexpr std::size_t largest_laboratory_file = std::size_t{16} << 20;
+constexpr double pascals = 1e6;
 
 double number_of(std::string_view cell, char const* column, double least, double most) {
   double value = 0;
@@ -32,7 +33,7 @@ double number_of(std::string_view cell, char const* column, double least, double
 }
 
 void add_point(LaboratoryData& data, std::vector<std::string_view> const& cells) {
-  if (cells.size() != 6) throw std::invalid_argument(fmt::format("has {} cells, not 6 ({})", cells.size(), header));
+  if (cells.size() != 6) throw std::invalid_argument(fmt::format("has {} cells, not 6 ({})", cells.size(), header_line));
   LaboratorySeries series;
   series.figure = cells[0];
   series.name = cells[1];
@@ -40,9 +41,9 @@ void add_point(LaboratoryData& data, std::vector<std::string_view> const& cells)
   if (!curve && series.figure != "c" && series.figure != "phi")
     throw std::invalid_argument(fmt::format("column 'figure' must be q, eps_v, c or phi, got '{}'", printable(series.figure)));
   constexpr double most_y = 1e6;
-  double const factor = series.figure == "q" || series.figure == "c" ? mega : series.figure == "eps_v" ? 1 / percent : 1;
+  double const factor = series.figure == "q" || series.figure == "c" ? pascals : series.figure == "eps_v" ? 1 / percent : 1;
   series.saturation = curve ? number_of(cells[2], "saturation_pct", 0, 100) : 0;
-  series.confining_stress = curve ? mega * number_of(cells[3], "confining_stress_MPa", 1e-3, 1e3) : 0;
+  series.confining_stress = curve ? pascals * number_of(cells[3], "confining_stress_MPa", 1e-3, 1e3) : 0;
   double const x = curve ? number_of(cells[4], "x", -1, 100) / percent : number_of(cells[4], "x", 0, 100);
   double const y = factor * number_of(cells[5], "y", -most_y, most_y);
   auto const same = std::find_if(data.series.begin(), data.series.end(), [&](LaboratorySeries const& s) {
@@ -57,14 +58,14 @@ void add_point(LaboratoryData& data, std::vector<std::string_view> const& cells)
 }  // namespace
 
 LaboratoryData read_laboratory_data(std::filesystem::path const& path) {
-  std::string const text = read_text_file(path, largest_file);
+  std::string const text = read_text_file(path, largest_laboratory_file);
   LaboratoryData data{path.filename().string(), {}};
   bool headed = false;
   for (CsvRows rows(text); rows.next_or_rest();) {
     if (rows.text().empty() || rows.text().front() == '#') continue;
     if (!headed) {
-      if (rows.text() != header)
-        throw FileProblem(ExitCode::bad_input, path, fmt::format("line {} must be the header '{}'", rows.line(), header));
+      if (rows.text() != header_line)
+        throw FileProblem(ExitCode::bad_input, path, fmt::format("line {} must be the header '{}'", rows.line(), header_line));
       headed = true;
       continue;
     }

@@ -1,19 +1,19 @@
 #include "io/results/numbers_file.hpp"
 
-#include <numbers>
-
 #include "io/formats/text_file.hpp"
+#include "io/results/shown_units.hpp"
 #include "io/results/strength_groups.hpp"
 
 namespace clathra {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json json_of(std::optional<double> const& value, double factor = 1) { return value ? Json(*value * factor) : Json(); }
+OrderedJson json_of(std::optional<double> const& value, double factor = 1) {
+  return value ? OrderedJson(*value * factor) : OrderedJson();
+}
 
-Json json_of(PairedStrength const& strength, TestStresses const& tests) {
-  constexpr double degrees = 180 / std::numbers::pi;
+OrderedJson json_of(PairedStrength const& strength, TestStresses const& tests) {
   std::optional<Envelope> const& fit = strength.envelope;
   std::optional<EnvelopeErrors> const errors = fit ? fit->errors : std::nullopt;
   auto const of_errors = [&](double EnvelopeErrors::*number) { return errors ? std::optional((*errors).*number) : std::nullopt; };
@@ -31,8 +31,8 @@ Json json_of(PairedStrength const& strength, TestStresses const& tests) {
           {"still_rising", tests.rising}};
 }
 
-Json json_of(StrengthGroup const& group, std::vector<RunResults> const& runs) {
-  Json tests = Json::array();
+OrderedJson json_of(StrengthGroup const& group, std::vector<RunResults> const& runs) {
+  OrderedJson tests = OrderedJson::array();
   for (std::size_t const run : group.members) tests.push_back(runs[run].name);
   return {{"saturation", group.saturation / 100},
           {"tests", std::move(tests)},
@@ -42,8 +42,8 @@ Json json_of(StrengthGroup const& group, std::vector<RunResults> const& runs) {
 
 }  // namespace
 
-Json numbers_of(std::vector<RunResults> const& runs) {
-  Json of_runs = Json::array(), strength = Json::array();
+OrderedJson numbers_of(std::vector<RunResults> const& runs) {
+  OrderedJson of_runs = OrderedJson::array(), strength = OrderedJson::array();
   for (RunResults const& run : runs)
     of_runs.push_back({{"name", run.name},
                        {"folder", run.folder.string()},

@@ -19,7 +19,7 @@
 namespace clathra {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 struct JsonValue {
   Key const& key;
@@ -65,7 +65,7 @@ struct SetFromJson {
   }
 };
 
-Json program_json(RunRecord const& record) {
+OrderedJson program_json(RunRecord const& record) {
   return {{"version", record.version},
           {"git_hash", record.git_hash},
           {"compiler", compiler_name()},
@@ -78,8 +78,8 @@ Json program_json(RunRecord const& record) {
 }
 
 /// What the numbers mean, by their path.
-Json meaning_json(RunRecord const& record) {
-  Json meaning = {
+OrderedJson meaning_json(RunRecord const& record) {
+  OrderedJson meaning = {
       {"scene", "null where a key was not given and has no default"},
       {"wall_seconds.generate", "making the specimen"},
       {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; checkpoints read where it was resumed"},
@@ -92,8 +92,8 @@ Json meaning_json(RunRecord const& record) {
   return meaning;
 }
 
-Json input_json(RunRecord const& record) {
-  Json input = {{"digest_xxh3_128", text_digest(record.input.source)}, {"overrides", record.input.overrides}};
+OrderedJson input_json(RunRecord const& record) {
+  OrderedJson input = {{"digest_xxh3_128", text_digest(record.input.source)}, {"overrides", record.input.overrides}};
   if (!record.digests.specimen.empty()) input["specimen_digest_xxh3_128"] = record.digests.specimen;
   if (!record.digests.grading.empty()) input["grading_digest_xxh3_128"] = record.digests.grading;
   if (!record.checkpoint_digest.empty()) input["checkpoint_digest_xxh3_128"] = record.checkpoint_digest;
@@ -149,7 +149,7 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   Scene scene = record.input.scene;
   for (std::string* const file : {&scene.specimen.file, &scene.grading.file})
     if (!file->empty()) *file = std::filesystem::proximate(*file, path.parent_path()).string();
-  Json json;
+  OrderedJson json;
   json["format"] = "clathra run";
   json["program"] = program_json(record);
   json["input"] = input_json(record);
@@ -166,7 +166,7 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   if (!record.result_digests.empty()) json["result_digests_xxh3_128"] = record.result_digests;
   json["exit"] = {{"code", record.exit_code}, {"reason", record.exit_reason}};
   // Bytes of a file name that are no UTF-8 are replaced instead of making the record impossible.
-  replace_text_file(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  replace_text_file(path, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 }  // namespace clathra

@@ -16,7 +16,7 @@
 namespace clathra {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{1} << 30;
+constexpr std::size_t largest_result = std::size_t{1} << 30;
 constexpr char stage_column[] = "stage";
 
 double number_in(std::string_view cell, std::string const& column, std::size_t line, std::filesystem::path const& path) {
@@ -85,7 +85,7 @@ std::string folder_name(std::filesystem::path const& folder) {
 }
 
 nlohmann::json read_record(std::filesystem::path const& path) {
-  nlohmann::json record = nlohmann::json::parse(read_text_file(path, largest_file), nullptr, false);
+  nlohmann::json record = nlohmann::json::parse(read_text_file(path, largest_result), nullptr, false);
   if (!record.is_object()) throw FileProblem(ExitCode::bad_input, path, "is not a record of a run");
   return record;
 }
@@ -98,7 +98,7 @@ nlohmann::json const* find(nlohmann::json const& record, std::string const& at) 
 }  // namespace
 
 HistoryTable::HistoryTable(std::filesystem::path const& path) {
-  std::string const text = read_text_file(path, largest_file);
+  std::string const text = read_text_file(path, largest_result);
   std::vector<std::string> names;
   std::vector<bool> known;
   auto stage = names.end();

@@ -6,11 +6,10 @@
 
 #include "domain/measurement/curve_features.hpp"
 #include "domain/scene/hydrate.hpp"
+#include "io/results/shown_units.hpp"
 
 namespace clathra {
 namespace {
-
-constexpr double percent = 100;
 
 SeedNumbers scaled(SeedNumbers numbers, double factor) {
   for (auto& [seed, value] : numbers) value *= factor;

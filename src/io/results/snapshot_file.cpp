@@ -11,8 +11,8 @@
 namespace clathra {
 namespace {
 
-constexpr char format_name[] = "clathra snapshot";
-constexpr std::int64_t format_version = 1;
+constexpr char snapshot_format[] = "clathra snapshot";
+constexpr std::int64_t snapshot_version = 1;
 
 /// Visits every scalar of a snapshot: name, value, unit.
 template <class Any, class Visit>
@@ -125,7 +125,7 @@ void write_pairs(ColumnWriter const& out) {
   for_each_pair_column([&](auto const& column) { out.of_pairs(column); });
 }
 
-void write_events(Hdf5File& file, Snapshot const& s) {
+void write_broken_bonds(Hdf5File& file, Snapshot const& s) {
   write_event_columns(file, s.events);
   std::vector<double> position;
   for (BreakEvent const& e : s.events.rows) position.insert(position.end(), {e.x, e.y});
@@ -166,7 +166,7 @@ void read_pairs(Hdf5File const& file, Snapshot& s, std::size_t count) {
   for_each_pair_column([&](auto const& column) { read_column(file, "contacts/", count, column, s); });
 }
 
-void read_events(Hdf5File const& file, Snapshot& s) {
+void read_broken_bonds(Hdf5File const& file, Snapshot& s) {
   std::size_t const count = file.rows_of("events/step");
   s.events = read_event_columns(file, {count, 0, count});
   std::vector<double> const position = file.read<double>("events/position", count, 2);
@@ -181,8 +181,8 @@ void read_events(Hdf5File const& file, Snapshot& s) {
 void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot, Ranks const& ranks, SnapshotNumbers numbers) {
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
   auto const write_content = [&](Hdf5File& file) {
-    file.set_attribute("format", std::string(format_name));
-    file.set_attribute("version", format_version);
+    file.set_attribute("format", std::string(snapshot_format));
+    file.set_attribute("version", snapshot_version);
     file.set_attribute("step", snapshot.step);
     file.set_attribute("particles", total(snapshot.id.size()));
     file.set_attribute("contacts", total(snapshot.a.size()));
@@ -190,7 +190,7 @@ void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot,
     ColumnWriter const out{file, numbers, snapshot, ranks};
     write_discs(out);
     write_pairs(out);
-    write_events(file, snapshot);
+    write_broken_bonds(file, snapshot);
     std::vector<double> walls;
     if (ranks.root()) walls = {snapshot.left, snapshot.right, snapshot.bottom, snapshot.top};
     file.write("walls/position", walls, "m (left, right, bottom, top)");
@@ -200,9 +200,9 @@ void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot,
 
 Snapshot read_snapshot(std::filesystem::path const& path) {
   Hdf5File const file = Hdf5File::open(path);
-  if (file.text_attribute("format") != format_name) file.fail(ExitCode::bad_input, "is not a snapshot of Clathra");
-  if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
-    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
+  if (file.text_attribute("format") != snapshot_format) file.fail(ExitCode::bad_input, "is not a snapshot of Clathra");
+  if (std::int64_t const version = file.integer_attribute("version"); version != snapshot_version)
+    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, snapshot_version));
   std::int64_t const discs = file.integer_attribute("particles"), pairs = file.integer_attribute("contacts");
   if (discs < 1 || discs > 1'000'000'000 || pairs < 0 || pairs > 10'000'000'000)
     file.fail(ExitCode::bad_input, fmt::format("claims {} particles and {} contacts", discs, pairs));
@@ -211,13 +211,13 @@ Snapshot read_snapshot(std::filesystem::path const& path) {
   for_each_scalar(s, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
   read_discs(file, s, static_cast<std::size_t>(discs));
   read_pairs(file, s, static_cast<std::size_t>(pairs));
-  read_events(file, s);
+  read_broken_bonds(file, s);
   return s;
 }
 
 bool is_snapshot(std::filesystem::path const& path) {
   Hdf5File const file = Hdf5File::open(path);
-  return file.has_attribute("format") && file.text_attribute("format") == format_name;
+  return file.has_attribute("format") && file.text_attribute("format") == snapshot_format;
 }
 
 std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& run_folder) {

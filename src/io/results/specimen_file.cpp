@@ -19,8 +19,8 @@
 namespace clathra {
 namespace {
 
-constexpr char format_name[] = "clathra specimen";
-constexpr std::int64_t format_version = 2;
+constexpr char specimen_format[] = "clathra specimen";
+constexpr std::int64_t specimen_version = 2;
 
 constexpr double of_the_discs = std::numeric_limits<double>::quiet_NaN();
 
@@ -51,8 +51,8 @@ std::string path_of(ParticleColumn const& column) { return std::string("particle
 
 void write_content(Hdf5File& file, Specimen const& specimen, Ranks const& ranks) {
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
-  file.set_attribute("format", std::string(format_name));
-  file.set_attribute("version", format_version);
+  file.set_attribute("format", std::string(specimen_format));
+  file.set_attribute("version", specimen_version);
   file.set_attribute("particles", total(specimen.size()));
   file.set_attribute("contacts", total(specimen.contacts.size()));
   file.set_attribute("periodic", std::int64_t{specimen.periodic});
@@ -154,7 +154,7 @@ std::vector<int> read_ids(Hdf5File const& file, std::string const& name, RowRang
 void require_unit(Hdf5File const& file, std::string const& name, std::optional<std::string> const& stated, std::string unit) {
   unit = unit.substr(0, unit.find(" ("));
   if (!stated || stated->empty() || unit.empty() || stated->substr(0, stated->find(" (")) == unit) return;
-  file.fail(ExitCode::bad_input, fmt::format("{} is in {} by its unit; it must be in {}", name, clathra::quoted(*stated), unit));
+  file.fail(ExitCode::bad_input, fmt::format("{} is in {} by its unit; it must be in {}", name, quote_of(*stated), unit));
 }
 
 void require_units(Hdf5File const& file) {
@@ -245,12 +245,12 @@ double axial_strain_of(Hdf5File const& file) {
 /// This rank's rows of a specimen file, checked as far as they can be without the others'.
 Specimen read_rows_of(std::filesystem::path const& path, Ranks const& ranks, std::int64_t& discs) {
   Hdf5File const file = Hdf5File::open(path);
-  if (file.has_attribute("format") && file.text_attribute("format") != format_name)
+  if (file.has_attribute("format") && file.text_attribute("format") != specimen_format)
     file.fail(ExitCode::bad_input, "is not a specimen file of Clathra");
   require_complete(file);
   require_units(file);
-  if (std::int64_t const version = file.integer_attribute("version"); version != format_version)
-    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, format_version));
+  if (std::int64_t const version = file.integer_attribute("version"); version != specimen_version)
+    file.fail(ExitCode::bad_input, fmt::format("has version {}, this program reads {}", version, specimen_version));
   Specimen part;
   for (SpecimenNumber const& number : specimen_numbers) part.*number.of = read_number(file, number);
   part.periodic = read_switch(file, "periodic");

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "io/scene/schema.hpp"
+
 namespace clathra {
 namespace {
-
-constexpr char stress_key[] = "test.confining_stress";
 
 void add_test(StrengthGroup& group, RunResults const& run) {
   TestNumbers const n = test_numbers(run.history.curves());

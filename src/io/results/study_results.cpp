@@ -11,11 +11,11 @@
 #include "io/formats/digest.hpp"
 #include "io/results/run_record.hpp"
 #include "io/results/run_results.hpp"
+#include "io/scene/schema.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr char stress_key[] = "test.confining_stress";
 constexpr char const* state_names[] = {"waiting", "finished", "failed", "refused"};
 
 std::string number_cell(std::map<std::string, double> const& numbers, std::string const& name) {

@@ -12,12 +12,11 @@
 #include "domain/measurement/strain_field.hpp"
 #include "domain/measurement/test_numbers.hpp"
 #include "io/results/events.hpp"
+#include "io/results/shown_units.hpp"
 #include "io/results/snapshot_file.hpp"
 
 namespace clathra {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// A fabric counts what presses or holds each other.
 constexpr ContactSet counted_contacts = ContactSet::mechanical;

@@ -9,7 +9,7 @@
 namespace clathra {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_spaces(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   while (text.ends_with(' ')) text.remove_suffix(1);
   return text;
@@ -18,18 +18,18 @@ std::string_view trimmed(std::string_view text) {
 /// "B/4" and "B" as well as "0.25 B".
 double width_fraction(std::string_view text) {
   if (text.ends_with('B')) {
-    std::string_view const factor = trimmed(text.substr(0, text.size() - 1));
+    std::string_view const factor = without_spaces(text.substr(0, text.size() - 1));
     return factor.empty() ? 1 : parse_number(factor);
   }
-  std::string_view const rest = trimmed(text.substr(1));
-  if (!rest.starts_with('/')) throw std::invalid_argument(fmt::format("needs a part of B like \"B/4\", got {}", quoted(text)));
-  return 1 / parse_number(trimmed(rest.substr(1)));
+  std::string_view const rest = without_spaces(text.substr(1));
+  if (!rest.starts_with('/')) throw std::invalid_argument(fmt::format("needs a part of B like \"B/4\", got {}", quote_of(text)));
+  return 1 / parse_number(without_spaces(rest.substr(1)));
 }
 
 }  // namespace
 
 RollingLever parse_rolling_lever(std::string_view text) {
-  text = trimmed(text);
+  text = without_spaces(text);
   bool const has_width = text.starts_with('B') || text.ends_with('B');
   RollingLever lever;
   try {
@@ -38,12 +38,12 @@ RollingLever parse_rolling_lever(std::string_view text) {
         has_width ? width_fraction(text) : parse_quantity(text, Dimension::length);
   } catch (std::invalid_argument const&) {
     throw std::invalid_argument(
-        fmt::format("needs a length (\"1 mm\") or a part of the bond width B (\"0.25 B\", \"B/4\"), got {}{}", quoted(text),
+        fmt::format("needs a length (\"1 mm\") or a part of the bond width B (\"0.25 B\", \"B/4\"), got {}{}", quote_of(text),
                     text.find(',') == text.npos ? "" : "; a number has a decimal point"));
   }
   bool const in_range = has_width ? lever.width_fraction >= least_width_fraction && lever.width_fraction <= most_width_fraction
                                   : lever.length >= shortest_lever && lever.length <= longest_lever;
-  if (!in_range) throw std::invalid_argument(fmt::format("must lie in {}, got {}", rolling_lever_limits(), quoted(text)));
+  if (!in_range) throw std::invalid_argument(fmt::format("must lie in {}, got {}", rolling_lever_limits(), quote_of(text)));
   return lever;
 }
 

@@ -15,9 +15,9 @@
 namespace clathra {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-std::string limit_text(Key const& key, double value) {
+std::string limit_with_unit(Key const& key, double value) {
   if (key.kind != Kind::quantity && key.kind != Kind::quantities) return fmt::format("{:.0f}", value);
   std::string const text = format_quantity(value, key.dimension);
   bool const bare = text.find(' ') == std::string::npos && !bare_unit(key.dimension).empty();
@@ -59,29 +59,29 @@ std::string_view kind_text(Key const& key) {
   return "";
 }
 
-Json default_json(Key const& key) {
+OrderedJson default_json(Key const& key) {
   Scene const defaults;
   std::string const text = value_text(key, defaults);
   if (text.size() >= 2 && text.front() == '"') return text.substr(1, text.size() - 2);
-  return Json::parse(text);
+  return OrderedJson::parse(text);
 }
 
-Json key_json(Key const& key) {
-  Json json = {{"description", fmt::format("{}. Allowed: {}.", key.help, allowed_values(key))}};
+OrderedJson key_json(Key const& key) {
+  OrderedJson json = {{"description", fmt::format("{}. Allowed: {}.", key.help, allowed_values(key))}};
   if (!is_absent(key, Scene{})) json["default"] = default_json(key);
-  Json const text = {{"type", "string"}}, truth = {{"type", "boolean"}};
-  Json number = {{"type", key.kind == Kind::integer ? "integer" : "number"},
-                 {"minimum", key.takes_zero ? std::min(0.0, key.least) : key.least},
-                 {"maximum", key.most}};
+  OrderedJson const text = {{"type", "string"}}, truth = {{"type", "boolean"}};
+  OrderedJson number = {{"type", key.kind == Kind::integer ? "integer" : "number"},
+                        {"minimum", key.takes_zero ? std::min(0.0, key.least) : key.least},
+                        {"maximum", key.most}};
   switch (key.kind) {
     case Kind::quantity:
       if (key.dimension == Dimension::temperature)
         json.update(text);  // a bare one could be deg C or K
       else
-        json["anyOf"] = Json::array({number, text});
+        json["anyOf"] = OrderedJson::array({number, text});
       break;
     case Kind::quantities:
-      json.update({{"type", "array"}, {"items", {{"anyOf", Json::array({number, text})}}}});
+      json.update({{"type", "array"}, {"items", {{"anyOf", OrderedJson::array({number, text})}}}});
       break;
     case Kind::integer:
       json.update(number);
@@ -120,7 +120,7 @@ std::string_view stated_text(Key const& key, std::string_view source) {
 
 /// What 0 stands for: "0 (none), or 1 to 100", "0 (smooth) to 5".
 std::string range_text(Key const& key) {
-  std::string const least = limit_text(key, key.least), most = limit_text(key, key.most);
+  std::string const least = limit_with_unit(key, key.least), most = limit_with_unit(key, key.most);
   if (!key.takes_zero) return fmt::format("{} to {}", least, most);
   if (key.least == 0) return fmt::format("{} ({}) to {}", least, key.zero, most);
   return fmt::format("0 ({}), or {} to {}", key.zero, least, most);
@@ -203,14 +203,14 @@ std::string schema_markdown() {
 }
 
 std::string schema_json() {
-  Json root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-               {"title", "Clathra scene"},
-               {"type", "object"},
-               {"additionalProperties", false},
-               {"properties", Json::object()}};
+  OrderedJson root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                      {"title", "Clathra scene"},
+                      {"type", "object"},
+                      {"additionalProperties", false},
+                      {"properties", OrderedJson::object()}};
   for (Key const& key : schema()) {
-    Json& section = root["properties"][std::string(key.section())];
-    if (section.is_null()) section = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+    OrderedJson& section = root["properties"][std::string(key.section())];
+    if (section.is_null()) section = {{"type", "object"}, {"additionalProperties", false}, {"properties", OrderedJson::object()}};
     section["properties"][std::string(key.leaf())] = key_json(key);
   }
   return root.dump(2) + "\n";

@@ -13,6 +13,9 @@
 
 namespace clathra {
 
+/// Names of keys that tests are told apart or grouped by.
+inline constexpr char stress_key[] = "test.confining_stress", saturation_key[] = "hydrate.saturation";
+
 /// An enumeration of the scene, read and written by the place of its name in `Key::choices`.
 struct ChoiceField {
   int (*get)(Scene const&);

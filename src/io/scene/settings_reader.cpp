@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr char stress_key[] = "test.confining_stress";
 constexpr std::size_t most_letters = 200;
 
 /// Whether a text can be the name of a group and of its members' folders, which are not to be hidden.

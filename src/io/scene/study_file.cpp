@@ -21,8 +21,6 @@
 namespace clathra {
 namespace {
 
-constexpr char stress_key[] = "test.confining_stress";
-
 /// A piece of a file's name: "26 %" -> "26pct".
 std::string slug(std::string_view text) {
   std::string name;
