@@ -14,13 +14,18 @@ function(clathra_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
-# clathra_compile_together(TARGET): several sources of a target as one, where CLATHRA_COMPILE_TOGETHER says so. Not for the kernels,
-# whose machine code is measured, nor for devices.
+# clathra_compile_together(TARGET [ALONE sources...]): up to 16 sources of a target as one, where CLATHRA_COMPILE_TOGETHER says so;
+# the largest then takes 1.2 GB. Not the kernels, whose machine code is measured, and nothing for devices.
 function(clathra_compile_together target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
   if(CLATHRA_COMPILE_TOGETHER AND NOT CLATHRA_DEVICE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+    set_source_files_properties(${arg_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
 endfunction()
+
+# They bring in names, of toml++ and of two enumerations, that would hide those of other sources.
+set(clathra_io_alone ${PROJECT_SOURCE_DIR}/src/io/scene/guarded_toml.cpp ${PROJECT_SOURCE_DIR}/src/io/scene/schema.cpp)
 
 # clathra_layer(NAME LINK targets... [EXCLUDE regex]): the library of the current folder, from all its *.cpp and those of its
 # subfolders. A folder without sources makes an INTERFACE library, so that what stands above it can be configured.
@@ -37,9 +42,6 @@ function(clathra_layer name)
     target_compile_features(${name} PUBLIC cxx_std_20)
     target_link_libraries(${name} PUBLIC ${arg_LINK} PRIVATE clathra_flags)
     clathra_precompile(${name} <Kokkos_Core.hpp>)
-    if(NOT name STREQUAL clathra_kernels)
-      clathra_compile_together(${name})
-    endif()
   else()
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${include_folder})

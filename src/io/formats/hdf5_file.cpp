@@ -16,7 +16,6 @@
 #include "io/errors/rank_errors.hpp"
 
 namespace clathra {
-
 /// An HDF5 identifier that is closed when it goes. Errors of closing a column show again when the file is flushed.
 class Hdf5Id {
  public:

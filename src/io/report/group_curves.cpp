@@ -13,7 +13,6 @@
 #include "io/scene/schema.hpp"
 
 namespace clathra {
-namespace {}  // namespace
 
 std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<MemberResult> const& members,
                                           std::vector<std::filesystem::path> const& folders) {
