@@ -63,7 +63,15 @@ std::vector<Feature> features() {
   auto const rough = [](Simulation& s) { with_laws(s, [](SimulationLaws& l) { l.wall.friction = 0.3; }); };
   auto const ledger = [](Simulation& s) { s.set_ledger(true); };
   auto const marks = [](Simulation& s) { s.mark_start(); };
-  return {{"rolling resistance (`grains.rolling_width_factor`)", rolling, shape_factor(0), nothing},
+  auto const driven = [](AxisDrive (*lateral)(Assembly const&)) {
+    return [lateral](Simulation& s) { s.drive(lateral(s.assembly()), AxisDrive::at_rate(1e-3), 0, 0); };
+  };
+  auto const at_stress = driven([](Assembly const& a) { return AxisDrive::at_stress(a.stress().x, 1); });
+  auto const at_volume = driven([](Assembly const& a) { return AxisDrive::at_constant_area(a.area()); });
+  auto const at_mean = driven([](Assembly const& a) { return AxisDrive::at_constant_mean(a.stress().x, a.stress().y, 1e-5, 1); });
+  return {{"constant volume (`test.kind`)", rolling, at_stress, at_volume},
+          {"constant mean stress (`test.kind`)", rolling, at_stress, at_mean},
+          {"rolling resistance (`grains.rolling_width_factor`)", rolling, shape_factor(0), nothing},
           {"contact dashpots (`damping.viscous_ratio`)", rolling, nothing, dashpot},
           {"rough walls (`test.wall_friction`)", rolling, nothing, rough},
           {"energy ledger (`output.energy`)", rolling, nothing, ledger},

@@ -30,7 +30,7 @@ TestNumbers numbers_with(int records, bool taken_apart = false) {
   Columns columns;
   columns.add(test->record());
   while (!test->finished()) {
-    if (taken_apart && test->strain_fraction() > 0.5) {
+    if (taken_apart && test->fraction() > 0.5) {
       taken_apart = false;
       (void)test->advance(7);
       test = std::make_unique<BiaxialTest>(scene, test->state(), Ranks{});

@@ -88,12 +88,14 @@ TEST_P(StateIn, IsThatOfStepsOneByOneAfterManyAtOnce) {
 TEST(State, ComesToAHeightOfTheBoxInAsManyStepsAtOnceAsOneByOne) {
   Simulation one = between_servo_walls(Precision::full), many = between_servo_walls(Precision::full);
   double const height = one.assembly().walls().height() * (1 - 0.0113);
+  StepLimits limits;
+  limits.height.low = height;
   while (one.assembly().walls().height() > height) one.step();
-  many.step(1000000, height);
+  many.step(1000000, limits);
   EXPECT_GT(many.assembly().steps(), 100);
   EXPECT_EQ(many.assembly().steps(), one.assembly().steps());
   EXPECT_EQ(many.assembly().hash(), one.assembly().hash());
-  many.step(10, height);
+  many.step(10, limits);
   EXPECT_EQ(many.assembly().steps(), one.assembly().steps() + 1) << "below it one step at a time";
 }
 

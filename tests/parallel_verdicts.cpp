@@ -79,9 +79,9 @@ Verdict verdict_on(Scene const& scene) {
   BiaxialTest test(scene, small_specimen(), {});
   EXPECT_EQ(test.preparation().at("quasi_static"), 1);
   while (!test.finished()) (void)test.advance(1000);
-  StageRecord const checks = test.shear_checks();
+  StageRecord const checks = test.stage_results().front().numbers;
   return {test.preparation().at("quasi_static"), checks.at("checks"), checks.at("checks_unbalanced"),
-          checks.at("largest_unbalanced"), test.shear_warnings()};
+          checks.at("largest_unbalanced"), test.stage_results().front().warnings};
 }
 
 TEST(QuasiStatic, IsTakenBackByAShearThatIsNotBalancedWhateverIsWritten) {
@@ -161,12 +161,12 @@ TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
   scene.grains.shear_stiffness = 1.6e7;
   BiaxialTest test(scene, small_specimen(), {});
   while (!test.finished()) (void)test.advance(1000);
-  StageRecord const checks = test.shear_checks();
+  StageRecord const checks = test.stage_results().front().numbers;
   EXPECT_GT(checks.at("deep_overlap_share"), 0.01);
   EXPECT_GT(checks.at("deepest_overlap"), 0.1);
   EXPECT_LT(checks.at("deepest_overlap"), 1);
   bool said = false;
-  for (std::string const& text : test.shear_warnings())
+  for (std::string const& text : test.stage_results().front().warnings)
     said = said || text.find("overlapped by more than 10 % of the smaller radius") != std::string::npos;
   EXPECT_TRUE(said);
 }
@@ -210,7 +210,7 @@ TEST(Collapse, OfAForcedTestIsSaid) {
   scene.grains.normal_stiffness = 6e6, scene.grains.shear_stiffness = 4e6;
   BiaxialTest test(scene, small_specimen(), {});
   while (!test.finished()) (void)test.advance(1000);
-  EXPECT_TRUE(said(test.shear_warnings(), "guard ignored: the void ratio has fallen to"));
+  EXPECT_TRUE(said(test.stage_results().front().warnings, "guard ignored: the void ratio has fallen to"));
 }
 
 }  // namespace

@@ -71,28 +71,37 @@ void BiaxialRun::shear() {
   record.wall_seconds["prepare"] += preparing.seconds() - (generated ? record.wall_seconds.at("generate") : 0);
   record.stages["prepare"] = test->preparation();
   record.stages["plan"] = session_.plan_of(*test);
-  for (std::string const& warning : test->warnings()) warn(warning);
+  reporter_.say_new_warnings(*test);
   try {
     loop_.run(*test, preparing.seconds());
   } catch (...) {
-    record_shear(*test);
+    record_loading(*test);
     throw;
   }
-  record_shear(*test);
-  for (std::string const& warning : test->shear_warnings()) warn(warning);
-  for (std::string const& warning : reporter_.summary().warnings()) warn(warning);
+  record_loading(*test);
+  std::vector<StageResult> const stages = test->stage_results();
+  for (StageResult const& stage : stages)
+    for (std::string const& warning : stage.warnings)
+      warn(stages.size() > 1 ? fmt::format("in stage '{}': {}", stage.name, warning) : warning);
+  for (std::string const& warning : reporter_.warnings()) warn(warning);
   record.state_hash = test->state_hash();
   return_free_memory();
   write_specimen(session_.folder() / "final.h5", sheared_specimen(*test), session_.ranks());
 }
 
-/// The numbers of the shear, and what it has made of the verdict on the whole.
-void BiaxialRun::record_shear(BiaxialTest const& test) {
-  auto& stages = session_.record().stages;
-  stages["prepare"] = test.preparation();
-  if (test.axial_strain() == 0) return;  // it has not begun
-  stages["shear"] = reporter_.summary().numbers();
-  stages["shear"].merge(test.shear_checks());
+/// The numbers of the stages, and what they have made of the verdict on the whole.
+void BiaxialRun::record_loading(BiaxialTest const& test) {
+  RunRecord& record = session_.record();
+  record.stages["prepare"] = test.preparation();
+  if (test.loading_disc_steps() == 0) return;  // it has not begun
+  record.stage_ends.clear();
+  for (StageResult const& stage : test.stage_results()) {
+    StageRecord& numbers = record.stages[stage.name] = reporter_.summary_of(stage.name).numbers();
+    numbers.insert(stage.numbers.begin(), stage.numbers.end());
+    for (LoadingStage const& asked : stages_of(session_.scene()))
+      if (asked.name == stage.name) numbers.merge(loading_numbers(asked, reporter_.summary_of(stage.name).curves()));
+    record.stage_ends.push_back({stage.name, stage.ended_by});
+  }
 }
 
 Specimen BiaxialRun::sheared_specimen(BiaxialTest const& test) {

@@ -25,7 +25,7 @@ class BiaxialRun {
  private:
   void shear();
   std::unique_ptr<BiaxialTest> prepared_test();
-  void record_shear(BiaxialTest const& test);
+  void record_loading(BiaxialTest const& test);
   Specimen sheared_specimen(BiaxialTest const& test);
   ExitCode diverged(Diverged const& fault);
   ExitCode stopped(std::string const& cause);

@@ -16,7 +16,8 @@ std::string start_text(StageRecord const& prepare, double confining_stress) {
 void CurveSummary::add(HistoryRow const& row) {
   last_ = row;
   ++count_;
-  eps1_.push_back(row.eps1), eps_v_.push_back(row.eps_v), q_.push_back(row.q_Pa), sigma3_.push_back(row.sigma3_Pa);
+  curves_.eps1.push_back(row.eps1), curves_.eps_v.push_back(row.eps_v), curves_.sigma1.push_back(row.sigma1_Pa);
+  curves_.sigma3.push_back(row.sigma3_Pa), curves_.void_ratio.push_back(row.void_ratio), q_.push_back(row.q_Pa);
   intact_.push_back(row.bonds_intact_pct), largest_q_.push_back(row.largest_q_Pa), largest_q_eps1_.push_back(row.largest_q_eps1);
   dilation_.push_back(row.dilation_deg);
 }
@@ -24,7 +25,7 @@ void CurveSummary::add(HistoryRow const& row) {
 StageRecord CurveSummary::numbers() const {
   StageRecord numbers;
   if (count_ == 0) return numbers;
-  numbers = record_of(test());
+  if (last_.stage == shear_stage) numbers = record_of(test());
   numbers["records"] = count_;
   for (BreakModeNames const& m : break_modes) numbers[m.broken] = static_cast<double>(last_.broken[m.mode]);
   if (has_energy_ && energy_.boundary_work != 0) numbers["energy_residual"] = std::fabs(energy_residual());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "domain/measurement/history_row.hpp"
+#include "domain/measurement/loading_numbers.hpp"
 #include "domain/measurement/test_numbers.hpp"
 #include "domain/scene/stage.hpp"
 
@@ -19,7 +20,9 @@ class CurveSummary {
   void add(EnergyRow const& row) { energy_ = row, has_energy_ = true; }
 
   int records() const { return count_; }
-  /// Those of record_of(), the bonds broken by mode; energy_residual (part of the boundary work) where there is a ledger.
+  LoadingCurves const& curves() const { return curves_; }
+  /// Of a shear those of record_of(); the bonds broken by mode; energy_residual (part of the boundary work) where there is a
+  /// ledger.
   StageRecord numbers() const;
   /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work).
   std::vector<std::string> warnings() const;
@@ -29,9 +32,12 @@ class CurveSummary {
  private:
   double energy_residual() const { return energy_.boundary_work != 0 ? energy_.residual / energy_.boundary_work : 0; }
 
-  TestNumbers test() const { return test_numbers({eps1_, eps_v_, q_, sigma3_, intact_, largest_q_, largest_q_eps1_, dilation_}); }
+  TestNumbers test() const {
+    return test_numbers({curves_.eps1, curves_.eps_v, q_, curves_.sigma3, intact_, largest_q_, largest_q_eps1_, dilation_});
+  }
 
-  std::vector<double> eps1_, eps_v_, q_, sigma3_, intact_, largest_q_, largest_q_eps1_, dilation_;  // of all records
+  LoadingCurves curves_;                                                    // of all records
+  std::vector<double> q_, intact_, largest_q_, largest_q_eps1_, dilation_;  // likewise
   HistoryRow last_;
   EnergyRow energy_;
   bool has_energy_ = false;

@@ -114,6 +114,7 @@ constexpr ModelKey model[] = {
     {CLATHRA_MODEL(bond, critical_thickness_from), Of::bonded},
     {CLATHRA_MODEL(bond, after_consolidation), Of::bonded},
     {CLATHRA_MODEL(specimen, preparation_stress)},
+    {CLATHRA_MODEL(test, kind)},
     {CLATHRA_MODEL(test, confining_stress)},
     {CLATHRA_MODEL(test, wall_friction)},
     {CLATHRA_MODEL(test, consolidation_steps)},

@@ -146,7 +146,9 @@ std::string run_text(nlohmann::json const& record) {
                                      scene.test.confining_stress * 1e-6, scene.run.seed));
   }
   auto const& stages = record.at("stages");
-  for (char const* const stage : {"generate", "prepare", "plan", "shear"})
+  std::vector<std::string> names{"generate", "prepare", "plan"};
+  for (auto const& end : record.value("loading", nlohmann::json::array())) names.push_back(end.at("stage"));
+  for (std::string const& stage : names)
     if (stages.contains(stage)) text += stage_text(stage, stages.at(stage));
   for (auto const& [stage, seconds] : record.at("wall_seconds").items())
     text += fmt::format("{:<18} {} s\n", "time of " + stage, number_text(seconds));

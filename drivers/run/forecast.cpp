@@ -10,6 +10,8 @@
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/specimen_design.hpp"
+#include "io/scene/scene_value.hpp"
+#include "io/scene/schema.hpp"
 #include "machine/available_memory.hpp"
 #include "machine/threads.hpp"
 #include "run/expected_error.hpp"
@@ -29,6 +31,13 @@ std::string bytes_text(double bytes) {
 std::string bonds_text(HydrateScene const& hydrate) {
   return fmt::format("saturation {:.4g} %, {:.4g} degC, pore pressure {:.4g} MPa", hydrate.saturation * 100, hydrate.temperature,
                      hydrate.pore_pressure * 1e-6);
+}
+
+/// "biaxial: shear", "list: compression, shear"
+std::string test_text(Scene const& scene) {
+  std::string stages, kind = unquoted(value_text(*find_key("test.kind"), scene));
+  for (LoadingStage const& stage : stages_of(scene)) stages += (stages.empty() ? "" : ", ") + stage.name;
+  return kind + ": " + stages;
 }
 
 RateNumbers rate_of(StageRecord const& n) {
@@ -109,6 +118,7 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
                                        n.at("void_ratio")));
   text += table_row("d50", fmt::format("{:.4g} mm", n.at("d50_m") * 1e3));
   text += table_row("bonds", has_bonds(scene) ? bonds_text(scene.hydrate) : "none");
+  text += table_row("test", test_text(scene));
   text += table_row("confining stress", fmt::format("{:.4g} MPa", scene.test.confining_stress * 1e-6));
   std::string const rotation = scene.run.rotational_inertia_factor == 1
                                    ? ""

@@ -16,7 +16,7 @@ constexpr double strain_slack = 1e-9;  // of the interval: strains are sums of m
 }  // namespace
 
 RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks, BiaxialTest const& test,
-                   std::optional<RunProgress> const& before, double last_record)
+                   std::optional<RunProgress> const& before)
     : folder_(std::move(folder)), ranks_(std::move(ranks)), output_(scene.output) {
   on_root(ranks_, [&] {
     bool const events = output_.events && has_bonds(scene);
@@ -31,12 +31,12 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
   if (!output_.takes_snapshots()) return;
   std::vector<SnapshotEntry> const snapshots = before ? before->snapshots : std::vector<SnapshotEntry>();
   snapshots_.emplace(folder_, ranks_, snapshots, output_.lossless_snapshots ? SnapshotNumbers::full : SnapshotNumbers::rounded);
-  if (output_.snapshots > 0) interval_ = scene.test.axial_strain / output_.snapshots;
+  if (output_.snapshots > 0) interval_ = planned_path(scene) / output_.snapshots;
   if (!before) return;
   since_snapshot_ = test.events_after(snapshots.empty() ? -1 : snapshots.back().step);
-  if (interval_ > 0) regular_ = 1 + static_cast<int>(std::floor(last_record / interval_ + strain_slack));
+  if (interval_ > 0) regular_ = 1 + static_cast<int>(std::floor(test.path_of_last_record() / interval_ + strain_slack));
   auto const& strains = output_.snapshots_at;
-  given_ = static_cast<std::size_t>(std::upper_bound(strains.begin(), strains.end(), test.axial_strain()) - strains.begin());
+  given_ = static_cast<std::size_t>(std::upper_bound(strains.begin(), strains.end(), test.path()) - strains.begin());
 }
 
 /// The bonds that broke since the last call, into the rows and towards the next snapshot.
@@ -68,8 +68,8 @@ void RunFiles::write_consolidation(std::vector<HistoryRow> const& rows) {
 void RunFiles::write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy) {
   on_root(ranks_, [&] { write_row(row, energy); });
   take_events(test);
-  bool const regular = interval_ > 0 && row.eps1 >= (regular_ - strain_slack) * interval_;
-  bool const given = row.eps1 >= next_snapshot_at();
+  bool const regular = interval_ > 0 && test.path_of_last_record() >= (regular_ - strain_slack) * interval_;
+  bool const given = test.path_of_last_record() >= next_snapshot_at();
   if (!regular && !given) return;
   write_snapshot(test);
   if (regular) ++regular_;
@@ -80,7 +80,7 @@ double RunFiles::next_snapshot_at() const {
 }
 
 void RunFiles::write_snapshot_at(BiaxialTest& test) {
-  if (test.axial_strain() < next_snapshot_at()) return;
+  if (test.path() < next_snapshot_at()) return;
   take_events(test);
   write_snapshot(test);
 }
@@ -88,7 +88,7 @@ void RunFiles::write_snapshot_at(BiaxialTest& test) {
 void RunFiles::write_snapshot(BiaxialTest& test) {
   Snapshot snapshot = test.snapshot();
   snapshot.events = std::exchange(since_snapshot_, {});
-  while (next_snapshot_at() <= snapshot.eps1) ++given_;
+  while (next_snapshot_at() <= snapshot.path) ++given_;
   snapshots_->write(snapshot);
 }
 

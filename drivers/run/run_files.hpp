@@ -1,5 +1,5 @@
 #pragma once
-/// The files of a run that grow while its specimen is sheared: history, events, snapshots.
+/// The files of a run that grow while its specimen is loaded: history, events, snapshots.
 #include <optional>
 
 #include "io/results/checkpoint.hpp"
@@ -12,16 +12,17 @@ namespace clathra {
 /// All calls are collective; rank 0 writes the rows. All throw FileProblem.
 class RunFiles {
  public:
-  /// @param before  where the files of a run that goes on stood;  @param last_record  its last axial strain in history.csv
+  /// @param before  where the files of a run that goes on stood
   RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks, BiaxialTest const& test,
-           std::optional<RunProgress> const& before, double last_record);
+           std::optional<RunProgress> const& before);
 
   /// The rows of the stages before the shear, before its first record.
   void write_consolidation(std::vector<HistoryRow> const& rows);
   /// One record: its row, the bonds that broke since the last one, and a snapshot where one is due.
   /// @param energy  of the same moment, only with scene.output.energy
   void write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy);
-  /// The axial strain of the next snapshot that has a strain of its own (output.snapshots_at); infinite where there is none.
+  /// The path of the axial strain of the next snapshot that has one of its own (output.snapshots_at); infinite where there is
+  /// none.
   double next_snapshot_at() const;
   /// Writes it where that strain is reached.
   void write_snapshot_at(BiaxialTest& test);
@@ -42,7 +43,7 @@ class RunFiles {
   std::optional<EventsFile> events_;    // on rank 0
   std::optional<SnapshotSeries> snapshots_;
   BreakEvents since_snapshot_;  // on rank 0
-  double interval_ = 0;         // of the regular snapshots, in axial strain
+  double interval_ = 0;         // of the regular snapshots, in the path of the axial strain
   int regular_ = 0;             // of them have been written
   std::size_t given_ = 0;       // of those with a strain of their own lie behind
 };

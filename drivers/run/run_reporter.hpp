@@ -1,6 +1,6 @@
 #pragma once
 /// What the user sees of a run: progress, warnings, and the numbers of its curves at the end.
-#include <optional>
+#include <map>
 #include <string>
 
 #include "domain/biaxial/biaxial_test.hpp"
@@ -14,21 +14,30 @@ class RunReporter {
  public:
   ProgressLine& line() { return line_; }
   void warn(std::string const& text) { line_.warn(text); }
+  /// What the test has to say since it was asked last.
+  void say_new_warnings(BiaxialTest const& test);
 
   void add(HistoryRow const& row);
-  void add(EnergyRow const& row) { summary_.add(row); }
+  void add(EnergyRow const& row) { summaries_[last_.stage].add(row); }  ///< after its record
   HistoryRow const& last() const { return last_; }
-  CurveSummary const& summary() const { return summary_; }
+  int records() const;  ///< of the loading
+  /// Of a stage; without records where there are none.
+  CurveSummary const& summary_of(std::string const& stage) { return summaries_[stage]; }
+  /// In words: why the numbers are not to be trusted.
+  std::vector<std::string> warnings() const {
+    return summaries_.contains(last_.stage) ? summaries_.at(last_.stage).warnings() : std::vector<std::string>();
+  }
 
-  /// How far the shear is. @param speed  in words
-  void show(BiaxialTest const& test, double axial_strain, std::string const& speed);
-  /// Warnings again, and the lines on start, peak, residual state and bonds.
+  /// How far the test is. @param speed  in words
+  void show(BiaxialTest const& test, std::string const& speed);
+  /// Warnings again, and lines on the start and on each stage: peak, residual state and bonds of a shear.
   void say_end(RunRecord const& record, double confining_stress, std::filesystem::path const& folder);
 
  private:
   ProgressLine line_;
-  CurveSummary summary_;
+  std::map<std::string, CurveSummary> summaries_;  // of the stages
   HistoryRow last_;
+  std::size_t said_ = 0;  // warnings of the test
 };
 
 }  // namespace clathra

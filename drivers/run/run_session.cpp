@@ -87,7 +87,7 @@ Resumption RunSession::resume() {
   Resumption resumed = resume_run(found_, folder_, scene(), ranks_);
   resumed_ = resumed.checkpoint;
   for (std::string const& problem : resumed.passed_over) reporter_.warn("a checkpoint is passed over: " + problem);
-  reporter_.line().note(fmt::format("clathra: goes on from step {} of the shear", resumed_->step));
+  reporter_.line().note(fmt::format("clathra: goes on from step {} of the loading", resumed_->step));
   record_.checkpoint_digest = resumed_->digest;
   on_root(ranks_, [&] { earlier_ = earlier_sessions(folder_); });
   if (!earlier_.generate.empty()) record_.stages["generate"] = earlier_.generate;
@@ -95,7 +95,7 @@ Resumption RunSession::resume() {
   record_.wall_seconds = earlier_.wall_seconds;
   checkpoints_.emplace(folder_, ranks_, resumed_);
   for (HistoryEntry const& entry : resumed.history) {
-    if (entry.row.stage != shear_stage) continue;
+    if (is_consolidation(entry.row.stage)) continue;
     reporter_.add(entry.row);
     if (entry.energy) reporter_.add(*entry.energy);
   }
@@ -105,7 +105,7 @@ Resumption RunSession::resume() {
 
 StageRecord RunSession::plan_of(BiaxialTest const& test) const {
   StageRecord plan = earlier_.plan.empty() ? test.plan() : earlier_.plan;
-  plan["steps"] = std::ceil(scene().test.axial_strain / (plan.at("strain_rate_per_s") * plan.at("time_step_s")));
+  plan["steps"] = std::ceil(planned_path(scene()) / (plan.at("strain_rate_per_s") * plan.at("time_step_s")));
   return plan;
 }
 
@@ -120,7 +120,7 @@ void RunSession::conclude(ExitCode code, std::string const& reason) {
   on_root(ranks_, [&] {
     if (!begun_) return forget_next_specimen();
     write_record(code, reason);
-    if (reporter_.summary().records() < 2) return;
+    if (reporter_.records() < 2) return;
     try {
       write_report({folder_}, folder_ / "report.html");
     } catch (std::exception const& problem) {

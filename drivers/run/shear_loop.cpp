@@ -21,10 +21,9 @@ void ShearLoop::run(BiaxialTest& test, double preparing_seconds) {
   RunRecord& record = session_.record();
   Ranks const& ranks = session_.ranks();
   std::optional<FoundCheckpoint> const& resumed = session_.resumed_from();
-  files_.emplace(session_.folder(), session_.scene(), ranks, test, resumed ? std::optional(resumed->progress) : std::nullopt,
-                 reporter_.last().eps1);
-  Speedometer const clock(test.strain_fraction());
-  std::int64_t const steps_before = test.shear_disc_steps();
+  files_.emplace(session_.folder(), session_.scene(), ranks, test, resumed ? std::optional(resumed->progress) : std::nullopt);
+  Speedometer const clock(test.fraction());
+  std::int64_t const steps_before = test.loading_disc_steps();
   std::map<std::string, double> before = record.wall_seconds;
   double const searching_before = test.search_seconds(), every = session_.limits().checkpoint_every;
   if (!resumed) {
@@ -34,13 +33,13 @@ void ShearLoop::run(BiaxialTest& test, double preparing_seconds) {
   if (!resumed && every > 0 && ranks.any(preparing_seconds > 0.05 * every)) write_checkpoint(test);
   while (!test.finished()) {
     if (test.advance(pace_, files_->next_snapshot_at())) write_record_of(test);
+    reporter_.say_new_warnings(test);
     files_->write_snapshot_at(test);
-    record.disc_steps = test.shear_disc_steps();
+    record.disc_steps = test.loading_disc_steps();
     record.wall_seconds["shear"] = before["shear"] + clock.seconds();
     record.wall_seconds["neighbour_searches"] = before["neighbour_searches"] + test.search_seconds() - searching_before;
     record.disc_steps_per_second = static_cast<double>(record.disc_steps - steps_before) / clock.seconds();
-    reporter_.show(test, session_.scene().test.axial_strain,
-                   clock.text(test.strain_fraction(), record.disc_steps - steps_before));
+    reporter_.show(test, clock.text(test.fraction(), record.disc_steps - steps_before));
     poll(test);
   }
   if (session_.keeps_checkpoint()) write_checkpoint(test);

@@ -2,6 +2,7 @@
 /// What a step changes beside the discs, in the memory of the device: between steps nobody has to ask the host.
 #include "kernels/exact_sum.hpp"
 #include "kernels/moving_walls.hpp"
+#include "kernels/step_limits.hpp"
 
 namespace clathra {
 
@@ -32,7 +33,7 @@ struct ReferenceState {
 enum class StepStop : int {
   none,
   after_move,   ///< the discs have moved and may be displaced too far, or the host asked for it: their forces are missing
-  low_box,      ///< the box has become as low as the host waits for
+  at_limit,     ///< box or stresses have come to where the host waits for them
   out_of_range  ///< a force on a wall is not finite or beyond all scale: the step has not ended
 };
 
@@ -42,7 +43,7 @@ struct StepOrders {
   Real least_skin = 1;           ///< [m]
   Real reach = 0;                ///< of a pair, in skins
   Real skin_fraction = 1;        ///< that discs may be displaced by before the time step is updated
-  Real height = 0;               ///< of the box, at which steps stop [m]
+  StepLimits limits;             ///< beyond which steps stop
   bool follows_limit = false;    ///< whether the time step is ever updated
   bool host_synchronous = true;  ///< the host has a part in each step: other ranks, images of discs, a search
 };
@@ -131,7 +132,7 @@ struct StepState {
     time += orders.dt;
     ++step;
     begin_step();
-    if (box().height() <= orders.height) stop = StepStop::low_box;
+    if (!orders.limits.hold(box(), walls.place, walls.reactions)) stop = StepStop::at_limit;
   }
 };
 

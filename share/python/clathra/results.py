@@ -70,21 +70,21 @@ class Run:
         """The whole of history.csv, with all stages of the test; column `stage` names them."""
         return _table(os.path.join(self.folder, "history.csv"))
 
-    def _rows(self, of_shear):
+    def _rows(self, of_loading):
         stage = self.stages.get("stage", pandas.Series("shear", self.stages.index))
-        rows = self.stages[(stage == "shear") == of_shear].reset_index(drop=True)
+        rows = self.stages[~stage.str.startswith("consolidation") == of_loading].reset_index(drop=True)
         rows.attrs["units"] = self.stages.attrs["units"]
         return rows
 
     @cached_property
     def history(self) -> pandas.DataFrame:
-        """The rows of the shear in history.csv; `history.attrs["units"]` has the unit of each column."""
-        return self._rows(of_shear=True)
+        """The rows of the loading in history.csv, all but the consolidation; `history.attrs["units"]` has the unit of each column."""
+        return self._rows(of_loading=True)
 
     @cached_property
     def consolidation(self) -> pandas.DataFrame:
-        """The rows before the shear, with strains since the stage began: `run.consolidation.plot("p_Pa", "void_ratio")`."""
-        return self._rows(of_shear=False)
+        """The rows of the consolidation, with strains since it began: `run.consolidation.plot("p_Pa", "void_ratio")`."""
+        return self._rows(of_loading=False)
 
     @cached_property
     def events(self) -> pandas.DataFrame:

@@ -16,6 +16,7 @@ Snapshot BiaxialTest::snapshot() const {
   Snapshot snapshot = take_snapshot(s);
   snapshot.step = s.assembly().steps() - state_->first_step;
   snapshot.time = s.assembly().time() - state_->start_time;
+  snapshot.path = state_->path();
   snapshot.eps1 = state_->eps1();
   snapshot.eps_v = state_->eps_v();
   snapshot.d50 = state_->d50;
@@ -55,9 +56,19 @@ HistoryRow BiaxialTest::State::row(Measures const& m, double strain_rate) const 
   return row;
 }
 
+/// Of the stage where it has one, else of the faster pair of walls on the average since the row before [1/s].
+double BiaxialTest::State::rate_of_row() const {
+  if (place.sense != 0) return rate.strain_rate;
+  TestValues const v = values();
+  if (!(v.time > last_row.time)) return 0;
+  double const vertical = v.eps1 - last_row.eps1, lateral = v.eps_v - last_row.eps_v - vertical;
+  return std::max(std::abs(vertical), std::abs(lateral)) / (v.time - last_row.time);
+}
+
 HistoryRow BiaxialTest::record() {
   State& t = *state_;
-  HistoryRow row = t.row(t.measures(), t.rate.strain_rate);
+  HistoryRow row = t.row(t.measures(), t.rate_of_row());
+  t.last_row = t.values();
   row.dilation_deg = t.dilation.largest();
   t.simulation->watch_deviator();
   t.dilation.begin_record();
@@ -69,7 +80,7 @@ EnergyRow BiaxialTest::energy() {
   Measures const& m = state_->measures();
   DissipationTotals const lost = s.assembly().losses();
   EnergyRow row;
-  row.boundary_work = s.assembly().boundary_work();
+  row.boundary_work = s.assembly().boundary_work() + state_->work_of_turns;
   row.kinetic = m.kinetic;
   row.grain_elastic = m.grain_energy;
   row.bond_elastic = m.bond_energy;
@@ -123,6 +134,9 @@ void BiaxialTest::State::for_each_number(Visit&& visit) {
   visit("inertial_number", rate.inertial_number);
   visit("platen_wave_stress", rate.platen_wave_stress);
   for_each_energy_column(start, [&](std::string const& name, double& value) { visit("start_" + name, value); });
+  visit("work_of_turns", work_of_turns);
+  place.for_each_number(visit);
+  last_row.for_each_number("last_row", visit);
   watch.for_each_number(visit);
   dilation.for_each_number(visit);
 }
@@ -134,6 +148,7 @@ TestState BiaxialTest::state() const {
   s.events_taken = static_cast<std::size_t>(t.events_taken);
   s.hash = t.simulation->assembly().hash();
   t.for_each_number([&](std::string const& name, auto const& value) { s.numbers[name] = static_cast<double>(value); });
+  s.done = t.done;
   s.preparation = t.preparation;
   s.warnings = t.warnings;
   return s;
@@ -142,6 +157,7 @@ TestState BiaxialTest::state() const {
 BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks) : state_(std::make_unique<State>()) {
   State& t = *state_;
   t.scene = scene;
+  t.stages = stages_of(scene);
   t.ranks = ranks;
   t.for_each_number(
       [&](std::string const& name, auto& value) { value = static_cast<std::decay_t<decltype(value)>>(state.numbers.at(name)); });
@@ -151,6 +167,11 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   SimulationLaws laws = test_laws(scene, t.d50, state.simulation.numbers.at("critical_thickness"));
   laws.motion.damping = scene.damping.local;
   t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
+  t.done = state.done;
+  t.stage = t.now().name;
+  if (!t.place.over || t.end_reached()) return;
+  t.place.over = false;  // it is to go on further than it was
+  t.done.pop_back();
 }
 
 StageRecord BiaxialTest::plan() const {
@@ -161,7 +182,7 @@ StageRecord BiaxialTest::plan() const {
   plan["strain_rate_per_s"] = state_->rate.strain_rate;
   plan["inertial_number"] = state_->rate.inertial_number;
   plan["platen_wave_stress"] = state_->rate.platen_wave_stress;
-  plan["steps"] = std::ceil(state_->scene.test.axial_strain / (state_->rate.strain_rate * s.time_step));
+  plan["steps"] = std::ceil(planned_path(state_->scene) / (state_->rate.strain_rate * s.time_step));
   plan["width_m"] = s.assembly().walls().width();
   plan["height_m"] = s.assembly().walls().height();
   return plan;

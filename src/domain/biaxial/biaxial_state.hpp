@@ -1,12 +1,14 @@
 #pragma once
-/// Everything a running biaxial test knows; of biaxial_test.cpp and biaxial_records.cpp alone.
+/// Everything a running biaxial test knows; of the sources beside it alone.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "domain/biaxial/biaxial_test.hpp"
 #include "domain/biaxial/dilation_watch.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
+#include "domain/biaxial/stage_place.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/simulation/simulation.hpp"
@@ -16,23 +18,33 @@ namespace clathra {
 /// The laws of consolidation and shear: only what the scene needs. @param h_max  of the bonds [m], 0 = none
 SimulationLaws test_laws(Scene const& scene, double d50, double h_max);
 
+/// A motion of the box, closing positive [1/s].
+struct StrainRates {
+  double lateral = 0, vertical = 0;
+};
+
 struct BiaxialTest::State {
   Scene scene;
+  std::vector<LoadingStage> stages;  // of the scene
   Ranks ranks;
   std::unique_ptr<Simulation> simulation;
   StageRecord preparation;
   std::vector<std::string> warnings;
-  RateNumbers rate;
+  RateNumbers rate;  // of the stage
   double d50 = 0, height0 = 0, area0 = 0;
-  std::string stage = shear_stage;        // that the test is in
-  std::vector<HistoryRow> consolidation;  // of the stages before the shear
+  std::string stage = shear_stage;  // that the test is in
+  StagePlace place;                 // after the consolidation
+  std::vector<StageResult> done;    // stages
+  TestValues last_row;
+  std::vector<HistoryRow> consolidation;  // of the stages before the loading
   std::int64_t bonds0 = 0, records_due = 0, first_step = 0;
-  double record_interval = 0, start_time = 0;  // of axial strain; of the stage [s]
+  double record_interval = 0, start_time = 0;  // of the path; of the stage [s]
   std::int64_t disc_steps = 0;
   int events_taken = 0;                              // of those that this rank has seen
-  bool at_rest = false, began_quasi_static = false;  // when the shear began
+  bool at_rest = false, began_quasi_static = false;  // when the loading began
   EnergyRow start;
-  ShearWatch watch;
+  double work_of_turns = 0;  // what it took to set the discs in motion anew where stages begin and rates turn round [J/m]
+  ShearWatch watch;  // of the stage
   DilationWatch dilation;
   Measures measured;
   std::int64_t measured_after = -1;  ///< steps
@@ -40,26 +52,54 @@ struct BiaxialTest::State {
   void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   std::string text_of_scaling() const;
   MassScaling mass_scaling(std::vector<double> const& radii) const;
-  void begin_stage(char const* name);
+
+  // The consolidation:
+  void count_from_here(char const* stage_name);
   void consolidate(char const* stage_name, ProgressCallback const& progress);
   void approach(double stress, double closing_rate, std::int64_t most_steps, ProgressCallback const& progress);
   void record_consolidation(bool anyway);
   void require_rest(std::int64_t steps);
   void warn_of_density(double before, double made_under);
+
+  // The loading (loading.cpp):
+  void begin_loading();
+  void begin_stage(std::int64_t index);
+  void set_in_motion(StrainRates const& present);
+  StrainRates present_rates() const;
+  double signed_rate(SideScene const& side) const;
+  bool is_on(double stress, bool lateral) const;
+  AxisDrive drive_of(SideScene const& side, double strain_rate, bool lateral, StrainRates const& present) const;
+  void put_increment_on();
+  void reverse();
+  LoadingStage const& now() const { return stages[static_cast<std::size_t>(place.index)]; }
+  bool is_last() const { return place.index + 1 == static_cast<std::int64_t>(stages.size()); }
+
+  // How it goes on (stage_course.cpp):
+  bool advance(std::int64_t most_steps, double pause_at);
+  std::int64_t steps_to_look() const;
+  StepLimits limits(double pause_at) const;
+  bool look();
+  void look_at_rest();
+  void look_for_failure();
+  bool turn_is_due() const;
+  std::optional<std::string> end_reached() const;
+  void end_stage(std::string const& ended_by);
+  StageResult result(std::string const& ended_by) const;
+  double fraction() const;
+  /// Whether walls that are steered move as they like: then somebody has to look every now and then.
+  bool looks() const;
+
   void require_grains(double deep_share) const;
-  void begin_shear();
-  double next_record() const { return static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }
-  bool record_is_due() const { return eps1() >= next_record(); }
-  /// Of the box [m]: above it there is nothing to be seen to. A hair too high for the rounding, which costs a look at most.
-  double height_of_next_look(double pause_at) const {
-    double const last = scene.test.axial_strain * (1 - 1e-9);
-    return height0 * std::exp(-std::min({watch.next(), next_record(), last, pause_at})) * (1 + 1e-12);
-  }
   double eps1() const { return std::log(height0 / simulation->assembly().walls().height()); }
   double eps_v() const { return std::log(area0 / simulation->assembly().area()); }
+  double path() const { return place.path(eps1()); }
+  TestValues values() const;
+  double next_record() const { return static_cast<double>(records_due + 1) * record_interval * (1 - 1e-9); }
+  bool record_is_due() const;
   void check();
   /// @param m  of the specimen as it stands;  @param strain_rate  [1/s], for I and W
   HistoryRow row(Measures const& m, double strain_rate) const;
+  double rate_of_row() const;
   /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.
   Measures const& measures();
   double skin(std::vector<double> const& radii) const;  ///< of this rank's discs; collective

@@ -1,5 +1,5 @@
 #pragma once
-/// The biaxial test of a specimen: bond, consolidate, shear.
+/// A test of a specimen in a biaxial cell: bond, consolidate, and the stages of its loading.
 #include <limits>
 #include <map>
 #include <memory>
@@ -9,6 +9,7 @@
 #include "domain/measurement/history_row.hpp"
 #include "domain/measurement/snapshot.hpp"
 #include "domain/parallel/ranks.hpp"
+#include "domain/scene/loading_stage.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/specimen.hpp"
 #include "domain/scene/stage.hpp"
@@ -18,7 +19,16 @@ namespace clathra {
 
 struct TestState;
 
-/// Biaxial compression of a specimen (which is bonded first if the scene has hydrate and the specimen has no bonds).
+/// What a stage came to.
+struct StageResult {
+  std::string name;
+  std::string ended_by;  ///< "axial strain", ...; empty while it goes on
+  StageRecord numbers;
+  std::vector<std::string> warnings;  ///< what was not quasi-static, or not reached
+};
+
+/// The stages of a scene (stages_of()) on a specimen (which is bonded first if the scene has hydrate and the specimen has no
+/// bonds).
 class BiaxialTest {
  public:
   /// Bonds and consolidates. @throws Refused, Diverged, Stopped
@@ -29,7 +39,7 @@ class BiaxialTest {
 
   StageRecord const& preparation() const;  ///< numbers of bonding and consolidation, time step and its margin
   std::vector<std::string> const& warnings() const;
-  /// Rows of the stages before the shear: one wherever the mean stress has changed by a hundredth of the confining stress, and
+  /// Rows of the consolidation: one wherever the mean stress has changed by a hundredth of the confining stress, and
   /// both ends. None of a test that goes on from a state.
   std::vector<HistoryRow> const& consolidation() const;
 
@@ -38,22 +48,26 @@ class BiaxialTest {
   TestState state() const;
 
   bool finished() const;
-  /// Makes at most so many steps towards the next history row. @param pause_at  axial strain at which it returns before
-  /// @return whether the row is due;  @throws Diverged
+  LoadingStage const& stage() const;  ///< that it is in
+  /// Makes at most so many steps towards the next history row; a stage has one at its beginning and one at its end.
+  /// @param pause_at  path() at which it returns before
+  /// @return whether the row is due;  @throws Diverged; Refused where a stage cannot come to its end
   bool advance(std::int64_t most_steps, double pause_at = std::numeric_limits<double>::infinity());
-  HistoryRow record();             ///< measured now; what a row has of all steps since the row before begins anew
-  EnergyRow energy();              ///< only with scene.output.energy
-  BreakEvents take_events();       ///< broken bonds since the last call (none without output.events and snapshots), sorted
-                                   ///< by (step, id_a, id_b); on rank 0 only
-  double axial_strain() const;     ///< eps_1
-  double strain_fraction() const;  ///< eps_1 / target
-  /// What was not quasi-static or overlapped too far in the shear so far, in words and in numbers (shear_watch.hpp). The checks
-  /// have an interval of their own; preparation() holds the verdict `quasi_static`, 1 or 0, which they may take back.
-  std::vector<std::string> shear_warnings() const;
-  StageRecord shear_checks() const;
+  HistoryRow record();          ///< measured now; what a row has of all steps since the row before begins anew
+  EnergyRow energy();           ///< only with scene.output.energy
+  BreakEvents take_events();    ///< broken bonds since the last call (none without output.events and snapshots), sorted
+                                ///< by (step, id_a, id_b); on rank 0 only
+  double axial_strain() const;  ///< eps_1 since the consolidation
+  double path() const;          ///< of the axial strain, to and fro: it always grows
+  double path_of_last_record() const;
+  double fraction() const;      ///< of the stages that is done, as far as can be told
+  /// The stages so far, the last one as far as it is: what was not quasi-static or overlapped too far, in words and in numbers
+  /// (shear_watch.hpp). The checks have an interval of their own; preparation() holds the verdict `quasi_static`, 1 or 0, which
+  /// they may take back.
+  std::vector<StageResult> stage_results() const;
   BreakEvents events_after(std::int64_t step) const;  ///< those already taken that came later; on rank 0 only
   std::int64_t disc_steps() const;                    ///< of consolidation and shear
-  std::int64_t shear_disc_steps() const;              ///< since the shear began
+  std::int64_t loading_disc_steps() const;            ///< since the consolidation
   double search_seconds() const;  ///< wall time of the neighbour searches since the bonds were installed, or since resuming
   std::uint64_t state_hash() const;
   Specimen specimen() const;  ///< the present state, to go on from
@@ -61,8 +75,6 @@ class BiaxialTest {
   StageRecord plan() const;   ///< steps, dt, strain rate, I, W, wall time guess inputs
 
  private:
-  bool advance_unobserved(std::int64_t most_steps, double pause_at);
-
   struct State;
   std::unique_ptr<State> state_;
 };
@@ -73,6 +85,7 @@ struct TestState {
   std::size_t events_taken = 0;  ///< of simulation.broken, from the first on
   std::uint64_t hash = 0;        ///< of the whole simulation
   std::map<std::string, double> numbers;
+  std::vector<StageResult> done;  ///< stages
   StageRecord preparation;
   std::vector<std::string> warnings;
 };

@@ -22,9 +22,9 @@ constexpr double stress_of_row = 0.01;
 }  // namespace
 
 /// Rows count steps, time and strains from here.
-void BiaxialTest::State::begin_stage(char const* name) {
+void BiaxialTest::State::count_from_here(char const* stage_name) {
   Assembly const& a = simulation->assembly();
-  stage = name;
+  stage = stage_name;
   height0 = a.walls().height();
   area0 = a.area();
   first_step = a.steps();
@@ -69,7 +69,7 @@ void BiaxialTest::State::consolidate(char const* stage_name, ProgressCallback co
   constexpr double inertial_number = 2e-4;
   double const stress = scene.test.confining_stress;
   Simulation& s = *simulation;
-  begin_stage(stage_name);
+  count_from_here(stage_name);
   record_consolidation(true);
   prepare_servo(s, stress, inertial_number, d50, scene.run.step_choice());
   double const closing_rate = strain_rate_of(inertial_number, stress, s.assembly().facts.moving_density(), d50);

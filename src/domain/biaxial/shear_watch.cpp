@@ -38,13 +38,14 @@ void count(ShearChecks& all, ShearCheck const& check) {
 
 ShearCheck look_at_shear(Simulation const& simulation, Measures const& m, double eps1) {
   WallStress const stress = simulation.assembly().stress();
-  double const elastic = m.grain_energy + m.bond_energy + m.wall_energy,
-               target = simulation.assembly().now.walls.loading.x.target_stress;
+  double const elastic = m.grain_energy + m.bond_energy + m.wall_energy;
+  AxisDrive const& lateral = simulation.assembly().now.walls.loading.x;
   ShearCheck check;
   check.eps1 = eps1;
   check.q = stress.y - stress.x;
   check.sigma1 = stress.y;
-  check.stress_error = std::fabs(stress.x - target) / target;
+  if (lateral.kind == AxisDrive::Kind::stress)
+    check.stress_error = std::fabs(stress.x - lateral.target_stress) / lateral.target_stress;
   check.mismatch = stress_mismatch(simulation, m);
   check.unbalanced = m.unbalanced_ratio(simulation.assembly().discs());
   check.kinetic = elastic > 0 ? m.kinetic / elastic : 0;

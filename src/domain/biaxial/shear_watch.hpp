@@ -30,7 +30,7 @@ inline constexpr double deep_overlap_share = 0.05;
 /// What one check sees.
 struct ShearCheck {
   double eps1 = 0, q = 0, sigma1 = 0;  ///< on the walls [Pa]
-  double stress_error = 0;             ///< of sigma_3, over what it should be
+  double stress_error = 0;             ///< of sigma_3, over what it should be; 0 where it is not steered
   double mismatch = 0;                 ///< of q on walls and contacts, over p
   double unbalanced = 0, kinetic = 0;  ///< ratio of forces; energy over the elastic one
   double deep_share = 0, deepest = 0;  ///< of the contacts; overlap over the smaller radius

@@ -53,10 +53,14 @@ struct RestCriterion {
   double deviator = HUGE_VAL;  ///< of the stresses on the walls, over the stress that is held, at most, at the last check
 };
 
-/// What keeps a specimen from resting under an isotropic stress, in words with the numbers; empty where nothing does. It rests
-/// where the walls press with that stress within 0.5 %, the contacts inside with what that comes to (a wave on its way shows in
-/// them first; the shear of rough walls carries its part), and what `rest` asks for holds.
-std::string unrest(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest);
+/// What keeps a specimen from resting under two stresses, in words with the numbers; empty where nothing does. It rests where the
+/// walls press with them within 0.5 %, the contacts inside with what that comes to (a wave on its way shows in them first; the
+/// shear of rough walls carries its part), and what `rest` asks for holds.
+/// @param stress  [Pa]; nan where a pair of walls is not to have a certain one
+std::string unrest(Simulation const& simulation, Measures const& m, WallStress const& stress, RestCriterion const& rest);
+inline std::string unrest(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest) {
+  return unrest(simulation, m, WallStress{stress, stress}, rest);
+}
 
 /// Steps with walls steered to an isotropic stress until there is no unrest() in three checks on end, and no deviator at the
 /// last.

@@ -4,18 +4,15 @@
 #include <limits>
 #include <string>
 
+#include "domain/scene/loading_stage.hpp"
 #include "kernels/break_mode.hpp"
 
 namespace clathra {
 
-// Names of the stages of a test, in their order. The second is there where hydrate forms after the first.
-inline constexpr char consolidation_stage[] = "consolidation", hydrate_consolidation_stage[] = "consolidation with hydrate",
-                      shear_stage[] = "shear";
-
 /// Stresses are effective and positive in compression; sigma_1 is vertical, sigma_3 lateral (walls); eps_v = eps_1 + eps_3.
 struct HistoryRow {
-  std::string stage = shear_stage;  ///< or consolidation_stage, hydrate_consolidation_stage
-  std::int64_t step = 0;            ///< since the stage began, as time and strains
+  std::string stage = shear_stage;  ///< of the consolidation, or one of stages_of()
+  std::int64_t step = 0;            ///< since the consolidation ended, as time and strains; in it since it began
   double time_s = 0;
   double eps1 = 0, eps_v = 0;                               ///< natural strains
   double sigma1_Pa = 0, sigma3_Pa = 0, q_Pa = 0, p_Pa = 0;  ///< q = s1 - s3, p = (s1 + s3) / 2

@@ -24,7 +24,8 @@ inline constexpr int contact_state_count = 1 + break_mode_count;
 struct Snapshot {
   std::int64_t step = 0;                                ///< of the shear
   double time = 0;                                      ///< [s]
-  double eps1 = 0, eps_v = 0;                           ///< natural strains since the shear began
+  double path = 0;                                      ///< of the axial strain, to and fro; of a series
+  double eps1 = 0, eps_v = 0;                           ///< natural strains since the consolidation
   double left = 0, right = 0, bottom = 0, top = 0;      ///< walls [m]
   double sigma1 = 0, sigma3 = 0;                        ///< wall stresses [Pa]
   double density = 0, d50 = 0, critical_thickness = 0;  ///< of the grains [kg/m^3], [m]; h_max of the bonds [m], 0 = no bonds

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "domain/scene/loading_stage.hpp"
 #include "domain/scene/step_choice.hpp"
 #include "kernels/bond_kind.hpp"
 #include "kernels/precision.hpp"
@@ -80,18 +81,28 @@ struct BondScene {
   bool after_consolidation = true;  ///< bond at the confining stress instead
 };
 
-/// `[test]`: biaxial compression. Exactly one of inertial_number and strain_rate drives it; max_platen_wave_stress bounds the
-/// first. What the numbers after a semicolon say of a key's trade was measured (docs/explanation/accuracy.md).
+/// `[test]`: a kind of test in a biaxial cell, on a specimen that rests under confining_stress. Exactly one of inertial_number
+/// and strain_rate drives it; max_platen_wave_stress bounds the first. What the numbers after a semicolon say of a key's trade
+/// was measured (docs/explanation/accuracy.md).
 struct TestScene {
-  double confining_stress = 1e6;  ///< sigma_3 [Pa]
-  double axial_strain = 0.15;     ///< to reach
+  TestKind kind = TestKind::biaxial;  ///< stages_of()
+  double confining_stress = 1e6;      ///< sigma_3 [Pa]
+  double axial_strain = 0.15;         ///< to reach
   double inertial_number = 2e-4;  ///< I, 0 where strain_rate is given; 1e-3: peak of q of sand +5.6 +- 0.8 %, 2e-4: +0.7 +- 0.5 %
   double strain_rate = 0;         ///< [1/s]
   /// The rate of inertial_number is lowered until W is no larger, 0 = whatever it is; 20,000 discs at 55 %, 0.26: peak of q
   /// +1.4 +- 0.5 %, 0.2: +1.0 +- 0.5 %, 0.13: +0.3 +- 0.5 %.
   double max_platen_wave_stress = 0.13;
   double wall_friction = 0;
-  int consolidation_steps = 200000;  ///< at most
+  int consolidation_steps = 200000;  ///< at most; likewise of each increment of a stress
+  // Of kinds that ask for them:
+  double largest_stress = 0;                   ///< of isotropic and oedometer tests [Pa]; 0 = four times the confining stress
+  int increments = 20;                         ///< of these, on the way up and on the way down
+  std::vector<double> unload_at;               ///< axial strains, ascending; empty = half of axial_strain
+  std::vector<double> cyclic_deviator_stress;  ///< two, ascending [Pa]; empty = between axial strains of 0 and axial_strain
+  int cycles = 10;
+  double fluid_modulus = 0;  ///< K_w of constant_volume [Pa]; 0 = infinite
+  double dead_load = 0;      ///< deviator stress of a creep test [Pa]
 };
 
 /// `[damping]`: parts of the model. What the numbers after a semicolon say was measured (docs/explanation/accuracy.md).
@@ -150,6 +161,7 @@ struct Scene {
   TestScene test;
   RunScene run;
   OutputScene output;
+  std::vector<LoadingStage> stages;  ///< `[[stage]]`, of TestKind::list
 };
 
 }  // namespace clathra

@@ -15,6 +15,11 @@ void visit_numbers(std::string const& name, AxisDrive& drive, Visit&& visit) {
   visit(name + "_one_sided", drive.one_sided);
   visit(name + "_integral", drive.integral);
   visit(name + "_largest_speed", drive.largest_speed);
+  visit(name + "_held_area", drive.held_area);
+  visit(name + "_fluid_stiffness", drive.fluid_stiffness);
+  visit(name + "_held_stress", drive.held_stress);
+  visit(name + "_slow_stress", drive.slow_stress);
+  visit(name + "_filter_time", drive.filter_time);
 }
 
 template <class Visit>

@@ -29,8 +29,8 @@ class Simulation {
 
   /// Time steps of leapfrog: afterwards positions, forces and history are those of the new time, velocities lie half a step
   /// behind. Many at once are cheaper on a GPU than one by one, and the same to the bit.
-  /// @param count  of steps, or fewer: the first after which the box is as low as `until_height` [m] is the last
-  void step(std::int64_t count = 1, Real until_height = 0);
+  /// @param count  of steps, or fewer: the first after which box or stresses have left the limits is the last
+  void step(std::int64_t count = 1, StepLimits const& limits = {});
   void evaluate_forces();  ///< of the present state without advancing it
 
   // What can be read of it:

@@ -47,10 +47,10 @@ bool are_displaced(Assembly const& a, ReferenceState& reference, Field<Coord> co
 
 }  // namespace
 
-void Simulation::step(std::int64_t count, Real until_height) {
+void Simulation::step(std::int64_t count, StepLimits const& limits) {
   StepState& now = assembly_.now;
   std::int64_t const last = now.step + count;
-  now.orders.height = until_height;
+  now.orders.limits = limits;
   now.stop = StepStop::none;
   while (now.step < last && now.stop == StepStop::none) {
     if (time_steps_.follows() && (time_steps_.is_due() || assembly_.upkeep.is_asked())) update_time_step();

@@ -70,6 +70,7 @@ Piece stress_figure(std::vector<RunResults> const& runs) {
   Plot plot = plot_of(runs, {"deviator stress q [MPa]", "q_Pa", mega});
   plot.title = "Deviator stress against axial strain";
   for (RunResults const& run : runs) {
+    if (!run.has_peak()) continue;
     TestNumbers const n = test_numbers(run.history.curves());
     plot.description +=
         fmt::format("{}: {} {:.3g} MPa at {:.3g} %, residual {:.3g} MPa. ", run_label(run),

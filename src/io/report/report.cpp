@@ -7,6 +7,7 @@
 #include "io/formats/text_file.hpp"
 #include "io/report/curves.hpp"
 #include "io/report/grading_figure.hpp"
+#include "io/report/loading_figures.hpp"
 #include "io/report/map_figures.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/strength.hpp"
@@ -19,8 +20,13 @@ constexpr std::size_t largest_page = 4'800'000;  // bytes
 constexpr std::size_t most_runs_with_pictures = 8;
 
 std::string title_of(std::vector<RunResults> const& runs) {
-  return runs.size() == 1 ? "Biaxial compression: " + runs.front().name
-                          : fmt::format("Biaxial compression: {} runs", runs.size());
+  auto const kind_of = [](RunResults const& run) { return run.test_kind() == "list" ? "stages" : run.test_kind(); };
+  std::string kind = kind_of(runs.front());
+  for (RunResults const& run : runs)
+    if (kind_of(run) != kind) kind.clear();
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  std::string const what = kind == "biaxial" ? "Biaxial compression" : kind.empty() ? "Tests" : "Test, " + kind;
+  return runs.size() == 1 ? what + ": " + runs.front().name : fmt::format("{}: {} runs", what, runs.size());
 }
 
 /// A part of the page with its heading, or nothing where it is empty.
@@ -29,7 +35,8 @@ Piece part(std::string const& heading, Piece contents) {
 }
 
 Piece everything_but_pictures(std::vector<RunResults> const& runs) {
-  Piece text = part("Summary", summary_table(runs)) + part("Curves", side_by_side(curve_figures(runs)));
+  Piece text = part("Summary", summary_table(runs)) + part("Stages", stage_tables(runs)) +
+               part("Loading", side_by_side(loading_figures(runs))) + part("Curves", side_by_side(curve_figures(runs)));
   if (Piece strength = strength_figures(runs); !strength.empty()) text += part("Strength", side_by_side(std::move(strength)));
   if (Piece energy = energy_figures(runs); !energy.empty()) text += part("Energy", side_by_side(std::move(energy)));
   return text;

@@ -15,7 +15,7 @@
 namespace clathra {
 namespace {
 
-constexpr char unknown[] = "–";
+constexpr char without_value[] = "–";
 
 /// A line below the other.
 std::string in_lines(std::string text) {
@@ -24,18 +24,19 @@ std::string in_lines(std::string text) {
 }
 
 std::string shown(std::optional<double> value, char const* format, double factor = 1) {
-  return value && std::isfinite(*value) ? with_minus(fmt::format(fmt::runtime(format), *value * factor)) : unknown;
+  return value && std::isfinite(*value) ? with_minus(fmt::format(fmt::runtime(format), *value * factor)) : without_value;
 }
 
-std::string count(std::optional<double> value) { return value ? grouped(*value) : unknown; }
+std::string count(std::optional<double> value) { return value ? grouped(*value) : without_value; }
 
 /// What concerns only specimens with hydrate.
-std::string bonded(RunResults const& run, std::string const& text) { return run.has_bonds() ? text : unknown; }
+std::string bonded(RunResults const& run, std::string const& text) { return run.has_bonds() ? text : without_value; }
 
 struct TableRow {
   char const* name;
   char const* unit;
   std::function<std::string(RunResults const&, TestNumbers const&)> text;
+  bool of_peak = false;  ///< known of a compression only
 };
 
 std::vector<TableRow> specimen_quantities() {
@@ -58,20 +59,23 @@ std::vector<TableRow> specimen_quantities() {
 std::vector<TableRow> result_quantities() {
   using Run = RunResults const&;
   using Numbers = TestNumbers const&;
-  return {{"peak q", "MPa",
-           [](Run, Numbers n) { return shown(n.peak_q, "{:.3f}", mega) + (n.passed_peak ? "" : " (still rising)"); }},
-          {"axial strain at the peak", "%", [](Run, Numbers n) { return shown(n.peak_eps1, "{:.2f}", percent); }},
-          {"residual q", "MPa",
-           [](Run, Numbers n) {
-             return shown(n.residual_q, "{:.3f}", mega) +
-                    fmt::format(" ({:.3g}–{:.3g} %)", n.residual_from * percent, n.end_eps1 * percent);
-           }},
-          {"secant modulus E₅₀", "MPa", [](Run, Numbers n) { return shown(n.secant_modulus, "{:.4g}", mega); }},
-          {"volumetric strain at the peak", "%", [](Run, Numbers n) { return shown(n.eps_v_peak, "{:+.2f}", percent); }},
-          {"largest contraction", "%", [](Run, Numbers n) { return shown(n.largest_eps_v, "{:+.2f}", percent); }},
-          {"dilation angle ψ", "°", [](Run, Numbers n) { return shown(n.dilation_angle, "{:.1f}", 180 / std::numbers::pi); }},
-          {"volumetric strain at the end", "%", [](Run, Numbers n) { return shown(n.eps_v_end, "{:+.2f}", percent); }},
-          {"intact bonds at the end", "%", [](Run r, Numbers n) { return bonded(r, shown(n.intact_end, "{:.1f}")); }}};
+  std::vector<TableRow> all{
+      {"peak q", "MPa",
+       [](Run, Numbers n) { return shown(n.peak_q, "{:.3f}", mega) + (n.passed_peak ? "" : " (still rising)"); }},
+      {"axial strain at the peak", "%", [](Run, Numbers n) { return shown(n.peak_eps1, "{:.2f}", percent); }},
+      {"residual q", "MPa",
+       [](Run, Numbers n) {
+         return shown(n.residual_q, "{:.3f}", mega) +
+                fmt::format(" ({:.3g}–{:.3g} %)", n.residual_from * percent, n.end_eps1 * percent);
+       }},
+      {"secant modulus E₅₀", "MPa", [](Run, Numbers n) { return shown(n.secant_modulus, "{:.4g}", mega); }},
+      {"volumetric strain at the peak", "%", [](Run, Numbers n) { return shown(n.eps_v_peak, "{:+.2f}", percent); }},
+      {"largest contraction", "%", [](Run, Numbers n) { return shown(n.largest_eps_v, "{:+.2f}", percent); }},
+      {"dilation angle ψ", "°", [](Run, Numbers n) { return shown(n.dilation_angle, "{:.1f}", 180 / std::numbers::pi); }},
+      {"volumetric strain at the end", "%", [](Run, Numbers n) { return shown(n.eps_v_end, "{:+.2f}", percent); }},
+      {"intact bonds at the end", "%", [](Run r, Numbers n) { return bonded(r, shown(n.intact_end, "{:.1f}")); }}};
+  for (TableRow& quantity : all) quantity.of_peak = true;
+  return all;
 }
 
 std::vector<TableRow> cost_quantities() {
@@ -89,9 +93,10 @@ std::vector<TableRow> cost_quantities() {
       {"seed", "", [](Run r, Numbers) { return shown(r.number("/seed"), "{:.0f}"); }},
       {"program", "",
        [](Run r, Numbers) {
-         return escaped(r.text("/program/version").value_or(unknown) + " (" + r.text("/program/git_hash").value_or("?") + ")");
+         return escaped(r.text("/program/version").value_or(without_value) + " (" + r.text("/program/git_hash").value_or("?") +
+                        ")");
        }},
-      {"hash of the final state", "", [](Run r, Numbers) { return escaped(r.text("/state_hash").value_or(unknown)); }}};
+      {"hash of the final state", "", [](Run r, Numbers) { return escaped(r.text("/state_hash").value_or(without_value)); }}};
 }
 
 std::string joined(double low, double high, char const* unit, int digits) {
@@ -104,13 +109,28 @@ std::string range_text(std::vector<double> const& values, char const* unit, int 
   return joined(*low, *high, unit, digits);
 }
 
+/// Of a test that is not one compression.
+std::string sentence_on_stages(RunResults const& run) {
+  std::string names;
+  for (std::string const& stage : run.history.stages())
+    if (names.empty() || !names.ends_with("'" + stage + "'")) names += (names.empty() ? "'" : ", '") + stage + "'";
+  return count(run.number("/stages/plan/particles")) + " particles of " +
+         (run.has_bonds()
+              ? fmt::format("sand with {:.3g} % hydrate", run.number("/scene/hydrate/saturation").value_or(0) * percent)
+              : std::string("clean sand")) +
+         " went through these stages after the consolidation: " + names + ".";
+}
+
 std::string sentence_on_one(RunResults const& run) {
+  if (!run.has_peak()) return sentence_on_stages(run);
   TestNumbers const n = test_numbers(run.history.curves());
   double const saturation = run.number("/scene/hydrate/saturation").value_or(0) * percent;
   std::string text = count(run.number("/stages/plan/particles")) + " particles of ";
   text += run.has_bonds() ? fmt::format("sand with {:.3g} % hydrate", saturation) : "clean sand";
   text += fmt::format(" were compressed to an axial strain of {:.3g} %", n.end_eps1 * percent);
-  text += " under a lateral stress of " + shown(run.number("/scene/test/confining_stress"), "{:.3g}", mega) + " MPa: ";
+  text += (run.test_kind() == "biaxial" || run.test_kind() == "list" ? " under a lateral stress of "
+                                                                     : " from an isotropic stress of ") +
+          shown(run.number("/scene/test/confining_stress"), "{:.3g}", mega) + " MPa: ";
   text += n.passed_peak
               ? fmt::format("the deviator stress peaked at {:.3g} MPa at {:.3g} % strain and averaged {:.3g} MPa at the end",
                             n.peak_q * mega, n.peak_eps1 * percent, n.residual_q * mega)
@@ -125,6 +145,11 @@ std::string summary_sentence(std::vector<RunResults> const& runs) {
   if (runs.size() == 1) return sentence_on_one(runs.front());
   std::vector<double> saturations, stresses, peaks, strains;
   std::size_t rising = 0;
+  if (std::any_of(runs.begin(), runs.end(), [](RunResults const& run) { return !run.has_peak(); })) {
+    std::string text;
+    for (RunResults const& run : runs) text += run.name + ": " + sentence_on_one(run) + " ";
+    return text;
+  }
   for (RunResults const& run : runs) {
     TestNumbers const n = test_numbers(run.history.curves());
     saturations.push_back(run.number("/scene/hydrate/saturation").value_or(0) * percent);
@@ -149,14 +174,17 @@ std::string summary_table(std::vector<RunResults> const& runs) {
   std::vector<TestNumbers> numbers;
   std::string head = "<th>quantity</th>", rows;
   for (RunResults const& run : runs) {
-    numbers.push_back(test_numbers(run.history.curves()));
+    numbers.push_back(run.has_peak() ? test_numbers(run.history.curves()) : TestNumbers());
     head += "<th>" + escaped(run.name) + "</th>";
   }
   for (auto const& group : {specimen_quantities(), result_quantities(), cost_quantities()})
     for (TableRow const& quantity : group) {
+      if (quantity.of_peak && std::none_of(runs.begin(), runs.end(), [](RunResults const& run) { return run.has_peak(); }))
+        continue;
       rows += fmt::format("<tr><th>{}{}</th>", quantity.name,
                           *quantity.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", quantity.unit) : "");
-      for (std::size_t i = 0; i < runs.size(); ++i) rows += cell(runs[i], quantity.text(runs[i], numbers[i]));
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        rows += cell(runs[i], quantity.of_peak && !runs[i].has_peak() ? without_value : quantity.text(runs[i], numbers[i]));
       rows += "</tr>\n";
     }
   return std::string(several ? "<div class=\"scroll several\">" : "<div class=\"scroll\">") + "<table><thead><tr>" + head +

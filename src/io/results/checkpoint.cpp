@@ -26,7 +26,7 @@ std::filesystem::path file_of(std::filesystem::path const& run_folder, int gener
 Json content_json(FoundCheckpoint const& c) {
   Json snapshots = Json::array();
   for (SnapshotEntry const& e : c.progress.snapshots)
-    snapshots.push_back({{"file", e.file}, {"step", e.step}, {"eps1", e.eps1}, {"particles", e.discs}, {"pairs", e.pairs}});
+    snapshots.push_back({{"file", e.file}, {"step", e.step}, {"path", e.path}, {"particles", e.discs}, {"pairs", e.pairs}});
   return {{"version", checkpoint_version},
           {"sequence", c.sequence},
           {"step", c.step},
@@ -59,7 +59,7 @@ FoundCheckpoint checkpoint_of(Json const& content, std::filesystem::path const& 
   c.progress.history = rows_of("history");
   c.progress.events = rows_of("events");
   for (Json const& e : content.at("snapshots"))
-    c.progress.snapshots.push_back({e.at("file").get<std::string>(), e.at("step").get<std::int64_t>(), e.at("eps1").get<double>(),
+    c.progress.snapshots.push_back({e.at("file").get<std::string>(), e.at("step").get<std::int64_t>(), e.at("path").get<double>(),
                                     e.at("particles").get<std::size_t>(), e.at("pairs").get<std::size_t>()});
   return c;
 }

@@ -117,6 +117,21 @@ DiscColumns read_discs(Hdf5File const& file, RecordColumns const& names, Ranks c
   return columns;
 }
 
+Json stages_json(std::vector<StageResult> const& done) {
+  Json all = Json::array();
+  for (StageResult const& stage : done)
+    all.push_back({{"name", stage.name}, {"ended_by", stage.ended_by}, {"numbers", stage.numbers}, {"warnings", stage.warnings}});
+  return all;
+}
+
+std::vector<StageResult> stages_in(Json const& all) {
+  std::vector<StageResult> done;
+  for (Json const& stage : all)
+    done.push_back({stage.at("name").get<std::string>(), stage.at("ended_by").get<std::string>(),
+                    stage.at("numbers").get<StageRecord>(), stage.at("warnings").get<std::vector<std::string>>()});
+  return done;
+}
+
 }  // namespace
 
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks) {
@@ -126,6 +141,7 @@ void write_checkpoint_content(std::filesystem::path const& path, Scene const& sc
   auto const total = [&](std::size_t count) { return ranks.sum(static_cast<std::int64_t>(count)); };
   Json const about = {{"scene", scene_texts(scene, run_folder_of(path))},
                       {"test", state.numbers},
+                      {"stages_done", stages_json(state.done)},
                       {"preparation", state.preparation},
                       {"warnings", state.warnings},
                       {"simulation", s.numbers},
@@ -161,6 +177,7 @@ TestState read_checkpoint_content(std::filesystem::path const& path, Scene const
         scene_differences(about.at("scene").get<SceneTexts>(), scene, run_folder_of(path), Agreement::further);
     if (!different.empty()) file.fail(ExitCode::cannot_create, "is a checkpoint of another scene" + different);
     about.at("test").get_to(state.numbers);
+    state.done = stages_in(about.at("stages_done"));
     about.at("preparation").get_to(state.preparation);
     about.at("warnings").get_to(state.warnings);
     about.at("simulation").get_to(state.simulation.numbers);

@@ -14,6 +14,7 @@
 #include "io/results/stage_numbers.hpp"
 #include "io/scene/rolling_lever_text.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/stage_keys.hpp"
 #include "kernels/real.hpp"
 
 namespace clathra {
@@ -83,9 +84,10 @@ OrderedJson meaning_json(RunRecord const& record) {
       {"scene", "null where a key was not given and has no default"},
       {"wall_seconds.generate", "making the specimen"},
       {"wall_seconds.prepare", "bonding, consolidation and writing specimen.h5; checkpoints read where it was resumed"},
+      {"loading", "the stages after the consolidation in their order, and what each ended by; empty where it did not"},
       {"wall_seconds.shear", "steps, records and snapshots; neighbour_searches and checkpoints are parts of it"},
       {"wall_seconds", "of all sessions of a run that was resumed; one that was killed had not said how long it took"},
-      {"particle_steps", "particles times time steps, of the whole shear"},
+      {"particle_steps", "particles times time steps, of the whole loading"},
       {"particle_steps_per_second", "of the last session"}};
   for (auto const& [stage, numbers] : record.stages)
     for (auto const& [name, value] : numbers) meaning[fmt::format("stages.{}.{}", stage, name)] = meaning_of(stage, name);
@@ -129,6 +131,7 @@ nlohmann::json scene_json(Scene const& scene) {
   nlohmann::json json;
   for (Key const& key : schema())
     json[std::string(key.section())][std::string(key.leaf())] = std::visit(JsonValue{key, copy}, key.field);
+  for (LoadingStage const& stage : scene.stages) json["stage"].push_back(stage_texts(stage));
   return json;
 }
 
@@ -142,6 +145,9 @@ Scene scene_of(nlohmann::json const& json) {
     if (!section->contains(std::string(key.leaf()))) continue;
     std::visit(SetFromJson{key, scene, section->at(std::string(key.leaf()))}, key.field);
   }
+  if (auto const stages = json.find("stage"); stages != json.end())
+    for (auto const& stage : *stages)
+      scene.stages.push_back(stage_of_texts(stage.get<std::vector<std::pair<std::string, std::string>>>()));
   return scene;
 }
 
@@ -156,6 +162,8 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   json["seed"] = scene.run.seed;
   json["scene"] = scene_json(scene);
   json["stages"] = record.stages;
+  json["loading"] = Json::array();
+  for (StageEnding const& end : record.stage_ends) json["loading"].push_back({{"stage", end.stage}, {"ended_by", end.ended_by}});
   if (!record.layer_void_ratios.empty()) json["layer_void_ratios"] = record.layer_void_ratios;
   json["wall_seconds"] = record.wall_seconds;
   json["meaning"] = meaning_json(record);

@@ -15,6 +15,11 @@
 
 namespace clathra {
 
+/// How a stage of the loading ended: "axial strain", ...; empty where it did not.
+struct StageEnding {
+  std::string stage, ended_by;
+};
+
 /// Everything but what the program knows of itself. No user names, no environment.
 struct RunRecord {
   std::string version, git_hash;
@@ -23,11 +28,12 @@ struct RunRecord {
   std::string checkpoint_digest;  ///< of the checkpoint that the run went on from, if it did
   int threads = 0;                ///< of each rank
   int ranks = 1;
-  std::map<std::string, StageRecord> stages;  ///< "generate", "prepare", "plan", "shear"
+  std::map<std::string, StageRecord> stages;  ///< "generate", "prepare", "plan", and those of the loading by their names
+  std::vector<StageEnding> stage_ends;        ///< of the loading, in their order
   std::vector<double> layer_void_ratios;
   std::vector<std::string> warnings;
   std::map<std::string, double> wall_seconds;  ///< by stage
-  std::int64_t disc_steps = 0;                 ///< of the shear stage
+  std::int64_t disc_steps = 0;                 ///< of the loading
   double disc_steps_per_second = 0;
   std::optional<std::uint64_t> state_hash;            ///< of the final state
   std::map<std::string, std::string> result_digests;  ///< XXH3-128 by file, of a finished run

@@ -114,13 +114,16 @@ HistoryTable::HistoryTable(std::filesystem::path const& path) {
     if (cells.size() != names.size())
       throw FileProblem(ExitCode::bad_input, path,
                         fmt::format("line {}: {} cells, the header has {}", rows.line(), cells.size(), names.size()));
-    bool const shear = stage == names.end() || cells[static_cast<std::size_t>(stage - names.begin())] == shear_stage;
+    std::string const of =
+        stage == names.end() ? shear_stage : std::string(cells[static_cast<std::size_t>(stage - names.begin())]);
+    bool const loading = !is_consolidation(of);
     for (std::size_t i = 0; i < names.size(); ++i)
       if (known[i] && names[i] != stage_column)
-        (shear ? columns_ : before_)[names[i]].push_back(number_in(cells[i], names[i], rows.line(), path));
-    rows_ += shear ? 1 : 0;
+        (loading ? columns_ : before_)[names[i]].push_back(number_in(cells[i], names[i], rows.line(), path));
+    if (loading) stages_.push_back(of);
+    rows_ += loading ? 1 : 0;
   }
-  if (rows_ < 2) throw FileProblem(ExitCode::bad_input, path, "has fewer than two rows of the shear, there is nothing to draw");
+  if (rows_ < 2) throw FileProblem(ExitCode::bad_input, path, "has fewer than two rows of the loading, there is nothing to draw");
   if (!has("q_Pa")) {
     std::vector<double>& q = columns_["q_Pa"] = columns_["sigma1_Pa"];
     for (std::size_t i = 0; i < rows_; ++i) q[i] -= columns_["sigma3_Pa"][i];
@@ -160,6 +163,15 @@ std::optional<double> RunResults::number(std::string const& at) const {
 std::optional<std::string> RunResults::text(std::string const& at) const {
   nlohmann::json const* const value = find(record, at);
   return value && value->is_string() ? std::optional(value->get<std::string>()) : std::nullopt;
+}
+
+std::string RunResults::test_kind() const { return text("/scene/test/kind").value_or("biaxial"); }
+
+bool RunResults::has_peak() const {
+  std::vector<std::string> const& stages = history.stages();
+  bool const one =
+      std::all_of(stages.begin(), stages.end(), [](std::string const& one_stage) { return one_stage == shear_stage; });
+  return one && history["eps1"].back() > history["eps1"].front();
 }
 
 bool RunResults::has_bonds() const {

@@ -13,7 +13,7 @@
 namespace clathra {
 
 /// The columns of a history.csv that the program knows; others are passed over. Numbers may be inf or nan where the run diverged.
-/// Its rows are those of the shear.
+/// Its rows are those of the loading: all but the consolidation.
 class HistoryTable {
  public:
   /// A last line without its end is a row that is being written, and is left out.
@@ -26,7 +26,9 @@ class HistoryTable {
   bool has_all(std::vector<std::string> const& columns) const;
   /// A column; nan in each row where there is none of this name.
   std::vector<double> const& operator[](std::string const& column) const;
-  /// The same of the stages before the shear; empty where the history has none.
+  /// The stage of each row.
+  std::vector<std::string> const& stages() const { return stages_; }
+  /// A column of the consolidation; empty where the history has none.
   std::vector<double> before(std::string const& column) const;
   TestCurves curves() const {
     return {(*this)["eps1"],
@@ -42,7 +44,8 @@ class HistoryTable {
   std::vector<std::string> missing() const;
 
  private:
-  std::map<std::string, std::vector<double>> columns_, before_;  // of the shear, of the stages before it
+  std::map<std::string, std::vector<double>> columns_, before_;  // of the loading, of the consolidation
+  std::vector<std::string> stages_;
   std::vector<double> unknown_;
   std::size_t rows_ = 0;
 };
@@ -63,7 +66,10 @@ struct RunResults {
   /// @param at  a JSON pointer into run.json: "/scene/hydrate/saturation". Nothing where there is no such number or text.
   std::optional<double> number(std::string const& at) const;
   std::optional<std::string> text(std::string const& at) const;
-  bool has_bonds() const;            ///< were any intact at the start?
+  bool has_bonds() const;         ///< were any intact at the start?
+  std::string test_kind() const;  ///< that of its scene: "biaxial"
+  /// Whether its loading is one shear that closes: then it has a peak, and curves over the axial strain.
+  bool has_peak() const;
   std::string bond_variant() const;  ///< law, coupling, rolling lever, ... with their keys, a line each
 };
 

@@ -32,7 +32,7 @@ std::vector<std::filesystem::path> snapshot_files(std::filesystem::path const& r
 struct SnapshotEntry {
   std::string file;  ///< relative to the run's folder
   std::int64_t step;
-  double eps1;
+  double path;
   std::size_t discs, pairs;
 };
 

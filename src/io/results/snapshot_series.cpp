@@ -53,12 +53,12 @@ std::string pair_attributes(SnapshotEntry const& e, SnapshotNumbers numbers) {
   return text;
 }
 
-std::string grid(std::string const& name, double eps1, std::string const& topology, std::string const& geometry,
+std::string grid(std::string const& name, double path, std::string const& topology, std::string const& geometry,
                  std::string const& columns) {
   return fmt::format(
       "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n        {}\n        <Geometry "
       "GeometryType=\"XY\">{}</Geometry>\n{}      </Grid>\n",
-      name, eps1, topology, geometry, columns);
+      name, path, topology, geometry, columns);
 }
 
 std::string collection(std::string const& name, std::string const& grids) {
@@ -84,7 +84,7 @@ void SnapshotSeries::write(Snapshot const& snapshot) {
   std::string const name = fmt::format("snap/{:012d}.h5", snapshot.step);
   write_snapshot(folder_ / name, snapshot, ranks_, numbers_);
   auto const total = [&](std::size_t count) { return static_cast<std::size_t>(ranks_.sum(static_cast<std::int64_t>(count))); };
-  entries_.push_back({name, snapshot.step, snapshot.eps1, total(snapshot.id.size()), total(snapshot.a.size())});
+  entries_.push_back({name, snapshot.step, snapshot.path, total(snapshot.id.size()), total(snapshot.a.size())});
   on_root(ranks_, [this] {
     replace_text_file(folder_ / "particles.xdmf", particles_index());
     replace_text_file(folder_ / "contacts.xdmf", contacts_index());
@@ -98,7 +98,7 @@ std::string SnapshotSeries::particles_index() const {
     std::string const topology =
         fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>", e.discs,
                     data_item(e.file, "particles/index", e.discs, 1, int4));
-    grids += grid("particles", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8), disc_attributes(e));
+    grids += grid("particles", e.path, topology, data_item(e.file, "particles/position", e.discs, 2, float8), disc_attributes(e));
   }
   return collection("particles", grids);
 }
@@ -109,7 +109,7 @@ std::string SnapshotSeries::contacts_index() const {
     std::string const topology =
         fmt::format("<Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>", e.pairs,
                     data_item(e.file, "contacts/pair", e.pairs, 2, uint4));
-    grids += grid("contacts", e.eps1, topology, data_item(e.file, "particles/position", e.discs, 2, float8),
+    grids += grid("contacts", e.path, topology, data_item(e.file, "particles/position", e.discs, 2, float8),
                   pair_attributes(e, numbers_));
   }
   return collection("contacts", grids);

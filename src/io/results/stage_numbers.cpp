@@ -94,7 +94,34 @@ constexpr StageNumber numbers[] = {
     {"shear", "deepest_overlap", "deepest overlap of the checks over the smaller radius"},
     {"shear", "smallest_time_step_s", "smallest time step of the checks"},
     {"shear", "largest_time_step_s", "largest time step of the checks"},
-    {"shear", "time_step_renewals", "how often the time step was chosen anew"},
+    {"shear", "time_step_renewals", "how often the time step was chosen anew, since the specimen was prepared"},
+    {"shear", "steps", "time steps of the stage"},
+    {"shear", "path", "path of the axial strain within the stage, back and forth"},
+    {"shear", "strain_eps1", "change of the axial strain in the stage"},
+    {"shear", "strain_eps_v", "change of the volumetric strain in the stage"},
+    {"shear", "start_eps1", "axial strain since the consolidation at its beginning"},
+    {"shear", "start_sigma1_Pa", "vertical stress there"},
+    {"shear", "start_sigma3_Pa", "lateral stress there"},
+    {"shear", "start_void_ratio", "void ratio there"},
+    {"shear", "end_sigma1_Pa", "vertical stress at its end"},
+    {"shear", "end_sigma3_Pa", "lateral stress there"},
+    {"shear", "end_void_ratio", "void ratio there"},
+    {"shear", "bulk_modulus_Pa", "change of p = (sigma1 + sigma3) / 2 over change of the volumetric strain"},
+    {"shear", "constrained_modulus_Pa", "M_oed: change of sigma1 over change of the axial strain, without lateral strain"},
+    {"shear", "k0", "sigma3 / sigma1 at the end, without lateral strain"},
+    {"shear", "k0_of_increments", "change of sigma3 over change of sigma1 over the second half of the rows"},
+    {"shear", "secant_stiffness_Pa", "E_ur: change of q over change of the axial strain, first row to last"},
+    {"shear", "turns", "how often the rate turned round"},
+    {"shear", "damping_ratio", "area of the last loop of q over eps1, over 4 pi times the triangle below its half amplitudes"},
+    {"shear", "strain_per_cycle", "axial strain by which a cycle begins further than the one before, mean"},
+    {"shear", "largest_pore_pressure_Pa", "u = sigma3 at the beginning - sigma3, total lateral stress constant"},
+    {"shear", "largest_pore_pressure_ratio", "r_u = u over sigma3 at the beginning"},
+    {"shear", "phase_transformation_p_Pa", "least p, where p rises again by 1 % after it"},
+    {"shear", "phase_transformation_eps1", "axial strain there"},
+    {"shear", "failed", "1 where the specimen did not bear its dead load"},
+    {"shear", "failed_eps1", "axial strain where that was seen first"},
+    {"shear", "failed_q_Pa", "q there"},
+    {"shear", "failed_p_Pa", "p there"},
 };
 // clang-format on
 
@@ -104,7 +131,9 @@ constexpr std::string_view steps_name = "particle_steps", to_peak = "_to_peak";
 
 std::string meaning_of(std::string_view stage, std::string_view name) {
   if (name == steps_name) return "particles times time steps";
-  bool const before_peak = stage == "shear" && name.ends_with(to_peak);
+  bool const loading = stage != "generate" && stage != "prepare" && stage != "plan";
+  if (loading) stage = "shear";
+  bool const before_peak = loading && name.ends_with(to_peak);
   std::string_view const whole = before_peak ? name.substr(0, name.size() - to_peak.size()) : name;
   for (StageNumber const& number : numbers)
     if (number.stage == stage && number.name == whole)

@@ -5,7 +5,7 @@
 
 namespace clathra {
 
-/// Whose number it is: "generate", "prepare", "plan", "shear".
+/// Whose number it is: "generate", "prepare", "plan", or a stage of the loading.
 /// @return what `name` says in that stage, with its source equation; empty where nothing is known
 std::string meaning_of(std::string_view stage, std::string_view name);
 

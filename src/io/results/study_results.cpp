@@ -148,6 +148,15 @@ class Table {
   std::string text_;
 };
 
+/// "prepare", and the stages of the loading.
+std::vector<std::string> loading_stages(nlohmann::json const& record) {
+  std::vector<std::string> names{"prepare"};
+  auto const loading = record.find("loading");
+  if (loading == record.end()) return {"prepare", shear_stage};
+  for (auto const& end : *loading) names.push_back(end.at("stage").get<std::string>());
+  return names;
+}
+
 }  // namespace
 
 std::size_t GroupNumbers::without_peak() const {
@@ -163,10 +172,12 @@ void read_member(MemberResult& member, std::filesystem::path const& run_folder) 
     throw FileProblem(ExitCode::bad_input, history,
                       "is not the one that its run.json says the run wrote; without the folder the study runs this member anew");
   std::map<std::string, double> numbers;
-  for (char const* const stage : {"prepare", "shear"}) {
+  std::vector<std::string> const stages = loading_stages(run.record);
+  for (std::string const& stage : stages) {
     nlohmann::json const section = section_of(run.record, {"stages", stage}, run_folder);
+    bool const is_main = stage == "prepare" || stage == shear_stage || stages.size() == 2;
     for (auto const& [name, value] : section.items())
-      if (!value.is_null()) numbers[name] = number_at(section, name, run_folder);
+      if (!value.is_null()) numbers[is_main ? name : stage + "." + name] = number_at(section, name, run_folder);
   }
   nlohmann::json const seconds = section_of(run.record, {"wall_seconds"}, run_folder);
   double wall_seconds = 0;
@@ -174,7 +185,7 @@ void read_member(MemberResult& member, std::filesystem::path const& run_folder) 
   member.disc_steps_per_second = number_at(run.record, "particle_steps_per_second", run_folder);
   member.wall_seconds = wall_seconds;
   member.numbers = std::move(numbers);
-  TestNumbers const n = test_numbers(run.history.curves());
+  TestNumbers const n = run.has_peak() ? test_numbers(run.history.curves()) : TestNumbers();
   if (n.passed_peak) {
     member.peak = FailureStress{n.peak_sigma3 + n.peak_q, n.peak_sigma3};
     member.residual = FailureStress{n.residual_sigma3 + n.residual_q, n.residual_sigma3};

@@ -127,6 +127,32 @@ std::optional<SpecimenDesign> check_design(Check& check) {
   }
 }
 
+/// What the kinds of test need, and what they leave aside.
+void check_kind(Check& check) {
+  TestScene const& test = check.scene.test;
+  auto const only = [&](std::string_view key, std::initializer_list<TestKind> kinds) {
+    if (check.changed(key) && std::find(kinds.begin(), kinds.end(), test.kind) == kinds.end())
+      check.warn(fmt::format("{} has no effect with test.kind = {}", key, value_text(*find_key("test.kind"), check.scene)));
+  };
+  only("test.largest_stress", {TestKind::isotropic, TestKind::oedometer});
+  only("test.increments", {TestKind::isotropic, TestKind::oedometer});
+  only("test.unload_at", {TestKind::unload_reload});
+  only("test.cyclic_deviator_stress", {TestKind::cyclic});
+  only("test.cycles", {TestKind::cyclic});
+  only("test.fluid_modulus", {TestKind::constant_volume});
+  only("test.dead_load", {TestKind::creep});
+  if (test.kind == TestKind::creep && test.dead_load == 0)
+    check.error({"test.dead_load", "test.kind"}, "'test.kind' = \"creep\" needs 'test.dead_load'");
+  if (test.largest_stress > 0 && test.largest_stress <= test.confining_stress)
+    check.error({"test.largest_stress", "test.confining_stress"}, "'test.largest_stress' must be above 'test.confining_stress'");
+  if (test.kind == TestKind::unload_reload && !test.unload_at.empty() && test.unload_at.back() >= test.axial_strain)
+    check.error({"test.unload_at", "test.axial_strain"}, "'test.unload_at' must lie below 'test.axial_strain'");
+  if (!test.cyclic_deviator_stress.empty() && test.cyclic_deviator_stress.size() != 2)
+    check.error({"test.cyclic_deviator_stress"},
+                fmt::format("'test.cyclic_deviator_stress' needs two different values, {} are given",
+                            test.cyclic_deviator_stress.size()));
+}
+
 /// Exactly one of inertial_number and strain_rate; stating the rate replaces the default inertial number (see scene_file.cpp).
 void check_loading(Check& check) {
   TestScene const& test = check.scene.test;
@@ -140,6 +166,7 @@ void check_loading(Check& check) {
     check.error(
         {"test.max_platen_wave_stress", "test.strain_rate"},
         "'test.max_platen_wave_stress' lowers the rate of 'test.inertial_number': it cannot change a stated 'test.strain_rate'");
+  check_kind(check);
   if (check.scene.specimen.preparation_stress > test.confining_stress)
     check.error({"specimen.preparation_stress", "test.confining_stress"},
                 fmt::format("'specimen.preparation_stress' ({}) is above 'test.confining_stress' ({})",

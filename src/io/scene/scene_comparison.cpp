@@ -4,11 +4,14 @@
 
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/stage_keys.hpp"
 
 namespace clathra {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char stages_name[] = "stage";
 
 /// Keys that do not change what is computed. run.preset is a name for values of others.
 bool may_differ(Key const& key) {
@@ -40,6 +43,7 @@ SceneTexts scene_texts(Scene const& scene, fs::path const& folder) {
   if (std::string& file = relative.grading.file; !file.empty()) file = fs::proximate(file, folder).string();
   for (Key const& key : schema())
     if (!may_differ(key)) texts[std::string(key.name)] = value_text(key, relative);
+  if (!scene.stages.empty()) texts[stages_name] = stages_toml(scene.stages);
   return texts;
 }
 
@@ -51,6 +55,9 @@ std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path
     std::string const before = kept != then.end() ? kept->second : "not known";
     if (!states(key, before, now, folder)) text += fmt::format("; {} was {}, is {}", key.name, before, value_text(key, now));
   }
+  auto const kept = then.find(stages_name);
+  if ((kept != then.end() ? kept->second : std::string()) != stages_toml(now.stages))
+    text += "; the sections [[stage]] are others";
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "io/scene/scene_reference.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/stage_keys.hpp"
 
 namespace clathra {
 namespace {
@@ -71,9 +72,10 @@ struct Places {
 bool loads_to(Scene const& wanted, std::string const& text, std::filesystem::path const& folder) {
   try {
     Scene const loaded = parse_scene(text, "scene", folder).scene;
-    return std::all_of(schema().begin(), schema().end(), [&](Key const& key) {
-      return key.kind == Kind::path || value_text(key, loaded) == value_text(key, wanted);
-    });
+    return std::all_of(
+               schema().begin(), schema().end(),
+               [&](Key const& key) { return key.kind == Kind::path || value_text(key, loaded) == value_text(key, wanted); }) &&
+           stages_toml(loaded.stages) == stages_toml(wanted.stages);
   } catch (SceneProblems const&) {
     return false;
   }

@@ -14,6 +14,7 @@
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_guard.hpp"
 #include "io/scene/scene_value.hpp"
+#include "io/scene/stage_keys.hpp"
 
 namespace clathra {
 namespace {
@@ -73,6 +74,7 @@ class SceneReader {
     std::string const name = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
+    if (std::optional<StageSetting> const setting = stage_setting(name)) return override_stage(*setting, place, value);
     Key const* const key = find_key(name);
     if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
     overridden_.push_back(key->name);
@@ -88,6 +90,7 @@ class SceneReader {
     // Stating a strain rate replaces the default inertial number.
     if (scene_.test.strain_rate > 0 && !given("test.inertial_number")) scene_.test.inertial_number = 0;
     complete_box(scene_.specimen);
+    complete_stages();
     SceneFindings found = check_scene(scene_, [this](std::string_view name) { return given(name); });
     for (Finding& finding : found.problems) {
       // What is said of a key that could not even be read would only confuse.
@@ -194,7 +197,9 @@ class SceneReader {
       auto const* const inner = node.as<TomlTable>();
       bool const is_section = prefix.empty() && std::any_of(schema().begin(), schema().end(),
                                                             [&](Key const& key) { return key.section() == dotted; });
-      if (is_section && inner)
+      if (dotted == "stage")
+        read_stages(node, key_place);
+      else if (is_section && inner)
         read_table(*inner, dotted);
       else if (Key const* const key = find_key(dotted))
         read_value(*key, node);
@@ -228,21 +233,94 @@ class SceneReader {
   }
 
   void read_value(Key const& key, TomlNode const& node) {
-    set(key, {file_, node.line, node.column}, false, [&] {
-      if (auto const* const text = node.as<std::string>())
-        set_from_text(key, scene_, *text);
-      else if (auto const* const whole = node.as<std::int64_t>())
-        set_from_integer(key, scene_, *whole);
-      else if (auto const* const number = node.as<double>())
-        set_from_number(key, scene_, *number);
-      else if (auto const* const truth = node.as<bool>())
-        set_from_boolean(key, scene_, *truth);
-      else if (auto const* const list = node.as<TomlList>(); list && key.kind == Kind::quantities)
-        set_from_text(key, scene_, list_text(*list));
+    set(key, {file_, node.line, node.column}, false, [&] { assign(key, node); });
+  }
+
+  /// @throws std::invalid_argument
+  void assign(Key const& key, TomlNode const& node) {
+    if (auto const* const text = node.as<std::string>())
+      set_from_text(key, scene_, *text);
+    else if (auto const* const whole = node.as<std::int64_t>())
+      set_from_integer(key, scene_, *whole);
+    else if (auto const* const number = node.as<double>())
+      set_from_number(key, scene_, *number);
+    else if (auto const* const truth = node.as<bool>())
+      set_from_boolean(key, scene_, *truth);
+    else if (auto const* const list = node.as<TomlList>(); list && key.kind == Kind::quantities)
+      set_from_text(key, scene_, list_text(*list));
+    else
+      throw std::invalid_argument(node.as<TomlTable>() ? "is one value, not a section" : "needs one value, not a list or a date");
+  }
+
+  void read_stages(TomlNode const& node, Place const& place) {
+    auto const* const list = node.as<TomlList>();
+    if (!list) return report(place, "'stage' is a list of sections: write [[stage]] above the keys of each");
+    for (TomlNode const& item : *list) {
+      auto const* const table = item.as<TomlTable>();
+      Place const own{file_, item.line, item.column};
+      if (!table) return report(own, "a stage needs keys below its [[stage]]");
+      scene_.stages.emplace_back();
+      stage_places_.push_back(own);
+      read_stage(*table, "");
+    }
+  }
+
+  /// Of the last stage.
+  void read_stage(TomlTable const& table, std::string const& prefix) {
+    for (auto const& [name, line, column, node] : table.entries) {
+      std::string const dotted = prefix.empty() ? name : prefix + "." + name;
+      auto const* const inner = node.as<TomlTable>();
+      if (Key const* const key = find_stage_key(dotted))
+        set_in_stage(*key, {file_, node.line, node.column}, [&] { assign(*key, node); });
+      else if (inner && prefix.empty() && is_stage_section(dotted))
+        read_stage(*inner, dotted);
       else
-        throw std::invalid_argument(node.as<TomlTable>() ? "is one value, not a section"
-                                                         : "needs one value, not a list or a date");
-    });
+        spoil_stage({file_, line, column},
+                    fmt::format("unknown key '{}' in [[stage]]{}", dotted.substr(0, 60), stage_key_suggestion(dotted)));
+    }
+  }
+
+  template <class Set>
+  void set_in_stage(Key const& key, Place const& place, Set const& assign) {
+    try {
+      assign();
+      if (is_not_given(key, scene_)) throw std::invalid_argument("must not be 0: leave it out");
+    } catch (std::invalid_argument const& problem) {
+      spoil_stage(place, fmt::format("'{}' {}", key.name, problem.what()));
+    }
+  }
+
+  void spoil_stage(Place const& place, std::string text) {
+    report(place, std::move(text));
+    stages_spoilt_ = true;
+  }
+
+  void override_stage(StageSetting const& setting, Place const& place, std::string const& value) {
+    std::vector<LoadingStage>& stages = scene_.stages;
+    auto found = std::find_if(stages.begin(), stages.end(), [&](LoadingStage const& one) { return one.name == setting.stage; });
+    for (std::size_t i = 0; i < stages.size() && found == stages.end(); ++i)
+      if (setting.stage == std::to_string(i + 1)) found = stages.begin() + static_cast<std::ptrdiff_t>(i);
+    if (found == stages.end())
+      return report(place, fmt::format("there is no stage '{}': the file has {} of them in [[stage]]",
+                                       setting.stage.substr(0, 60), stages.size()));
+    std::iter_swap(found, stages.end() - 1);
+    set_in_stage(*setting.key, place, [&] { set_stated(*setting.key, scene_, value); });
+    std::iter_swap(found, stages.end() - 1);
+  }
+
+  /// Sections [[stage]] make the test a list; then test.kind needs not be stated.
+  void complete_stages() {
+    bool const is_list = scene_.test.kind == TestKind::list;
+    if (scene_.stages.empty()) {
+      if (is_list && !stages_spoilt_) report(place_of({"test.kind"}), "'test.kind' = \"list\" needs sections [[stage]]");
+      if (is_list) scene_.test.kind = TestKind::biaxial;  // for the checks that follow
+      return;
+    }
+    if (!is_list && places_.count("test.kind") != 0)
+      report(stage_places_.front(), "'test.kind' names a list of stages of its own: leave it out, or the sections [[stage]]");
+    scene_.test.kind = TestKind::list;
+    if (stages_spoilt_) return;
+    for (StageProblem const& problem : stage_problems(scene_.stages)) report(stage_places_[problem.stage], problem.text);
   }
 
   std::string file_;
@@ -252,7 +330,8 @@ class SceneReader {
   std::map<std::string_view, Place> places_;
   std::vector<std::string> spoilt_;  ///< keys and sections
   std::vector<std::string_view> overridden_;
-  bool readable_ = true;
+  std::vector<Place> stage_places_;
+  bool readable_ = true, stages_spoilt_ = false;
 };
 
 }  // namespace
@@ -285,7 +364,8 @@ std::string resolved_scene(Scene const& scene, std::filesystem::path const& fold
     else
       text += fmt::format("{} = {}\n", key.leaf(), value_text(key, relative));
   }
-  return text;
+  if (scene.test.kind == TestKind::list) return text + stages_toml(scene.stages);
+  return text + "\n# The stages that test.kind stands for:\n" + stages_toml(stages_of(scene), "# ");
 }
 
 }  // namespace clathra

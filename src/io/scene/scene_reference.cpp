@@ -11,6 +11,7 @@
 #include "io/scene/presets.hpp"
 #include "io/scene/rolling_lever_text.hpp"
 #include "io/scene/scene_value.hpp"
+#include "io/scene/stage_keys.hpp"
 
 namespace clathra {
 namespace {
@@ -174,6 +175,28 @@ std::string key_markdown(Key const& key) {
   return fmt::format("- **`{}`**: {}. *{}{}; default: {}*\n", key.leaf(), key.help, kind_text(key), allowed, default_text(key));
 }
 
+/// With its whole name.
+std::string stage_key_markdown(Key const& key) {
+  std::string const allowed = key.kind == Kind::text ? "" : ", " + allowed_values(key);
+  return fmt::format("- **`{}`**: {}. *{}{}; default: {}*\n", key.name, key.help, kind_text(key), allowed, default_text(key));
+}
+
+/// The JSON Schema of a [[stage]].
+OrderedJson stage_json() {
+  OrderedJson stage = {{"type", "object"}, {"additionalProperties", false}, {"properties", OrderedJson::object()}};
+  for (Key const& key : stage_schema()) {
+    std::string const leaf(key.leaf()), part(key.section());
+    if (leaf == part) {
+      stage["properties"][leaf] = key_json(key);
+      continue;
+    }
+    OrderedJson& section = stage["properties"][part];
+    if (section.is_null()) section = {{"type", "object"}, {"additionalProperties", false}, {"properties", OrderedJson::object()}};
+    section["properties"][leaf] = key_json(key);
+  }
+  return stage;
+}
+
 }  // namespace
 
 std::string schema_markdown() {
@@ -190,6 +213,12 @@ std::string schema_markdown() {
     }
     text += key_markdown(key);
   }
+  text +=
+      "\n## [[stage]]\n\nThe stages of a test that is a list (`test.kind = \"list\"`, which sections `[[stage]]` say by "
+      "themselves), in "
+      "their order after the consolidation ([how they work](../howto/stages.md)). `--set` and studies name a key of one by the "
+      "number or the name of the stage: `stage.2.until.path`.\n\n";
+  for (Key const& key : stage_schema()) text += stage_key_markdown(key);
   text +=
       "\n## Presets\n\nA preset stands in for the defaults of several keys; a key that the scene states keeps its value.\n"
       "\n### bond.preset\n\nWhat Jiang, He, Wang, Zhou and Zhu (2017, Comptes Rendus Mecanique 345 (12), 868-889) leave open, "
@@ -213,6 +242,7 @@ std::string schema_json() {
     if (section.is_null()) section = {{"type", "object"}, {"additionalProperties", false}, {"properties", OrderedJson::object()}};
     section["properties"][std::string(key.leaf())] = key_json(key);
   }
+  root["properties"]["stage"] = {{"type", "array"}, {"items", stage_json()}};
   return root.dump(2) + "\n";
 }
 
@@ -231,6 +261,7 @@ std::string commented_scene(Scene const& scene, std::vector<std::string_view> co
                    : fmt::format("\n{}{} = {}\n", given ? "" : "# ", key.leaf(),
                                  given && !source.empty() ? stated_text(key, source) : value_text(key, scene));
   }
+  if (scene.test.kind == TestKind::list) text += stages_toml(scene.stages);
   return text;
 }
 

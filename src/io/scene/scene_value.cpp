@@ -240,7 +240,12 @@ bool is_zero(Key const& key, Scene const& scene) {
   return std::visit(Visitor{scene}, key.field);
 }
 
-bool is_not_given(Key const& key, Scene const& scene) { return !key.zero.empty() && !key.takes_zero && is_zero(key, scene); }
+/// A number that may be 0 as well as missing is missing where it is no number.
+bool is_not_given(Key const& key, Scene const& scene) {
+  if (auto* const at = std::get_if<double& (*)(Scene&)>(&key.field); at && std::isnan(read(*at, Scene{})))
+    return std::isnan(read(*at, scene));
+  return !key.zero.empty() && !key.takes_zero && is_zero(key, scene);
+}
 
 std::string zero_problem(Key const& key) {
   bool const has_default = !is_zero(key, Scene{});

@@ -27,6 +27,10 @@ constexpr ChoiceField choice_at() {
 }
 
 using Names = std::string_view;
+constexpr std::array test_kinds = {Names("biaxial"),       Names("extension"),       Names("isotropic"),
+                                   Names("oedometer"),     Names("constant_volume"), Names("constant_mean_stress"),
+                                   Names("unload_reload"), Names("cyclic"),          Names("creep"),
+                                   Names("list")};
 constexpr std::array generators = {Names("under_compaction"), Names("compression")};
 constexpr std::array void_ratio_stages = {Names("preparation"), Names("test")};
 constexpr std::array tables = {Names("toyoura"), Names("uniform")};
@@ -90,13 +94,21 @@ Key const table[] = {
   {"damping.local", quantity, CLATHRA_FIELD(damping, local), "local damping while the specimen is sheared; part of the model (docs/explanation/accuracy.md)", ratio, 0, 0.95, "none", {}, true},
   {"damping.viscous_ratio", quantity, CLATHRA_FIELD(damping, viscous_ratio), "viscous damping of contacts over critical damping; part of the model (docs/explanation/accuracy.md)", ratio, 0, 1, "none", {}, true},
 
-  {"test.confining_stress", quantity, CLATHRA_FIELD(test, confining_stress), "effective lateral stress sigma_3", pressure, 1e3, 1e9},
+  {"test.kind", choice, CLATHRA_CHOICE(test, kind), "what follows the consolidation (docs/howto/stages.md); \"list\" are the sections [[stage]] of the scene", ratio, 0, 0, {}, test_kinds},
+  {"test.confining_stress", quantity, CLATHRA_FIELD(test, confining_stress), "effective isotropic stress of the consolidation, and lateral stress sigma_3 of the test", pressure, 1e3, 1e9},
   {"test.axial_strain", quantity, CLATHRA_FIELD(test, axial_strain), "natural axial strain at which the test ends", ratio, 1e-6, 0.5},
   {"test.inertial_number", quantity, CLATHRA_FIELD(test, inertial_number), "rate of the test, I = strain rate * d50 * sqrt(density / confining stress) (slower is more accurate: docs/explanation/accuracy.md)", ratio, 1e-12, 1, "strain_rate is given instead"},
   {"test.strain_rate", quantity, CLATHRA_FIELD(test, strain_rate), "axial strain rate, in place of inertial_number", rate, 1e-12, 1e6, "test.inertial_number decides"},
   {"test.max_platen_wave_stress", quantity, CLATHRA_FIELD(test, max_platen_wave_stress), "bound of W, stress of the wave that a platen sends out over sigma_3; a taller specimen is sheared slower (docs/explanation/accuracy.md)", ratio, 1e-6, 1000, "the rate is that of inertial_number", {}, true},
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5, "smooth", {}, true},
-  {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of a consolidation; a specimen not at rest by then is refused", ratio, 0, 1e9, "none", {}, true},
+  {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of a consolidation, and of an increment of stress; a specimen not at rest by then is refused", ratio, 0, 1e9, "none", {}, true},
+  {"test.largest_stress", quantity, CLATHRA_FIELD(test, largest_stress), "stress up to which kind \"isotropic\" or \"oedometer\" compresses, before it unloads", pressure, 1e3, 1e9, "four times test.confining_stress"},
+  {"test.increments", integer, CLATHRA_FIELD(test, increments), "increments by equal factors in which these put the stress on, and take it off", ratio, 1, 1e4},
+  {"test.unload_at", quantities, CLATHRA_FIELD(test, unload_at), "axial strains at which kind \"unload_reload\" unloads to q = 0; half of test.axial_strain where it states none", ratio, 1e-6, 0.5},
+  {"test.cyclic_deviator_stress", quantities, CLATHRA_FIELD(test, cyclic_deviator_stress), "two values of q between which kind \"cyclic\" goes back and forth; between the axial strains 0 and test.axial_strain where it states none", pressure, -1e9, 1e9},
+  {"test.cycles", integer, CLATHRA_FIELD(test, cycles), "cycles of kind \"cyclic\"", ratio, 1, 1e6},
+  {"test.fluid_modulus", quantity, CLATHRA_FIELD(test, fluid_modulus), "bulk modulus of the pore fluid in kind \"constant_volume\"; water has 2.2 GPa", pressure, 1e5, 1e12, "the fluid does not give way"},
+  {"test.dead_load", quantity, CLATHRA_FIELD(test, dead_load), "deviator stress that kind \"creep\" puts on and holds", pressure, 1e3, 1e9, "none"},
 
   {"run.preset", choice, CLATHRA_FIELD(run, preset), "trade-off between speed and accuracy; a key that is stated keeps its value (section Presets)", ratio, 0, 0, {}, run_presets().names},
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},

@@ -1,0 +1,154 @@
+#include "domain/scene/loading_stage.hpp"
+
+#include <utility>
+
+#include "domain/scene/scene.hpp"
+
+namespace clathra {
+
+namespace {
+
+/// Loaded at the rate of the test. @param sense  1 closes, -1 opens
+SideScene at_rate(TestScene const& test, double sense) {
+  SideScene side;
+  side.inertial_number = sense * test.inertial_number;
+  side.strain_rate = sense * test.strain_rate;
+  return side;
+}
+
+SideScene at_stress(double stress) {
+  SideScene side;
+  side.stress = stress;
+  return side;
+}
+
+SideScene held() {
+  SideScene side;
+  side.hold = true;
+  return side;
+}
+
+SideScene following(Follow follow) {
+  SideScene side;
+  side.follow = follow;
+  return side;
+}
+
+LoadingStage stage_of(std::string name, SideScene const& vertical, SideScene const& lateral) {
+  LoadingStage stage;
+  stage.name = std::move(name);
+  stage.vertical = vertical;
+  stage.lateral = lateral;
+  return stage;
+}
+
+/// Sheared by its platens to an axial strain.
+LoadingStage sheared(TestScene const& test, SideScene const& lateral) {
+  LoadingStage stage = stage_of(shear_stage, at_rate(test, 1), lateral);
+  stage.until.axial_strain = test.axial_strain;
+  return stage;
+}
+
+LoadingStage undrained(TestScene const& test) {
+  LoadingStage stage = sheared(test, following(Follow::constant_volume));
+  stage.lateral.fluid_modulus = test.fluid_modulus;
+  return stage;
+}
+
+LoadingStage opened(TestScene const& test) {
+  LoadingStage stage = stage_of("extension", at_rate(test, -1), at_stress(test.confining_stress));
+  stage.until.axial_strain = -test.axial_strain;
+  return stage;
+}
+
+/// Put on in increments up to test.largest_stress, and taken off again to the confining stress.
+std::vector<LoadingStage> compressed(TestScene const& test, bool isotropic) {
+  std::vector<LoadingStage> stages;
+  auto const add = [&](char const* name, double stress) {
+    LoadingStage stage = stage_of(name, at_stress(stress), isotropic ? at_stress(stress) : held());
+    stage.increments = test.increments;
+    stage.until.rest = true;
+    stages.push_back(stage);
+  };
+  add("compression", test.largest_stress > 0 ? test.largest_stress : 4 * test.confining_stress);
+  add("unloading", test.confining_stress);
+  return stages;
+}
+
+/// Sheared, at each strain of test.unload_at unloaded to q = 0 and loaded again.
+std::vector<LoadingStage> unloaded_and_reloaded(TestScene const& test) {
+  std::vector<LoadingStage> stages;
+  std::vector<double> const at = test.unload_at.empty() ? std::vector{test.axial_strain / 2} : test.unload_at;
+  LoadingStage loading = sheared(test, at_stress(test.confining_stress));
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    loading.until.axial_strain = at[i];
+    stages.push_back(loading);
+    LoadingStage unloading = stage_of("unloading " + std::to_string(i + 1), at_rate(test, -1), at_stress(test.confining_stress));
+    unloading.until.deviator_stress = 0;
+    stages.push_back(unloading);
+    loading.name = "reloading " + std::to_string(i + 1);
+  }
+  loading.until.axial_strain = test.axial_strain;
+  stages.push_back(loading);
+  return stages;
+}
+
+LoadingStage cycled(TestScene const& test) {
+  LoadingStage stage = stage_of("cycles", at_rate(test, 1), at_stress(test.confining_stress));
+  if (test.cyclic_deviator_stress.empty())
+    stage.turn.axial_strain = {0, test.axial_strain};
+  else
+    stage.turn.deviator_stress = test.cyclic_deviator_stress;
+  stage.until.cycles = test.cycles;
+  stage.until.path = longest_path * test.cycles;
+  return stage;
+}
+
+LoadingStage loaded_dead(TestScene const& test) {
+  LoadingStage stage = stage_of("dead load", at_stress(test.confining_stress + test.dead_load), at_stress(test.confining_stress));
+  stage.until.rest = true;
+  stage.until.axial_strain = test.axial_strain;
+  return stage;
+}
+
+}  // namespace
+
+std::vector<LoadingStage> stages_of(Scene const& scene) {
+  TestScene const& test = scene.test;
+  switch (test.kind) {
+    case TestKind::biaxial:
+      return {sheared(test, at_stress(test.confining_stress))};
+    case TestKind::extension:
+      return {opened(test)};
+    case TestKind::constant_volume:
+      return {undrained(test)};
+    case TestKind::constant_mean_stress:
+      return {sheared(test, following(Follow::constant_mean_stress))};
+    case TestKind::isotropic:
+    case TestKind::oedometer:
+      return compressed(test, test.kind == TestKind::isotropic);
+    case TestKind::unload_reload:
+      return unloaded_and_reloaded(test);
+    case TestKind::cyclic:
+      return {cycled(test)};
+    case TestKind::creep:
+      return {loaded_dead(test)};
+    case TestKind::list:
+      return scene.stages;
+  }
+  return {};
+}
+
+double planned_path(Scene const& scene) {
+  double path = 0, at = 0;
+  for (LoadingStage const& stage : stages_of(scene)) {
+    std::vector<double> const& turns = stage.turn.axial_strain;
+    if (!turns.empty()) path += 2 * stage.until.cycles * (turns.back() - turns.front());
+    if (!is_given(stage.until.axial_strain) || stage.has_stress_only()) continue;
+    path += std::abs(stage.until.axial_strain - at);
+    at = stage.until.axial_strain;
+  }
+  return path > 0 ? path : scene.test.axial_strain;
+}
+
+}  // namespace clathra

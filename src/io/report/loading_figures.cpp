@@ -1,0 +1,235 @@
+#include "io/report/loading_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain/scene/loading_stage.hpp"
+#include "domain/scene/scene.hpp"
+#include "io/report/curves.hpp"
+#include "io/report/markup.hpp"
+#include "io/report/plot.hpp"
+#include "io/results/run_record.hpp"
+#include "io/results/shown_units.hpp"
+#include "io/results/stage_numbers.hpp"
+
+namespace clathra {
+namespace {
+
+/// The stages that a run was asked for.
+std::vector<LoadingStage> stages_of_run(RunResults const& run) {
+  auto const scene = run.record.find("scene");
+  return scene == run.record.end() ? std::vector<LoadingStage>() : stages_of(scene_of(*scene));
+}
+
+bool is_compression_alone(RunResults const& run) { return run.test_kind() == "biaxial"; }
+
+/// The rows of the stages that a question says yes to.
+template <class Wanted>
+std::vector<std::size_t> rows_where(RunResults const& run, Wanted const& wanted) {
+  std::vector<std::size_t> rows;
+  std::vector<LoadingStage> const stages = stages_of_run(run);
+  for (std::size_t i = 0; i < run.history.rows(); ++i)
+    for (LoadingStage const& stage : stages)
+      if (stage.name == run.history.stages()[i] && wanted(stage)) rows.push_back(i);
+  return rows;
+}
+
+/// Columns of those rows. @param x,y  functions of (history, row)
+template <class Wanted, class X, class Y>
+Curve curve_where(RunResults const& run, std::size_t number, Wanted const& wanted, X const& x, Y const& y) {
+  Curve curve{run_label(run), {}, {}, run_stroke(number)};
+  for (std::size_t const i : rows_where(run, wanted)) {
+    curve.x.push_back(x(run.history, i));
+    curve.y.push_back(y(run.history, i));
+  }
+  return curve;
+}
+
+auto column(char const* name) {
+  return [name](HistoryTable const& history, std::size_t i) { return history[name][i]; };
+}
+
+/// Draws curves of two points and more over two axes that hold zero.
+Piece figure_of(char const* heading, char const* title, Variable const& x, Variable const& y, std::vector<Curve> curves,
+                std::string const& caption) {
+  std::erase_if(curves, [](Curve const& curve) { return curve.x.size() < 2; });
+  if (curves.empty()) return "";
+  Plot plot;
+  Range over, values;
+  for (Curve const& curve : curves) {
+    over.include(curve.x);
+    values.include(curve.y);
+    plot.description += fmt::format("{}: {:.3g} at {:.3g}, {:.3g} at {:.3g} at the end. ", curve.name, curve.y.front() * y.factor,
+                                    curve.x.front() * x.factor, curve.y.back() * y.factor, curve.x.back() * x.factor);
+  }
+  plot.title = title;
+  plot.curves = std::move(curves);
+  plot.x = over.axis(x);
+  plot.y = values.axis(y);
+  return figure(heading, drawing(plot) + legend(plot.curves), caption);
+}
+
+template <class Wanted, class X, class Y>
+std::vector<Curve> curves_where(std::vector<RunResults> const& runs, Wanted const& wanted, X const& x, Y const& y) {
+  std::vector<Curve> curves;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (!is_compression_alone(runs[i])) curves.push_back(curve_where(runs[i], i, wanted, x, y));
+  return curves;
+}
+
+bool any_stage(LoadingStage const&) { return true; }
+bool is_put_on(LoadingStage const& stage) { return stage.has_stress_only() && stage.increments > 1; }
+bool is_one_dimensional(LoadingStage const& stage) { return stage.vertical.has_stress() && stage.lateral.hold; }
+bool is_undrained(LoadingStage const& stage) { return stage.lateral.follow == Follow::constant_volume; }
+bool is_dead_load(LoadingStage const& stage) { return stage.vertical.has_stress() && stage.increments == 1; }
+bool is_sheared(LoadingStage const& stage) { return stage.vertical.has_rate(); }
+
+Piece stress_path(std::vector<RunResults> const& runs) {
+  return figure_of(
+      "Stress path", "Deviator stress against mean stress", {"mean stress p [MPa]", "p_Pa", mega},
+      {"deviator stress q [MPa]", "q_Pa", mega}, curves_where(runs, any_stage, column("p_Pa"), column("q_Pa")),
+      "Effective stresses on the walls: p = (σ₁ + σ₃)/2 and q = σ₁ − σ₃ with σ₁ vertical and σ₃ lateral, whichever is "
+      "larger. In the notation of MIT s is p and t is q/2. A path under constant lateral stress rises at 2 to 1.");
+}
+
+/// Void ratio over the logarithm of the stress that was put on.
+Piece void_ratio_figure(std::vector<RunResults> const& runs) {
+  std::vector<Curve> curves = curves_where(
+      runs, is_put_on, [](HistoryTable const& history, std::size_t i) { return history["sigma1_Pa"][i]; }, column("void_ratio"));
+  std::erase_if(curves, [](Curve const& curve) { return curve.x.size() < 2; });
+  if (curves.empty()) return "";
+  double least = HUGE_VAL, most = -HUGE_VAL, densest = HUGE_VAL, loosest = -HUGE_VAL;
+  Plot plot;
+  for (Curve& curve : curves) {
+    curve.marked = curve.x.size() < 100;
+    auto const [low, high] = std::minmax_element(curve.x.begin(), curve.x.end());
+    auto const [dense, loose] = std::minmax_element(curve.y.begin(), curve.y.end());
+    least = std::min(least, *low), most = std::max(most, *high);
+    densest = std::min(densest, *dense), loosest = std::max(loosest, *loose);
+    plot.description += fmt::format("{}: e {:.4g} at {:.3g} MPa, {:.4g} at {:.3g} MPa, {:.4g} at the end. ", curve.name,
+                                    curve.y.front(), curve.x.front() * mega, *dense, *high * mega, curve.y.back());
+  }
+  if (!(0 < least && least < most && densest < loosest)) return "";
+  double const step = tick_step(densest, loosest, 5);
+  plot.title = "Void ratio against vertical stress";
+  plot.curves = std::move(curves);
+  plot.x = {{"vertical stress σ₁ [MPa], logarithmic", "sigma1_Pa", mega}, least * mega, 1.0001 * most * mega, true};
+  plot.y = {{"void ratio e", "void_ratio"}, std::floor(densest / step) * step, std::ceil(loosest / step) * step};
+  return figure(
+      "Compression", drawing(plot) + legend(plot.curves),
+      "The void ratio e at rest under each increment of the stress, on the way up and on the way down. Where the lateral "
+      "stress is put on alike, σ₁ is p.");
+}
+
+Piece lateral_stress(std::vector<RunResults> const& runs) {
+  return figure_of(
+      "Lateral stress at rest", "Lateral stress against vertical stress", {"vertical stress σ₁ [MPa]", "sigma1_Pa", mega},
+      {"lateral stress σ₃ [MPa]", "sigma3_Pa", mega},
+      curves_where(runs, is_one_dimensional, column("sigma1_Pa"), column("sigma3_Pa")),
+      "Compressed without lateral strain: the slope is the coefficient of earth pressure at rest K₀ = dσ₃/dσ₁. After "
+      "unloading the lateral stress stays behind.");
+}
+
+Piece pore_pressure(std::vector<RunResults> const& runs) {
+  auto const u = [](HistoryTable const& history, std::size_t i) { return history["sigma3_Pa"][0] - history["sigma3_Pa"][i]; };
+  return figure_of(
+      "Pore pressure", "Pore pressure against axial strain", axial_strain, {"pore pressure u [MPa]", "u_Pa", mega},
+      curves_where(runs, is_undrained, column("eps1"), u),
+      "What the pore water would have to carry at constant volume under a constant total lateral stress: u = σ₃ at the "
+      "beginning − σ₃. It rises where the sand would contract, and falls where it would dilate.");
+}
+
+Piece stress_ratio(std::vector<RunResults> const& runs) {
+  auto const ratio = [](HistoryTable const& history, std::size_t i) { return history["q_Pa"][i] / history["p_Pa"][i]; };
+  return figure_of("Stress ratio", "Stress ratio against axial strain", axial_strain, {"stress ratio q/p", "q_over_p"},
+                   curves_where(runs, is_sheared, column("eps1"), ratio),
+                   "q/p = 2 sin φ of the friction that is mobilised, where there is no cohesion.");
+}
+
+/// Over stretches of half a percent of axial strain that close, of shears whose volume is free.
+Piece dilatancy(std::vector<RunResults> const& runs) {
+  constexpr double stretch = 0.005;
+  std::vector<Curve> curves;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Curve curve{run_label(runs[i]), {}, {}, run_stroke(i)};
+    HistoryTable const& history = runs[i].history;
+    std::vector<double> const &eps1 = history["eps1"], &eps_v = history["eps_v"], &q = history["q_Pa"], &p = history["p_Pa"];
+    std::vector<std::size_t> const rows = rows_where(runs[i], [](LoadingStage const& stage) {
+      return stage.name == shear_stage && stage.lateral.follow != Follow::constant_volume;
+    });
+    for (std::size_t from = 0, to = 0; to < rows.size(); ++to) {
+      while (from < to && eps1[rows[to]] - eps1[rows[from + 1]] >= stretch) ++from;
+      std::size_t const a = rows[from], b = rows[to];
+      if (double const shear = 2 * (eps1[b] - eps1[a]) - (eps_v[b] - eps_v[a]); eps1[b] - eps1[a] >= stretch && shear > 0) {
+        curve.x.push_back(-(eps_v[b] - eps_v[a]) / shear);
+        curve.y.push_back(0.5 * (q[a] / p[a] + q[b] / p[b]));
+      }
+    }
+    curves.push_back(std::move(curve));
+  }
+  return figure_of(
+      "Stress and dilatancy", "Stress ratio against dilatancy", {"dilatancy −dεᵥ/dγ", "dilatancy"},
+      {"stress ratio q/p", "q_over_p"}, std::move(curves),
+      "How fast the specimen widens as it is sheared, over stretches of 0.5 % of axial strain, and the stress ratio in "
+      "their middle; γ = ε₁ − ε₃. Rowe's relation is a rising line: sand bears more while it dilates.");
+}
+
+Piece dead_load(std::vector<RunResults> const& runs) {
+  return figure_of("Strain under the dead load", "Axial strain against time", {"time [ms]", "time_s", milli}, axial_strain,
+                   curves_where(runs, is_dead_load, column("time_s"), column("eps1")),
+                   "Nothing in the bonds knows a clock: the specimen either comes to rest or fails. The platens have a largest "
+                   "speed, so that a collapse is paced by them.");
+}
+
+}  // namespace
+
+Piece loading_figures(std::vector<RunResults> const& runs) {
+  return stress_path(runs) + void_ratio_figure(runs) + lateral_stress(runs) + pore_pressure(runs) + stress_ratio(runs) +
+         dilatancy(runs) + dead_load(runs);
+}
+
+Piece stage_tables(std::vector<RunResults> const& runs) {
+  std::string text;
+  for (RunResults const& run : runs) {
+    auto const stages = run.record.find("stages"), loading = run.record.find("loading");
+    if (is_compression_alone(run) || stages == run.record.end() || loading == run.record.end()) continue;
+    std::string rows;
+    for (auto const& end : *loading) {
+      std::string const name = end.at("stage").get<std::string>(), by = end.at("ended_by").get<std::string>();
+      rows += fmt::format("<tr><th>{}</th><td>{}</td><td>", escaped(name), by.empty() ? "not ended" : escaped(by));
+      auto const number = [&](char const* of, char const* shown, double factor, char const* unit) {
+        auto const found = stages->at(name).find(of);
+        if (found != stages->at(name).end() && found->is_number())
+          rows += fmt::format("{} {:.4g}{}<br>", shown, found->get<double>() * factor, unit);
+      };
+      number("path", "path", percent, " %");
+      number("start_sigma1_Pa", "σ₁ at the beginning", mega, " MPa");
+      number("end_sigma1_Pa", "σ₁ at the end", mega, " MPa");
+      number("start_sigma3_Pa", "σ₃ at the beginning", mega, " MPa");
+      number("end_sigma3_Pa", "σ₃ at the end", mega, " MPa");
+      number("end_void_ratio", "e at the end", 1, "");
+      rows += "</td><td>";
+      number("bulk_modulus_Pa", "bulk modulus", mega, " MPa");
+      number("constrained_modulus_Pa", "M<sub>oed</sub>", mega, " MPa");
+      number("k0", "K₀ at the end", 1, "");
+      number("k0_of_increments", "K₀ of the increments", 1, "");
+      number("secant_stiffness_Pa", "E<sub>ur</sub>", mega, " MPa");
+      number("damping_ratio", "damping ratio of the last loop", percent, " %");
+      number("strain_per_cycle", "strain a cycle", percent, " %");
+      number("largest_pore_pressure_ratio", "largest r<sub>u</sub>", 1, "");
+      number("phase_transformation_eps1", "phase transformation at ε₁", percent, " %");
+      number("peak_q_Pa", "largest q", mega, " MPa");
+      number("failed_eps1", "failed at ε₁", percent, " %");
+      rows += "</td></tr>\n";
+    }
+    text += (runs.size() > 1 ? "<h3>" + escaped(run_label(run)) + "</h3>\n" : "") +
+            "<div class=\"scroll\"><table><thead><tr><th>stage</th><th>ended by</th><th>course</th><th>numbers</th></tr></thead>"
+            "<tbody>\n" +
+            rows + "</tbody></table></div>\n";
+  }
+  return text;
+}
+
+}  // namespace clathra
