@@ -8,7 +8,7 @@
 namespace clathra {
 namespace {
 
-Scene scene_of(double saturation) {
+Scene scene_at(double saturation) {
   Scene scene;
   scene.hydrate.saturation = saturation;
   scene.run.rotational_inertia_factor = 1;
@@ -32,24 +32,24 @@ TEST(ExpectedError, HasRowsByRisingRate) {
 
 TEST(ExpectedError, IsThatOfTheTableAndBetweenItsRowsOfNeighbours) {
   for (RateEffect const& row : rate_effects()) {
-    EXPECT_NEAR(expected_error(scene_of(0), at(row)).peak_q->error, row.sand.error, 1e-4);
-    EXPECT_NEAR(expected_error(scene_of(0.55), at(row)).peak_q->error, row.bonded.error, 1e-4);
-    EXPECT_NEAR(expected_error(scene_of(0.55), at(row)).peak_q->half_width, row.bonded.half_width, 1e-3);
+    EXPECT_NEAR(expected_error(scene_at(0), at(row)).peak_q->error, row.sand.error, 1e-4);
+    EXPECT_NEAR(expected_error(scene_at(0.55), at(row)).peak_q->error, row.bonded.error, 1e-4);
+    EXPECT_NEAR(expected_error(scene_at(0.55), at(row)).peak_q->half_width, row.bonded.half_width, 1e-3);
   }
   RateEffect const &a = rate_effects()[0], &b = rate_effects()[1];
   RateNumbers const middle = at(std::sqrt(a.inertial_number * b.inertial_number), 0);
-  EXPECT_NEAR(expected_error(scene_of(0.55), middle).peak_q->error, (a.bonded.error + b.bonded.error) / 2, 1e-4);
+  EXPECT_NEAR(expected_error(scene_at(0.55), middle).peak_q->error, (a.bonded.error + b.bonded.error) / 2, 1e-4);
 }
 
 TEST(ExpectedError, OfATallSpecimenIsThatOfItsInertialNumber) {
   RateEffect const& row = rate_effects().back();
-  EXPECT_EQ(expected_error(scene_of(0.55), at(row.inertial_number, 1.9)).peak_q->error, row.bonded.error);
+  EXPECT_EQ(expected_error(scene_at(0.55), at(row.inertial_number, 1.9)).peak_q->error, row.bonded.error);
 }
 
 TEST(ExpectedError, AddsThatOfHeavierRotationAtItsRate) {
-  Scene scene = scene_of(0.55);
+  Scene scene = scene_at(0.55);
   for (RateEffect const& row : inertia_effects()) {
-    MeasuredError const own = *expected_error(scene_of(0.55), at(row)).peak_q;
+    MeasuredError const own = *expected_error(scene_at(0.55), at(row)).peak_q;
     for (double const inertia : {1.5, 3.0}) {
       scene.run.rotational_inertia_factor = inertia;
       EXPECT_NEAR(expected_error(scene, at(row)).peak_q->error, own.error + row.bonded.error, 1e-9);
@@ -67,7 +67,7 @@ TEST(ExpectedError, OfTheDefaultsIsKnown) {
 
 TEST(ExpectedError, AddsThatOfMixedPrecisionWithIndependentIntervals) {
   RateEffect const& row = rate_effects().back();
-  Scene scene = scene_of(0.55);
+  Scene scene = scene_at(0.55);
   scene.run.precision = Precision::mixed;
   SettingEffect const mixed = mixed_precision_effect();
   EXPECT_NEAR(expected_error(scene, at(row)).peak_q->error, row.bonded.error + mixed.bonded.error, 1e-6);
@@ -78,8 +78,8 @@ TEST(ExpectedError, AddsThatOfMixedPrecisionWithIndependentIntervals) {
 TEST(ExpectedError, IsTheWorseOfBothMaterialsBetweenThem) {
   auto const farthest = [](ExpectedError const& e) { return std::fabs(e.peak_q->error) + e.peak_q->half_width; };
   for (RateEffect const& row : rate_effects())
-    EXPECT_DOUBLE_EQ(farthest(expected_error(scene_of(0.3), at(row))),
-                     std::max(farthest(expected_error(scene_of(0), at(row))), farthest(expected_error(scene_of(0.55), at(row)))));
+    EXPECT_DOUBLE_EQ(farthest(expected_error(scene_at(0.3), at(row))),
+                     std::max(farthest(expected_error(scene_at(0), at(row))), farthest(expected_error(scene_at(0.55), at(row)))));
 }
 
 /// Every key of the model, each alone other than in the tests of the table.
@@ -129,7 +129,7 @@ constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
 TEST(ExpectedError, IsNotGivenForWhatWasNotMeasured) {
   RateNumbers const slow = at(rate_effects().front());
   auto const why = [&](auto const& change, RateNumbers const& n) {
-    Scene scene = scene_of(0.55);
+    Scene scene = scene_at(0.55);
     change(scene);
     ExpectedError const e = expected_error(scene, n);
     EXPECT_FALSE(e.peak_q);
@@ -143,7 +143,7 @@ TEST(ExpectedError, IsNotGivenForWhatWasNotMeasured) {
   EXPECT_EQ(why([](Scene& s) { s.specimen.void_ratio = 0.3, s.grains.friction = 0; }, slow),
             "specimen.void_ratio, grains.friction");
   for (auto const& [key, change] : others) EXPECT_EQ(why(change, slow), key);
-  Scene sand = scene_of(0);
+  Scene sand = scene_at(0);
   sand.hydrate.temperature = 7, sand.bond.rolling_lever = {0, 0.1};
   EXPECT_TRUE(expected_error(sand, slow).peak_q) << "of bonds that there are not";
   sand.specimen.void_ratio = 0.24, sand.grading.d50 = 0.1694e-3;

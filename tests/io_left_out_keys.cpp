@@ -13,7 +13,7 @@
 namespace clathra {
 namespace {
 
-std::string problem_of(std::string const& text, Texts const& overrides = {}) {
+std::string refusal_of(std::string const& text, Texts const& overrides = {}) {
   try {
     (void)load(text, overrides);
   } catch (SceneProblems const& problems) {
@@ -27,14 +27,14 @@ TEST(LeftOutKeys, AreNotStatedAsZeroButWhereZeroMeansSomething) {
   for (Key const& key : schema()) {
     if (key.zero.empty() || key.least <= 0) continue;
     ++keys;
-    std::string const said = std::string(key.name) + "=0", problem = problem_of(sized, {said});
+    std::string const said = std::string(key.name) + "=0", problem = refusal_of(sized, {said});
     if (key.takes_zero)
       EXPECT_EQ(problem, "none") << said;
     else
       EXPECT_NE(problem.find("'" + std::string(key.name) + "' must lie between "), std::string::npos) << said << problem;
   }
   EXPECT_GE(keys, 12);
-  EXPECT_EQ(problem_of("[specimen]\nparticles = 0\nwidth = \"10 mm\"\n"),
+  EXPECT_EQ(refusal_of("[specimen]\nparticles = 0\nwidth = \"10 mm\"\n"),
             "my.toml:2:13: error: 'particles' must lie between 16 and 1000000000, got 0; where the key is left out: it follows "
             "from the others");
   EXPECT_EQ(load(sized + "[test]\nmax_platen_wave_stress = 0\n[output]\nsnapshots = 0\n").scene.test.max_platen_wave_stress, 0);
@@ -68,7 +68,7 @@ TEST(LeftOutKeys, AreCommentsOfTheResolvedScene) {
   EXPECT_NE(text.find("# width is not given: it follows from the others\n"), std::string::npos) << text;
   EXPECT_NE(text.find("# verlet_skin is not given: chosen\n"), std::string::npos) << text;
   for (Key const& key : schema()) EXPECT_NE(text.find(std::string(key.leaf())), std::string::npos) << key.name;
-  EXPECT_EQ(problem_of(text), "none");
+  EXPECT_EQ(refusal_of(text), "none");
 }
 
 }  // namespace

@@ -166,7 +166,8 @@ TEST(Overlap, OfMoreThanATenthOfTheRadiusIsSaidWithShareAndMaximum) {
   EXPECT_GT(checks.at("deepest_overlap"), 0.1);
   EXPECT_LT(checks.at("deepest_overlap"), 1);
   bool said = false;
-  for (std::string const& text : test.stage_results().front().warnings)
+  std::vector<StageResult> const stages = test.stage_results();
+  for (std::string const& text : stages.front().warnings)
     said = said || text.find("overlapped by more than 10 % of the smaller radius") != std::string::npos;
   EXPECT_TRUE(said);
 }

@@ -10,20 +10,16 @@
 #include <cerrno>
 #include <filesystem>
 #include <stdexcept>
-#include <system_error>
 
 #include "clathra_version.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "io/formats/hdf5_file.hpp"
 #include "io/results/run_record.hpp"
 #include "machine/processes.hpp"
+#include "machine/system_failure.hpp"
 
 namespace clathra {
 namespace {
-
-[[noreturn]] void fail(int error, char const* what) {
-  throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(error)));
-}
 
 /// Starts the program with stdout on `descriptor`.
 pid_t start(std::vector<std::string> arguments, int descriptor) {
@@ -37,7 +33,7 @@ pid_t start(std::vector<std::string> arguments, int descriptor) {
   pid_t child = 0;
   int const error = ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) fail(error, "cannot start a second process");
+  if (error != 0) system_failure(error, "cannot start a second process");
   return child;
 }
 
@@ -55,7 +51,7 @@ std::string read_to_end(int descriptor) {
 int wait_for(pid_t child) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) fail(errno, "cannot wait for the second process");
+    if (errno != EINTR) system_failure(errno, "cannot wait for the second process");
   return status;
 }
 
@@ -86,7 +82,7 @@ std::string pages_folder() {
 
 std::string output_of_own_program(std::vector<std::string> const& arguments) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail(errno, "cannot make a pipe");
+  if (::pipe2(ends, O_CLOEXEC) != 0) system_failure(errno, "cannot make a pipe");
   pid_t const child = start(arguments, ends[1]);
   ::close(ends[1]);
   std::string const text = read_to_end(ends[0]);

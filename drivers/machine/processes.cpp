@@ -12,14 +12,11 @@
 
 #include <cerrno>
 #include <stdexcept>
-#include <system_error>
+
+#include "machine/system_failure.hpp"
 
 namespace clathra {
 namespace {
-
-[[noreturn]] void fail(int error, std::string const& what) {
-  throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(error)));
-}
 
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
@@ -50,7 +47,7 @@ int prepare_child(int log, cpu_set_t const* cores, pid_t parent) {
 std::string own_path() {
   std::string path(4096, '\0');
   ssize_t const length = ::readlink("/proc/self/exe", path.data(), path.size());
-  if (length <= 0) fail(errno, "cannot find this program's file");
+  if (length <= 0) system_failure(errno, "cannot find this program's file");
   path.resize(static_cast<std::size_t>(length));
   return path;
 }
@@ -69,12 +66,12 @@ pid_t start_process(std::vector<std::string> const& command, std::filesystem::pa
   std::vector<std::string> words = command;
   std::vector<char*> const pointers = pointers_to(words);
   int const file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (file < 0) fail(errno, log.string());
+  if (file < 0) system_failure(errno, log.string());
   cpu_set_t set;
   CPU_ZERO(&set);
   for (int const core : cores) CPU_SET(static_cast<std::size_t>(core), &set);
   int ends[2];  // the new process says through it why it could not start; a program that starts closes it
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail(errno, "cannot make a pipe");
+  if (::pipe2(ends, O_CLOEXEC) != 0) system_failure(errno, "cannot make a pipe");
   pid_t const parent = ::getpid(), child = ::fork();
   if (child == 0) {
     int error = prepare_child(file, cores.empty() ? nullptr : &set, parent);
@@ -94,7 +91,7 @@ pid_t start_process(std::vector<std::string> const& command, std::filesystem::pa
   else if (child > 0)
     error = 0;
   ::close(ends[0]);
-  if (error != 0) fail(error, fmt::format("cannot start {}", command.front()));
+  if (error != 0) system_failure(error, fmt::format("cannot start {}", command.front()));
   return child;
 }
 
@@ -138,7 +135,7 @@ std::string words_problem(std::string const& command) {
 void become(std::vector<std::string> const& command) {
   std::vector<std::string> words = command;
   ::execvp(words[0].c_str(), pointers_to(words).data());
-  fail(errno, fmt::format("cannot start {}", command.front()));
+  system_failure(errno, fmt::format("cannot start {}", command.front()));
 }
 
 }  // namespace clathra

@@ -74,6 +74,12 @@ Forecast forecast(Scene const& scene, SpecimenDesign const& design, int ranks) {
   RateNumbers const rate = rate_of(result.numbers);
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
+  for (LoadingStage const& stage : scene.stages) {
+    RateNumbers const own = rate_numbers(scene, stage, design.grading.d50(), design.height, design.void_ratio);
+    for (std::string const& text : rate_refusals(scene, own))
+      if (std::find(result.refusals.begin(), result.refusals.end(), text) == result.refusals.end())
+        result.refusals.push_back("stage '" + stage.name + "': " + text);
+  }
   if (std::string const warning = disk_warning(scene, result.numbers); !warning.empty()) result.warnings.push_back(warning);
   if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty())
     result.refusals.push_back(refusal), result.out_of_memory = true;

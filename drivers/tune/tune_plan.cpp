@@ -106,6 +106,8 @@ TunePlan plan_tune(std::filesystem::path const& scene, std::vector<std::string> 
   Scene const& base = plan.base.scene;
   if (base.specimen.is_read())
     throw Refused("tune needs specimens of several seeds: a specimen from a file (specimen.file) is one only");
+  if (base.test.kind != TestKind::biaxial)
+    throw Refused("tune compares compressions under constant lateral stress: test.kind must be \"biaxial\"");
   SpecimenDesign const design = design_sample(base);
   discs = std::max(discs, fewest_discs_of(design));
   plan.reduced = discs < design.particles;

@@ -44,7 +44,7 @@ struct BiaxialTest::State {
   bool at_rest = false, began_quasi_static = false;  // when the loading began
   EnergyRow start;
   double work_of_turns = 0;  // what it took to set the discs in motion anew where stages begin and rates turn round [J/m]
-  ShearWatch watch;  // of the stage
+  ShearWatch watch;          // of the stage
   DilationWatch dilation;
   Measures measured;
   std::int64_t measured_after = -1;  ///< steps

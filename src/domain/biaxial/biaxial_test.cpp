@@ -117,7 +117,8 @@ BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback
   t.ranks = ranks;
   if (!(specimen.d50 > 0)) specimen.d50 = diameter_finer(specimen.radius, 0.5, ranks);
   t.d50 = specimen.d50;
-  (void)check_rate(scene, rate_numbers(scene, t.d50, specimen.height(), specimen.void_ratio));  // before the work
+  for (LoadingStage const& stage : t.stages)  // before the work
+    (void)check_rate(scene, rate_numbers(scene, stage, t.d50, specimen.height(), specimen.void_ratio));
   with_snapshot_of_divergence(t.simulation, t.d50, [&] { t.bond_and_consolidate(std::move(specimen), progress); });
   t.begin_loading();
   if (scene.output.energy) t.start = energy();

@@ -60,7 +60,7 @@ class BiaxialTest {
   double axial_strain() const;  ///< eps_1 since the consolidation
   double path() const;          ///< of the axial strain, to and fro: it always grows
   double path_of_last_record() const;
-  double fraction() const;      ///< of the stages that is done, as far as can be told
+  double fraction() const;  ///< of the stages that is done, as far as can be told
   /// The stages so far, the last one as far as it is: what was not quasi-static or overlapped too far, in words and in numbers
   /// (shear_watch.hpp). The checks have an interval of their own; preparation() holds the verdict `quasi_static`, 1 or 0, which
   /// they may take back.

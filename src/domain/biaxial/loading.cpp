@@ -17,17 +17,6 @@ constexpr double largest_lateral_speed = 40;
 
 constexpr double elastic_lateral_ratio = 0.25;  // lateral expansion per axial compression at the start: the servo's first guess
 
-/// Of a stage, or of the test where the stage states none.
-RateNumbers rate_of_stage(Scene const& scene, LoadingStage const& stage, double d50, double height, Assembly const& a) {
-  Scene by = scene;
-  SideScene const& driven = stage.vertical.has_rate() ? stage.vertical : stage.lateral;
-  if (driven.has_rate()) {
-    by.test.inertial_number = std::abs(driven.inertial_number);
-    by.test.strain_rate = std::abs(driven.strain_rate);
-  }
-  return rate_numbers(by, d50, height, a.void_ratio(), a.facts.added_mass);
-}
-
 }  // namespace
 
 TestValues BiaxialTest::State::values() const {
@@ -86,7 +75,7 @@ void BiaxialTest::State::begin_stage(std::int64_t index) {
   place = next;
   place.sense = now().vertical.has_rate() ? now().vertical.sense() : 0;
   stage = now().name;
-  rate = rate_of_stage(scene, now(), d50, a.walls().height(), a);
+  rate = rate_numbers(scene, now(), d50, a.walls().height(), a.void_ratio(), a.facts.added_mass);
   for (std::string const& warning : check_rate(scene, rate))
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   set_in_motion(present);

@@ -87,6 +87,17 @@ RateNumbers rate_numbers(Scene const& scene, double d50, double height, double v
   return n;
 }
 
+RateNumbers rate_numbers(Scene const& scene, LoadingStage const& stage, double d50, double height, double void_ratio,
+                         double added_mass) {
+  Scene by = scene;
+  SideScene const& driven = stage.vertical.has_rate() ? stage.vertical : stage.lateral;
+  if (driven.has_rate()) {
+    by.test.inertial_number = std::abs(driven.inertial_number);
+    by.test.strain_rate = std::abs(driven.strain_rate);
+  }
+  return rate_numbers(by, d50, height, void_ratio, added_mass);
+}
+
 std::vector<std::string> rate_refusals(Scene const& scene, RateNumbers const& n) {
   std::vector<std::string> refusals;
   if (is_too_fast(n))

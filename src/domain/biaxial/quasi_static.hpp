@@ -50,6 +50,10 @@ std::string collapse(double void_ratio, double deep_share);
 /// test.max_platen_wave_stress lets it. @param height [m];  @param d50 [m];  @param added_mass  over the mass of the grains
 RateNumbers rate_numbers(Scene const& scene, double d50, double height, double void_ratio, double added_mass = 0);
 
+/// The same of a stage, whose rate it is where it states one. @param scene  of the test
+RateNumbers rate_numbers(Scene const& scene, LoadingStage const& stage, double d50, double height, double void_ratio,
+                         double added_mass = 0);
+
 /// True where a run may be called quasi-static: I up to inertial_warning() and W below 0.5.
 bool is_quasi_static(Scene const& scene, RateNumbers const& n);
 

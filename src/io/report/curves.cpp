@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "domain/measurement/test_numbers.hpp"
+#include "io/report/loading_figures.hpp"
 #include "io/report/markup.hpp"
 #include "io/results/shown_units.hpp"
 
@@ -229,7 +230,8 @@ std::string run_label(RunResults const& run) {
 }
 
 Piece curve_figures(std::vector<RunResults> const& runs) {
-  return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs) + consolidation_figure(runs);
+  return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs) + consolidation_figure(runs) +
+         dilatancy_figure(runs);
 }
 
 Piece energy_figures(std::vector<RunResults> const& runs) {

@@ -12,6 +12,9 @@ namespace clathra {
 /// all runs are compressions under constant lateral stress.
 Piece loading_figures(std::vector<RunResults> const& runs);
 
+/// Stress ratio over dilatancy, over stretches of 0.5 % of axial strain that close, of each shear whose volume is free.
+Piece dilatancy_figure(std::vector<RunResults> const& runs);
+
 /// A table of the stages of each such run: what each ended by, and its numbers. Empty likewise.
 Piece stage_tables(std::vector<RunResults> const& runs);
 

@@ -164,7 +164,7 @@ std::int64_t step_of(std::filesystem::path const& file) { return std::atoll(file
 Shown read_shown(RunResults const& run, std::size_t bytes) {
   std::vector<std::int64_t> steps;
   for (std::filesystem::path const& file : run.snapshots) steps.push_back(step_of(file));
-  TestNumbers const numbers = test_numbers(run.history.curves());
+  TestNumbers const numbers = run.has_peak() ? test_numbers(run.history.curves()) : TestNumbers();
   auto const peak_step = static_cast<std::int64_t>(run.history["step"][numbers.peak]);
   std::vector<std::size_t> const which = shown_snapshots(steps, peak_step);
   Shown shown{run, bytes, {}, numbers.passed_peak, which.size() > 1 ? std::size_t{1} : std::size_t{0}, {}, {}};

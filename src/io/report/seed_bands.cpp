@@ -38,8 +38,9 @@ std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_f
   std::vector<SeedBand> bands;
   for (char const* const column : curve_columns) {
     SeedBand band;
-    bool const known =
-        !runs.empty() && std::all_of(runs.begin(), runs.end(), [&](RunResults const& run) { return run.history.has(column); });
+    bool const known = !runs.empty() && std::all_of(runs.begin(), runs.end(), [&](RunResults const& run) {
+      return run.history.has(column) && run.has_peak();
+    });
     if (known) {
       double end = runs.front().history["eps1"].back();
       for (RunResults const& run : runs) end = std::min(end, run.history["eps1"].back());

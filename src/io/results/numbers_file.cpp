@@ -50,7 +50,7 @@ OrderedJson numbers_of(std::vector<RunResults> const& runs) {
                        {"saturation", json_of(run.number("/scene/hydrate/saturation"))},
                        {"confining_stress_Pa", json_of(run.number("/scene/test/confining_stress"))},
                        {"seed", json_of(run.number("/scene/run/seed"))},
-                       {"numbers", record_of(test_numbers(run.history.curves()))}});
+                       {"numbers", run.has_peak() ? record_of(test_numbers(run.history.curves())) : StageRecord()}});
   for (StrengthGroup const& group : strength_groups(runs))
     if (group.at_several_stresses()) strength.push_back(json_of(group, runs));
   return {{"format", "clathra numbers"}, {"runs", std::move(of_runs)}, {"strength", std::move(strength)}};

@@ -28,6 +28,7 @@ void add_test(StrengthGroup& group, RunResults const& run) {
 std::vector<StrengthGroup> strength_groups(std::vector<RunResults> const& runs) {
   std::vector<StrengthGroup> groups;
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].has_peak()) continue;
     if (!runs[i].history.has("sigma3_Pa")) continue;
     SceneValues material = material_of(runs[i]);
     material.erase(stress_key);

@@ -19,7 +19,24 @@ bool may_differ(Key const& key) {
          key.name == "run.ignore_guards" || key.name == "specimen.file" || key.name == "output.keep_checkpoint";
 }
 
-bool may_grow(Key const& key) { return key.name == "test.axial_strain" || key.name == "output.snapshots_at"; }
+/// Where test.axial_strain is no more than the end of the last stage.
+bool ends_by_strain(TestScene const& test) {
+  switch (test.kind) {
+    case TestKind::unload_reload:
+      return !test.unload_at.empty();
+    case TestKind::isotropic:
+    case TestKind::oedometer:
+    case TestKind::cyclic:
+    case TestKind::list:
+      return false;
+    default:
+      return true;
+  }
+}
+
+bool may_grow(Key const& key, Scene const& scene) {
+  return key.name == "output.snapshots_at" || (key.name == "test.axial_strain" && ends_by_strain(scene.test));
+}
 
 bool same_file(std::string const& then, std::string const& now, fs::path const& folder) {
   if (then.empty() || now.empty()) return then == now;
@@ -50,7 +67,7 @@ SceneTexts scene_texts(Scene const& scene, fs::path const& folder) {
 std::string scene_differences(SceneTexts const& then, Scene const& now, fs::path const& folder, Agreement agreement) {
   std::string text;
   for (Key const& key : schema()) {
-    if (may_differ(key) || (agreement == Agreement::further && may_grow(key))) continue;
+    if (may_differ(key) || (agreement == Agreement::further && may_grow(key, now))) continue;
     auto const kept = then.find(std::string(key.name));
     std::string const before = kept != then.end() ? kept->second : "not known";
     if (!states(key, before, now, folder)) text += fmt::format("; {} was {}, is {}", key.name, before, value_text(key, now));

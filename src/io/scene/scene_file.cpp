@@ -304,7 +304,11 @@ class SceneReader {
       return report(place, fmt::format("there is no stage '{}': the file has {} of them in [[stage]]",
                                        setting.stage.substr(0, 60), stages.size()));
     std::iter_swap(found, stages.end() - 1);
-    set_in_stage(*setting.key, place, [&] { set_stated(*setting.key, scene_, value); });
+    try {
+      set_stated(*setting.key, scene_, value);
+    } catch (std::invalid_argument const& problem) {
+      spoil_stage(place, fmt::format("'{}' {}", setting.key->name, problem.what()));
+    }
     std::iter_swap(found, stages.end() - 1);
   }
 

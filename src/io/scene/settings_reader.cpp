@@ -100,6 +100,7 @@ std::optional<std::string> SettingsReader::value_of(Key const& key, TomlNode con
   if (!text) return report(node, fmt::format("'{}' needs one value here", key.name)), std::nullopt;
   try {
     Scene scratch;
+    scratch.stages.emplace_back();  // for the keys of a stage
     set_stated(key, scratch, *text);
   } catch (std::invalid_argument const& problem) {
     return report(node, fmt::format("'{}' {}", key.name, problem.what())), std::nullopt;
