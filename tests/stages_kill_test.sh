@@ -35,6 +35,6 @@ done
 for file in history.csv events.csv; do cmp "alone/$file" "killed/$file" || fail "another $file"; done
 [ "$("$clathra" info --state-hash alone)" = "$("$clathra" info --state-hash killed)" ] || fail "another state"
 [ "$(ls alone/snap)" = "$(ls killed/snap)" ] || fail "other snapshots"
-numbers() { sed -n '/"loading"/,/\]/p' "$1/run.json"; }
+numbers() { sed -n '/"loading": \[/,/\]/p' "$1/run.json"; }
 [ "$(numbers alone)" = "$(numbers killed)" ] || fail "other ends of stages"
 echo "stages_kill: $killed of 10 runs were killed"
