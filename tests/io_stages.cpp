@@ -155,6 +155,13 @@ TEST(StagesInAScene, GrowOnlyWhereTheStrainIsTheirEnd) {
   }
 }
 
+TEST(StagesInAStudy, AreVariedByTheirKeys) {
+  CommandResult const result = run_clathra("study " CLATHRA_EXAMPLES "/studies/response-envelope.toml --dry-run --output " +
+                                           (fs::temp_directory_path() / "clathra_no_study").string());
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find("72"), std::string::npos) << result.output;
+}
+
 class StagesOfARun : public testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -98,8 +98,14 @@ TEST(LoadingNumbers, AtConstantVolumeAreThePorePressureAndWherePTurns) {
   double const largest = 1e6 - *std::min_element(c.sigma3.begin(), c.sigma3.end());
   EXPECT_NEAR(numbers.at("largest_pore_pressure_Pa"), largest, 1e-6);
   EXPECT_NEAR(numbers.at("largest_pore_pressure_ratio"), largest / 1e6, 1e-12);
-  for (std::size_t i = 0; i < c.sigma1.size(); ++i) c.sigma3[i] = 1e6, c.sigma1[i] = 1e6 - 1e3 * static_cast<double>(i);
-  EXPECT_FALSE(loading_numbers(stage, c).contains("phase_transformation_eps1")) << "p never rises again";
+  for (double const sign : {-1.0, 1.0}) {
+    LoadingCurves straight_on = c;
+    for (std::size_t i = 0; i < c.sigma1.size(); ++i) {
+      straight_on.sigma3[i] = 1e6;
+      straight_on.sigma1[i] = 1e6 + sign * 1e3 * static_cast<double>(i);
+    }
+    EXPECT_FALSE(loading_numbers(stage, straight_on).contains("phase_transformation_eps1")) << "p turns nowhere";
+  }
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ void add_undrained(LoadingCurves const& c, StageRecord& numbers) {
   std::size_t least = 0;
   for (std::size_t i = 1; i < c.eps1.size(); ++i) {
     if (mean_stress(c, i) < mean_stress(c, least)) least = i;
-    if (mean_stress(c, i) <= again * mean_stress(c, least)) continue;
+    if (least == 0 || mean_stress(c, i) <= again * mean_stress(c, least)) continue;
     numbers["phase_transformation_p_Pa"] = mean_stress(c, least);
     numbers["phase_transformation_eps1"] = c.eps1[least];
     return;

@@ -33,7 +33,7 @@ bool is_absent(Key const& key, Scene const& scene) {
 
 /// The default as a scene file states it, or what leaving the key out means.
 std::string default_text(Key const& key) {
-  Scene const defaults;
+  Scene defaults;
   if (is_absent(key, defaults)) return key.zero.empty() ? "none" : std::string(key.zero);
   return fmt::format("`{}`", value_text(key, defaults));
 }
@@ -61,7 +61,7 @@ std::string_view kind_text(Key const& key) {
 }
 
 OrderedJson default_json(Key const& key) {
-  Scene const defaults;
+  Scene defaults;
   std::string const text = value_text(key, defaults);
   if (text.size() >= 2 && text.front() == '"') return text.substr(1, text.size() - 2);
   return OrderedJson::parse(text);

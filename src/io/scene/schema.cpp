@@ -7,6 +7,7 @@
 
 #include "domain/scene/grading.hpp"
 #include "io/scene/presets.hpp"
+#include "io/scene/stage_keys.hpp"
 
 namespace clathra {
 namespace {
@@ -214,6 +215,7 @@ bool is_section(std::string_view name) {
 }
 
 Key const* find_key(std::string_view name) {
+  if (std::optional<StageSetting> const setting = stage_setting(name)) return setting->key;
   auto const found = std::find_if(std::begin(table), std::end(table), [&](Key const& key) { return key.name == name; });
   return found == std::end(table) ? nullptr : found;
 }

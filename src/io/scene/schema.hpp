@@ -49,7 +49,7 @@ struct Key {
 /// All keys, in the order of the fields of Scene.
 std::span<Key const> schema();
 
-/// The key of a dotted name, or nullptr.
+/// The key of a dotted name, of one stage also as "stage.2.until.path" (stage_setting()), or nullptr.
 Key const* find_key(std::string_view name);
 
 /// Whether a name is that of a section.

@@ -9,7 +9,6 @@
 
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
-#include "io/scene/stage_keys.hpp"
 
 namespace clathra {
 namespace {
@@ -82,7 +81,6 @@ void SettingsReader::for_each_key(TomlNode const& section, char const* what, Fou
 Key const* SettingsReader::known(std::string const& name, TomlNode const& node) {
   if (char const* const instead = key_of_each_run(name))
     return report(node, fmt::format("'{}' cannot be varied here: {}", name, instead)), nullptr;
-  if (std::optional<StageSetting> const setting = stage_setting(name)) return setting->key;
   Key const* const key = find_key(name);
   if (!key) report(node, fmt::format("unknown key '{}' of a scene{}", name.substr(0, 100), key_suggestion(name)));
   return key;
@@ -100,7 +98,6 @@ std::optional<std::string> SettingsReader::value_of(Key const& key, TomlNode con
   if (!text) return report(node, fmt::format("'{}' needs one value here", key.name)), std::nullopt;
   try {
     Scene scratch;
-    scratch.stages.emplace_back();  // for the keys of a stage
     set_stated(key, scratch, *text);
   } catch (std::invalid_argument const& problem) {
     return report(node, fmt::format("'{}' {}", key.name, problem.what())), std::nullopt;

@@ -12,12 +12,7 @@
 namespace clathra {
 namespace {
 
-LoadingStage& last_stage(Scene& scene) {
-  thread_local LoadingStage nothing;
-  if (!scene.stages.empty()) return scene.stages.back();
-  nothing = {};
-  return nothing;
-}
+LoadingStage& last_stage(Scene& scene) { return scene.stages.empty() ? scene.stages.emplace_back() : scene.stages.back(); }
 
 template <auto Member>
 auto& of_stage(Scene& scene) {
@@ -186,13 +181,12 @@ std::string stages_toml(std::vector<LoadingStage> const& stages, std::string_vie
 
 LoadingStage stage_of_texts(std::vector<std::pair<std::string, std::string>> const& texts) {
   Scene scene;
-  scene.stages.emplace_back();
   for (auto const& [name, value] : texts) {
     Key const* const key = find_stage_key(name);
     if (!key) throw std::invalid_argument(fmt::format("there is no key '{}' of a stage", name.substr(0, 60)));
     set_from_text(*key, scene, unquoted(value));
   }
-  return scene.stages.back();
+  return last_stage(scene);
 }
 
 std::vector<StageProblem> stage_problems(std::vector<LoadingStage> const& stages) {

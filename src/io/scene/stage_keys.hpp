@@ -1,6 +1,6 @@
 #pragma once
 /// The keys of a [[stage]]: one table, as that of the other keys (schema.hpp). Their fields are those of the last stage of a
-/// Scene; of a scene without stages they are those of a stage that states nothing.
+/// Scene, which gets one that states nothing where it has none.
 #include <optional>
 #include <span>
 #include <string>
