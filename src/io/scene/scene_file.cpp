@@ -267,15 +267,16 @@ class SceneReader {
 
   /// Of the last stage.
   void read_stage(TomlTable const& table, std::string const& prefix) {
-    for (auto const& [name, line, column, node] : table.entries) {
-      std::string const dotted = prefix.empty() ? name : prefix + "." + name;
+    for (TomlEntry const& entry : table.entries) {
+      TomlNode const& node = entry.node;
+      std::string const dotted = prefix.empty() ? entry.name : prefix + "." + entry.name;
       auto const* const inner = node.as<TomlTable>();
       if (Key const* const key = find_stage_key(dotted))
         set_in_stage(*key, {file_, node.line, node.column}, [&] { assign(*key, node); });
       else if (inner && prefix.empty() && is_stage_section(dotted))
         read_stage(*inner, dotted);
       else
-        spoil_stage({file_, line, column},
+        spoil_stage({file_, entry.line, entry.column},
                     fmt::format("unknown key '{}' in [[stage]]{}", dotted.substr(0, 60), stage_key_suggestion(dotted)));
     }
   }
