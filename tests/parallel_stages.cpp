@@ -12,34 +12,6 @@
 namespace clathra {
 namespace {
 
-SideScene rate(double inertial_number) {
-  SideScene side;
-  side.inertial_number = inertial_number;
-  return side;
-}
-SideScene stress(double value) {
-  SideScene side;
-  side.stress = value;
-  return side;
-}
-SideScene hold() {
-  SideScene side;
-  side.hold = true;
-  return side;
-}
-SideScene follow(Follow what) {
-  SideScene side;
-  side.follow = what;
-  return side;
-}
-LoadingStage stage(char const* name, SideScene const& vertical, SideScene const& lateral) {
-  LoadingStage made;
-  made.name = name;
-  made.vertical = vertical;
-  made.lateral = lateral;
-  return made;
-}
-
 /// Sand, so that a test takes a second.
 Scene sand() {
   Scene scene = small_test();
@@ -58,10 +30,12 @@ Scene with(std::vector<LoadingStage> stages) {
 
 /// Five stages, one of each kind of side.
 Scene five_stages() {
-  LoadingStage compression = stage("compression", stress(2e6), hold()), shear = stage("shear", rate(5e-4), stress(1.5e6)),
-               unloading = stage("unloading", rate(-5e-4), stress(1.5e6)),
-               undrained = stage("undrained", rate(5e-4), follow(Follow::constant_volume)),
-               constant_mean = stage("constant mean", rate(5e-4), follow(Follow::constant_mean_stress));
+  LoadingStage compression("compression", SideScene::at_stress(2e6), SideScene::held()),
+      shear = LoadingStage("shear", SideScene::at_inertial_number(5e-4), SideScene::at_stress(1.5e6)),
+      unloading = LoadingStage("unloading", SideScene::at_inertial_number(-5e-4), SideScene::at_stress(1.5e6)),
+      undrained = LoadingStage("undrained", SideScene::at_inertial_number(5e-4), SideScene::following(Follow::constant_volume)),
+      constant_mean =
+          LoadingStage("constant mean", SideScene::at_inertial_number(5e-4), SideScene::following(Follow::constant_mean_stress));
   compression.increments = 3;
   compression.until.rest = true;
   shear.until.path = 0.004;
@@ -159,7 +133,8 @@ TEST(Stages, SayWhatTheyEndedBy) {
 
 /// Both ways: the stage ends with the first step that is beyond the mark.
 TEST(Stages, EndAtTheVeryStep) {
-  LoadingStage shear = stage("shear", rate(5e-4), stress(1e6)), unloading = stage("unloading", rate(-5e-4), stress(1e6));
+  LoadingStage shear("shear", SideScene::at_inertial_number(5e-4), SideScene::at_stress(1e6)),
+      unloading = LoadingStage("unloading", SideScene::at_inertial_number(-5e-4), SideScene::at_stress(1e6));
   shear.until.deviator_stress = 0.5e6;
   unloading.until.deviator_stress = 0.1e6;
   Course const course = run(with({shear, unloading}));
@@ -172,7 +147,7 @@ TEST(Stages, EndAtTheVeryStep) {
 }
 
 TEST(Stages, KeepTheVolumeToRounding) {
-  LoadingStage shear = stage("shear", rate(5e-4), follow(Follow::constant_volume));
+  LoadingStage shear("shear", SideScene::at_inertial_number(5e-4), SideScene::following(Follow::constant_volume));
   shear.until.axial_strain = 0.02;
   Course const course = run(with({shear}));
   ASSERT_GT(course.rows.size(), 10u);
@@ -185,7 +160,7 @@ TEST(Stages, KeepTheVolumeToRounding) {
 /// u = (K_w / n) eps_v for a fluid that gives way, n the porosity: softer than the sand, as stiff, and much stiffer.
 TEST(Stages, KeepTheVolumeOfTheirFluid) {
   for (double const modulus : {2e7, 1e8, 2.2e9}) {
-    LoadingStage shear = stage("shear", rate(1e-4), follow(Follow::constant_volume));
+    LoadingStage shear("shear", SideScene::at_inertial_number(1e-4), SideScene::following(Follow::constant_volume));
     shear.lateral.fluid_modulus = modulus;
     shear.until.axial_strain = 0.01;
     Course const course = run(with({shear}));
@@ -201,7 +176,7 @@ TEST(Stages, KeepTheVolumeOfTheirFluid) {
 }
 
 TEST(Stages, KeepTheMeanStress) {
-  LoadingStage shear = stage("shear", rate(1e-4), follow(Follow::constant_mean_stress));
+  LoadingStage shear("shear", SideScene::at_inertial_number(1e-4), SideScene::following(Follow::constant_mean_stress));
   shear.until.axial_strain = 0.02;
   Course const course = run(with({shear}));
   double mean = 0;
@@ -214,7 +189,7 @@ TEST(Stages, KeepTheMeanStress) {
 }
 
 TEST(Stages, TurnRoundBetweenTwoMarks) {
-  LoadingStage cycles = stage("cycles", rate(5e-4), stress(1e6));
+  LoadingStage cycles("cycles", SideScene::at_inertial_number(5e-4), SideScene::at_stress(1e6));
   cycles.turn.axial_strain = {0, 0.002};
   cycles.until.cycles = 3;
   Course const course = run(with({cycles}));
@@ -267,7 +242,7 @@ TEST(Stages, BearADeadLoadOrSayThatItFailed) {
 }
 
 TEST(Stages, ThatCannotComeToTheirEndAreRefused) {
-  LoadingStage shear = stage("shear", rate(9e-3), stress(1e6));
+  LoadingStage shear("shear", SideScene::at_inertial_number(9e-3), SideScene::at_stress(1e6));
   shear.until.deviator_stress = 50e6;
   try {
     run(with({shear}));
@@ -322,7 +297,7 @@ class Lattice : public testing::Test {
 TEST_F(Lattice, GivesBackTheWorkOfACycle) {
   double before = 1e-4;
   for (double const inertial_number : {8e-4, 4e-4, 2e-4}) {
-    LoadingStage cycle = stage("cycle", rate(inertial_number), stress(1e6));
+    LoadingStage cycle("cycle", SideScene::at_inertial_number(inertial_number), SideScene::at_stress(1e6));
     cycle.turn.deviator_stress = {0, 0.3e6};
     cycle.until.cycles = 1;
     Scene scene = with({cycle});

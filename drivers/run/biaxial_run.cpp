@@ -80,10 +80,12 @@ void BiaxialRun::shear() {
   }
   record_loading(*test);
   std::vector<StageResult> const stages = test->stage_results();
-  for (StageResult const& stage : stages)
-    for (std::string const& warning : stage.warnings)
+  for (StageResult const& stage : stages) {
+    std::vector<std::string> warnings = stage.warnings, of_curves = reporter_.summary_of(stage.name).warnings();
+    warnings.insert(warnings.end(), of_curves.begin(), of_curves.end());
+    for (std::string const& warning : warnings)
       warn(stages.size() > 1 ? fmt::format("in stage '{}': {}", stage.name, warning) : warning);
-  for (std::string const& warning : reporter_.warnings()) warn(warning);
+  }
   record.state_hash = test->state_hash();
   return_free_memory();
   write_specimen(session_.folder() / "final.h5", sheared_specimen(*test), session_.ranks());

@@ -17,7 +17,7 @@ std::string start_text(StageRecord const& prepare, double confining_stress);
 class CurveSummary {
  public:
   void add(HistoryRow const& row);
-  void add(EnergyRow const& row) { energy_ = row, has_energy_ = true; }
+  void add(EnergyRow const& row);
 
   int records() const { return count_; }
   LoadingCurves const& curves() const { return curves_; }
@@ -30,7 +30,8 @@ class CurveSummary {
   std::string text(double sigma3_held) const;
 
  private:
-  double energy_residual() const { return energy_.boundary_work != 0 ? energy_.residual / energy_.boundary_work : 0; }
+  /// Of the ledger since the first record, over the largest work since then.
+  double energy_residual() const { return largest_work_ > 0 ? (energy_.residual - first_energy_.residual) / largest_work_ : 0; }
 
   TestNumbers test() const {
     return test_numbers({curves_.eps1, curves_.eps_v, q_, curves_.sigma3, intact_, largest_q_, largest_q_eps1_, dilation_});
@@ -39,7 +40,8 @@ class CurveSummary {
   LoadingCurves curves_;                                                    // of all records
   std::vector<double> q_, intact_, largest_q_, largest_q_eps1_, dilation_;  // likewise
   HistoryRow last_;
-  EnergyRow energy_;
+  EnergyRow first_energy_, energy_;
+  double largest_work_ = 0;  // since the first of them [J/m]
   bool has_energy_ = false;
   int count_ = 0;  // records
 };

@@ -23,10 +23,6 @@ class RunReporter {
   int records() const;  ///< of the loading
   /// Of a stage; without records where there are none.
   CurveSummary const& summary_of(std::string const& stage) { return summaries_[stage]; }
-  /// In words: why the numbers are not to be trusted.
-  std::vector<std::string> warnings() const {
-    return summaries_.contains(last_.stage) ? summaries_.at(last_.stage).warnings() : std::vector<std::string>();
-  }
 
   /// How far the test is. @param speed  in words
   void show(BiaxialTest const& test, std::string const& speed);

@@ -105,7 +105,7 @@ Resumption RunSession::resume() {
 
 StageRecord RunSession::plan_of(BiaxialTest const& test) const {
   StageRecord plan = earlier_.plan.empty() ? test.plan() : earlier_.plan;
-  plan["steps"] = std::ceil(planned_path(scene()) / (plan.at("strain_rate_per_s") * plan.at("time_step_s")));
+  plan["steps"] = planned_steps(scene(), plan.at("strain_rate_per_s"), plan.at("time_step_s"));
   return plan;
 }
 

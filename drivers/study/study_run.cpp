@@ -16,6 +16,9 @@
 namespace clathra {
 namespace {
 
+/// Whether a member that reports this stage is beyond its preparation.
+bool is_loading(std::string_view stage) { return !stage.empty() && stage != "generate" && stage != "consolidate"; }
+
 namespace fs = std::filesystem;
 
 constexpr auto pause = std::chrono::milliseconds(20);
@@ -263,7 +266,7 @@ void StudyRun::show() {
   double done = done_;
   for (auto& [process, running] : running_) {
     if (!running.specimen)
-      if (RunStatus const status = read_status(status_of(task_of(running))); status.stage == "shear")
+      if (RunStatus const status = read_status(status_of(task_of(running))); is_loading(status.stage))
         running.fraction = std::max(running.fraction, status.fraction);
     done += running.fraction * task_of(running).disc_steps;
   }

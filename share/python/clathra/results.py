@@ -72,7 +72,7 @@ class Run:
 
     def _rows(self, of_loading):
         stage = self.stages.get("stage", pandas.Series("shear", self.stages.index))
-        rows = self.stages[~stage.str.startswith("consolidation") == of_loading].reset_index(drop=True)
+        rows = self.stages[~stage.isin(["consolidation", "consolidation with hydrate"]) == of_loading].reset_index(drop=True)
         rows.attrs["units"] = self.stages.attrs["units"]
         return rows
 

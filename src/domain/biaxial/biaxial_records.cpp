@@ -182,7 +182,7 @@ StageRecord BiaxialTest::plan() const {
   plan["strain_rate_per_s"] = state_->rate.strain_rate;
   plan["inertial_number"] = state_->rate.inertial_number;
   plan["platen_wave_stress"] = state_->rate.platen_wave_stress;
-  plan["steps"] = std::ceil(planned_path(state_->scene) / (state_->rate.strain_rate * s.time_step));
+  plan["steps"] = planned_steps(state_->scene, state_->rate.strain_rate, s.time_step);
   plan["width_m"] = s.assembly().walls().width();
   plan["height_m"] = s.assembly().walls().height();
   return plan;

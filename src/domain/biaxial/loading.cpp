@@ -79,7 +79,7 @@ void BiaxialTest::State::begin_stage(std::int64_t index) {
   for (std::string const& warning : check_rate(scene, rate))
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   set_in_motion(present);
-  if (now().increments > 1) put_increment_on();
+  put_increment_on();
   watch = {};
   last_row = place.start;
   began_quasi_static = preparation.at("quasi_static") == 1 && is_quasi_static(scene, rate);
@@ -116,11 +116,11 @@ AxisDrive BiaxialTest::State::drive_of(SideScene const& side, double strain_rate
   if (side.hold) return AxisDrive::held();
   if (side.has_rate()) return AxisDrive::at_rate(strain_rate);
   WallStress const stress = a.stress();
-  double const transit = std::max(a.walls().width(), a.walls().height()) / wave_speed(*simulation);
   if (side.follow == Follow::constant_volume) {
     if (side.fluid_modulus == 0) return AxisDrive::at_constant_area(a.area());
     double const porosity = a.void_ratio() / (1 + a.void_ratio());
-    return AxisDrive::at_area_of_fluid(a.area(), side.fluid_modulus / porosity, lateral ? stress.x : stress.y, transit);
+    return AxisDrive::at_area_of_fluid(a.area(), side.fluid_modulus / porosity, lateral ? stress.x : stress.y,
+                                       wave_transit(*simulation));
   }
   // A servo that holds a stress may outrun a platen; one that puts a load on may not.
   bool const holds = other.has_rate() || side.follow != Follow::nothing || is_on(side.stress, lateral);
@@ -128,10 +128,10 @@ AxisDrive BiaxialTest::State::drive_of(SideScene const& side, double strain_rate
                cap = holds ? largest_lateral_speed * 0.5 * rate.strain_rate * opposite : 0.5 * rate.strain_rate * span;
   AxisDrive drive = AxisDrive::at_stress(side.stress, cap);
   if (side.follow == Follow::constant_mean_stress) {
-    drive = AxisDrive::at_constant_mean(0.5 * (stress.x + stress.y), lateral ? stress.y : stress.x, transit, cap);
+    drive =
+        AxisDrive::at_constant_mean(0.5 * (stress.x + stress.y), lateral ? stress.y : stress.x, wave_transit(*simulation), cap);
   }
-  double const rate_of_other = other.has_rate() ? signed_rate(other) : 0;
-  drive.integral = other.has_rate() ? -0.5 * elastic_lateral_ratio * rate_of_other * span : 0.5 * going * span;
+  drive.integral = other.has_rate() ? -0.5 * elastic_lateral_ratio * signed_rate(other) * span : 0.5 * going * span;
   return drive;
 }
 
@@ -171,7 +171,7 @@ void BiaxialTest::State::reverse() {
   set_in_motion(present);
 }
 
-/// The next of the equal factors by which a stress goes from that of the beginning to its target.
+/// The next of the equal factors, one or more, by which a stress goes from that of the beginning to its target.
 void BiaxialTest::State::put_increment_on() {
   place.checks_at_rest = 0;
   place.increment_began = simulation->assembly().steps();

@@ -49,7 +49,9 @@ double expected_sigma1(Scene const& scene) {
   while (measured[k].saturation < saturation) ++k;
   Envelope const &a = measured[k - 1], &b = measured[k];
   double const part = (saturation - a.saturation) / (b.saturation - a.saturation), stress = scene.test.confining_stress;
-  return (1 - part) * (a.slope * stress + a.at_zero) + part * (b.slope * stress + b.at_zero);
+  double largest = (1 - part) * (a.slope * stress + a.at_zero) + part * (b.slope * stress + b.at_zero);
+  for (LoadingStage const& stage : stages_of(scene)) largest = std::max({largest, stage.vertical.stress, stage.lateral.stress});
+  return largest;
 }
 
 std::string collapse(double void_ratio, double deep_share) {

@@ -40,7 +40,8 @@ inline bool mixed_precision_resolves(Scene const& scene) {
 double platen_wave_stress(Scene const& scene, double strain_rate, double height, double void_ratio, double density);
 
 /// The largest sigma_1 that a test of this saturation and confining stress is expected to reach [Pa]: on the envelopes that
-/// perf/reports/0.1/examples.md measures, of sand without its cohesion, linear between their saturations.
+/// perf/reports/0.1/examples.md measures, of sand without its cohesion, linear between their saturations; and no less than what a
+/// stage puts on.
 double expected_sigma1(Scene const& scene);
 
 /// Why a specimen is none any more: its void ratio is below 0.05, or most of its contacts are deep; else empty.

@@ -80,15 +80,6 @@ double breaks_of_run(Scene const& scene) {
   return 0.9 * (scene.hydrate.saturation < 0.5 ? 1.3 : 1) * std::pow(std::min(1.0, strain / last), 0.7);
 }
 
-/// Of stresses that are put on in increments, as they took with 2,000 discs of sand.
-double steps_of_increments(Scene const& scene) {
-  constexpr double of_increment = 4000;
-  double steps = 0;
-  for (LoadingStage const& stage : stages_of(scene))
-    if (stage.has_stress_only()) steps += of_increment * stage.increments;
-  return steps;
-}
-
 /// Snapshots, the one at the start of the shear among them.
 double snapshots_of(OutputScene const& output) {
   int const regular = output.snapshots;
@@ -140,7 +131,7 @@ StageRecord predict(Scene const& scene, SpecimenDesign const& design, int ranks)
   p["inertial_number"] = rate.inertial_number;
   p["platen_wave_stress"] = rate.platen_wave_stress;
   p["rate_share"] = rate.share;
-  p["steps"] = std::ceil(planned_path(scene) / (rate.strain_rate * p["time_step_s"])) + steps_of_increments(scene);
+  p["steps"] = planned_steps(scene, rate.strain_rate, p["time_step_s"]);
   p["particle_steps"] = p["steps"] * discs;
   p["generation_particle_steps"] = generation_disc_steps(scene, design.grading, discs);
   p["memory_bytes"] = std::max(memory_of_run(scene, bonded, discs, ranks), memory_of_report(scene, bonded, discs, p["steps"]));

@@ -35,12 +35,7 @@ void bound(OpenRange& range, double mark, double start) {
 
 }  // namespace
 
-bool BiaxialTest::State::looks() const {
-  StageEnd const& end = now().until;
-  bool const by_stress = is_given(end.deviator_stress) || is_given(end.mean_stress) || is_given(end.stress_ratio) ||
-                         !now().turn.deviator_stress.empty();
-  return place.sense == 0 || by_stress;
-}
+bool BiaxialTest::State::looks() const { return place.sense == 0 || now().minds_stress(); }
 
 std::int64_t BiaxialTest::State::steps_to_look() const {
   if (!looks()) return std::numeric_limits<std::int64_t>::max();
@@ -81,8 +76,7 @@ StepLimits BiaxialTest::State::limits(double pause_at) const {
     else
       limits.deviator.low = std::max(limits.deviator.low, turns.front());
   }
-  limits.of_stress = is_given(end.deviator_stress) || is_given(end.mean_stress) || is_given(end.stress_ratio) ||
-                     !now().turn.deviator_stress.empty();
+  limits.of_stress = now().minds_stress();
   return limits;
 }
 
@@ -99,7 +93,7 @@ bool BiaxialTest::State::advance(std::int64_t most_steps, double pause_at) {
     if (looks() && !is_look && !stopped) continue;
     if (watch.due(place.path_within(eps1()))) check();
     bool due = record_is_due();
-    if (due && place.path(eps1()) >= next_record()) ++records_due;
+    if (due && path() >= next_record()) ++records_due;
     if (turn_is_due()) {
       reverse();
       due = true;
@@ -119,7 +113,7 @@ bool BiaxialTest::State::advance(std::int64_t most_steps, double pause_at) {
 /// Of the path; where somebody looks, of the stresses, too. Stresses that are put on in increments have a row at the end of each.
 bool BiaxialTest::State::record_is_due() const {
   if (now().increments > 1) return false;
-  if (place.path(eps1()) >= next_record()) return true;
+  if (path() >= next_record()) return true;
   if (!looks()) return false;
   TestValues const v = values();
   return std::max(std::abs(v.q() - last_row.q()), std::abs(v.p() - last_row.p())) > stress_of_look * scene.test.confining_stress;
@@ -156,7 +150,7 @@ void BiaxialTest::State::look_at_rest() {
   };
   std::string const why = unrest(*simulation, measures(), {wanted(loading.x), wanted(loading.y)}, rest_of_increment);
   place.checks_at_rest = why.empty() ? place.checks_at_rest + 1 : 0;
-  bool const last = place.increment >= now().increments || now().increments == 1;
+  bool const last = place.increment >= now().increments;
   bool rests = place.checks_at_rest >= checks_to_rest;
   if (!rests && !place.failed && simulation->assembly().steps() - place.increment_began >= scene.test.consolidation_steps) {
     std::string const text = "stage '" + now().name + "' did not come to rest within " +
@@ -185,8 +179,7 @@ void BiaxialTest::State::look_for_failure() {
     return;
   }
   if (place.failing_since < 0) place.failing_since = v.time;
-  double const transit = std::max(a.walls().width(), a.walls().height()) / wave_speed(*simulation);
-  if (v.time - place.failing_since <= transits * transit) return;
+  if (v.time - place.failing_since <= transits * wave_transit(*simulation)) return;
   place.failed = true;
   place.failed_eps1 = v.eps1;
   place.failed_q = v.q();
@@ -206,7 +199,7 @@ std::optional<std::string> BiaxialTest::State::end_reached() const {
   if (has_come_to(end.stress_ratio, first.q() / first.p(), v.q() / v.p(), 0)) return "stress ratio";
   if (end.cycles > 0 && place.turns >= 2 * end.cycles) return "cycles";
   if (end.path > 0 && within >= end.path * (1 - rounding)) return "path";
-  bool const last = place.increment >= now().increments || now().increments == 1;
+  bool const last = place.increment >= now().increments;
   if (end.rest && last && place.checks_at_rest >= checks_to_rest) return "rest";
   if (end.path == 0 && within >= longest_path)
     throw Refused("stage '" + now().name + "' has not come to its end within a path of " + short_number(100 * longest_path) +

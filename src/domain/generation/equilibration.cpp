@@ -101,6 +101,11 @@ double wave_speed(Simulation const& simulation) {
   return std::sqrt(packing_modulus(simulation.assembly().laws.contact.grain) / bulk_density);
 }
 
+double wave_transit(Simulation const& simulation) {
+  Walls const& walls = simulation.assembly().walls();
+  return std::max(walls.width(), walls.height()) / wave_speed(simulation);
+}
+
 std::string unrest(Simulation const& simulation, Measures const& m, WallStress const& stress, RestCriterion const& rest) {
   constexpr double tolerance = 0.005;
   std::string text;

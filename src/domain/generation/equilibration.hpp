@@ -104,6 +104,9 @@ void prepare_servo(Simulation& simulation, double stress, double inertial_number
 /// Speed of compression waves in the assembly [m/s], from a modulus of 0.8 k_n and the bulk density.
 double wave_speed(Simulation const& simulation);
 
+/// Time that such a wave takes through the longer side of the box [s].
+double wave_transit(Simulation const& simulation);
+
 /// Mean stress [Pa] now: from the walls, or from the contacts of a periodic cell.
 double mean_stress(Simulation const& simulation);
 

@@ -10,53 +10,26 @@ namespace {
 
 /// Loaded at the rate of the test. @param sense  1 closes, -1 opens
 SideScene at_rate(TestScene const& test, double sense) {
-  SideScene side;
-  side.inertial_number = sense * test.inertial_number;
+  SideScene side = SideScene::at_inertial_number(sense * test.inertial_number);
   side.strain_rate = sense * test.strain_rate;
   return side;
 }
 
-SideScene at_stress(double stress) {
-  SideScene side;
-  side.stress = stress;
-  return side;
-}
-
-SideScene held() {
-  SideScene side;
-  side.hold = true;
-  return side;
-}
-
-SideScene following(Follow follow) {
-  SideScene side;
-  side.follow = follow;
-  return side;
-}
-
-LoadingStage stage_of(std::string name, SideScene const& vertical, SideScene const& lateral) {
-  LoadingStage stage;
-  stage.name = std::move(name);
-  stage.vertical = vertical;
-  stage.lateral = lateral;
-  return stage;
-}
-
 /// Sheared by its platens to an axial strain.
 LoadingStage sheared(TestScene const& test, SideScene const& lateral) {
-  LoadingStage stage = stage_of(shear_stage, at_rate(test, 1), lateral);
+  LoadingStage stage(shear_stage, at_rate(test, 1), lateral);
   stage.until.axial_strain = test.axial_strain;
   return stage;
 }
 
 LoadingStage undrained(TestScene const& test) {
-  LoadingStage stage = sheared(test, following(Follow::constant_volume));
+  LoadingStage stage = sheared(test, SideScene::following(Follow::constant_volume));
   stage.lateral.fluid_modulus = test.fluid_modulus;
   return stage;
 }
 
 LoadingStage opened(TestScene const& test) {
-  LoadingStage stage = stage_of("extension", at_rate(test, -1), at_stress(test.confining_stress));
+  LoadingStage stage("extension", at_rate(test, -1), SideScene::at_stress(test.confining_stress));
   stage.until.axial_strain = -test.axial_strain;
   return stage;
 }
@@ -65,7 +38,7 @@ LoadingStage opened(TestScene const& test) {
 std::vector<LoadingStage> compressed(TestScene const& test, bool isotropic) {
   std::vector<LoadingStage> stages;
   auto const add = [&](char const* name, double stress) {
-    LoadingStage stage = stage_of(name, at_stress(stress), isotropic ? at_stress(stress) : held());
+    LoadingStage stage(name, SideScene::at_stress(stress), isotropic ? SideScene::at_stress(stress) : SideScene::held());
     stage.increments = test.increments;
     stage.until.rest = true;
     stages.push_back(stage);
@@ -79,11 +52,11 @@ std::vector<LoadingStage> compressed(TestScene const& test, bool isotropic) {
 std::vector<LoadingStage> unloaded_and_reloaded(TestScene const& test) {
   std::vector<LoadingStage> stages;
   std::vector<double> const at = test.unload_at.empty() ? std::vector{test.axial_strain / 2} : test.unload_at;
-  LoadingStage loading = sheared(test, at_stress(test.confining_stress));
+  LoadingStage loading = sheared(test, SideScene::at_stress(test.confining_stress));
   for (std::size_t i = 0; i < at.size(); ++i) {
     loading.until.axial_strain = at[i];
     stages.push_back(loading);
-    LoadingStage unloading = stage_of("unloading " + std::to_string(i + 1), at_rate(test, -1), at_stress(test.confining_stress));
+    LoadingStage unloading("unloading " + std::to_string(i + 1), at_rate(test, -1), SideScene::at_stress(test.confining_stress));
     unloading.until.deviator_stress = 0;
     stages.push_back(unloading);
     loading.name = "reloading " + std::to_string(i + 1);
@@ -94,7 +67,7 @@ std::vector<LoadingStage> unloaded_and_reloaded(TestScene const& test) {
 }
 
 LoadingStage cycled(TestScene const& test) {
-  LoadingStage stage = stage_of("cycles", at_rate(test, 1), at_stress(test.confining_stress));
+  LoadingStage stage("cycles", at_rate(test, 1), SideScene::at_stress(test.confining_stress));
   if (test.cyclic_deviator_stress.empty())
     stage.turn.axial_strain = {0, test.axial_strain};
   else
@@ -105,7 +78,8 @@ LoadingStage cycled(TestScene const& test) {
 }
 
 LoadingStage loaded_dead(TestScene const& test) {
-  LoadingStage stage = stage_of("dead load", at_stress(test.confining_stress + test.dead_load), at_stress(test.confining_stress));
+  LoadingStage stage("dead load", SideScene::at_stress(test.confining_stress + test.dead_load),
+                     SideScene::at_stress(test.confining_stress));
   stage.until.rest = true;
   stage.until.axial_strain = test.axial_strain;
   return stage;
@@ -117,13 +91,13 @@ std::vector<LoadingStage> stages_of(Scene const& scene) {
   TestScene const& test = scene.test;
   switch (test.kind) {
     case TestKind::biaxial:
-      return {sheared(test, at_stress(test.confining_stress))};
+      return {sheared(test, SideScene::at_stress(test.confining_stress))};
     case TestKind::extension:
       return {opened(test)};
     case TestKind::constant_volume:
       return {undrained(test)};
     case TestKind::constant_mean_stress:
-      return {sheared(test, following(Follow::constant_mean_stress))};
+      return {sheared(test, SideScene::following(Follow::constant_mean_stress))};
     case TestKind::isotropic:
     case TestKind::oedometer:
       return compressed(test, test.kind == TestKind::isotropic);
@@ -139,16 +113,39 @@ std::vector<LoadingStage> stages_of(Scene const& scene) {
   return {};
 }
 
-double planned_path(Scene const& scene) {
+namespace {
+
+/// Of stages with a rate; 0 where there is none.
+double path_of_rates(std::vector<LoadingStage> const& stages) {
   double path = 0, at = 0;
-  for (LoadingStage const& stage : stages_of(scene)) {
+  for (LoadingStage const& stage : stages) {
     std::vector<double> const& turns = stage.turn.axial_strain;
     if (!turns.empty()) path += 2 * stage.until.cycles * (turns.back() - turns.front());
     if (!is_given(stage.until.axial_strain) || stage.has_stress_only()) continue;
     path += std::abs(stage.until.axial_strain - at);
     at = stage.until.axial_strain;
   }
+  return path;
+}
+
+}  // namespace
+
+double planned_path(Scene const& scene) {
+  double const path = path_of_rates(stages_of(scene));
   return path > 0 ? path : scene.test.axial_strain;
+}
+
+double planned_steps(Scene const& scene, double strain_rate, double time_step) {
+  constexpr double of_increment = 3000;  // 2,200 of sand without lateral strain, 3,800 under both stresses (examples/tests)
+  std::vector<LoadingStage> const stages = stages_of(scene);
+  double increments = 0;
+  bool stress_only = true;
+  for (LoadingStage const& stage : stages) {
+    if (stage.has_stress_only()) increments += stage.increments;
+    stress_only = stress_only && stage.has_stress_only();
+  }
+  double const path = stress_only ? 0 : planned_path(scene);
+  return std::ceil(path / (strain_rate * time_step)) + of_increment * increments;
 }
 
 }  // namespace clathra

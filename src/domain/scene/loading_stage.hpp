@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clathra {
@@ -46,6 +47,27 @@ struct SideScene {
   Follow follow = Follow::nothing;
   double fluid_modulus = 0;  ///< of the fluid that keeps a constant volume, K_w [Pa]; 0 = infinite
 
+  static SideScene held() {
+    SideScene side;
+    side.hold = true;
+    return side;
+  }
+  static SideScene at_inertial_number(double closing) {
+    SideScene side;
+    side.inertial_number = closing;
+    return side;
+  }
+  static SideScene at_stress(double stress) {
+    SideScene side;
+    side.stress = stress;
+    return side;
+  }
+  static SideScene following(Follow follow) {
+    SideScene side;
+    side.follow = follow;
+    return side;
+  }
+
   bool has_rate() const { return inertial_number != 0 || strain_rate != 0; }
   bool has_stress() const { return stress != 0; }
   /// Of a rate: 1 closes, -1 opens.
@@ -72,6 +94,10 @@ struct StageEnd {
 };
 
 struct LoadingStage {
+  LoadingStage() = default;
+  LoadingStage(std::string by_name, SideScene const& vertical_side, SideScene const& lateral_side)
+      : name(std::move(by_name)), vertical(vertical_side), lateral(lateral_side) {}
+
   std::string name;
   SideScene vertical, lateral;
   int increments = 1;            ///< in which stresses are put on, with rest after each but the last
@@ -79,6 +105,11 @@ struct LoadingStage {
   StageTurn turn;
   StageEnd until;
 
+  /// Whether stresses end it or turn it round.
+  bool minds_stress() const {
+    return is_given(until.deviator_stress) || is_given(until.mean_stress) || is_given(until.stress_ratio) ||
+           !turn.deviator_stress.empty();
+  }
   bool has_stress_only() const { return !vertical.has_rate() && !lateral.has_rate(); }
 };
 
@@ -87,7 +118,9 @@ inline constexpr double longest_path = 0.5;  ///< of a stage that states none
 /// The stages that follow the consolidation: those of the scene, or those that its test.kind stands for.
 std::vector<LoadingStage> stages_of(Scene const& scene);
 
-/// Of the axial strain, to and fro, through all stages as far as it is known beforehand; test.axial_strain where none is.
+/// Of the axial strain, back and forth, through all stages as far as it is known beforehand; test.axial_strain where none is.
 double planned_path(Scene const& scene);
+/// Time steps of the stages: of that path at a rate [1/s], and of stresses that are put on. @param time_step  [s]
+double planned_steps(Scene const& scene, double strain_rate, double time_step);
 
 }  // namespace clathra

@@ -204,7 +204,8 @@ Piece stage_tables(std::vector<RunResults> const& runs) {
     if (is_compression_alone(run) || stages == run.record.end() || loading == run.record.end()) continue;
     std::string rows;
     for (auto const& end : *loading) {
-      std::string const name = end.at("stage").get<std::string>(), by = end.at("ended_by").get<std::string>();
+      std::string const name = end.value("stage", ""), by = end.value("ended_by", "");
+      if (!stages->contains(name)) continue;
       rows += fmt::format("<tr><th>{}</th><td>{}</td><td>", escaped(name), by.empty() ? "not ended" : escaped(by));
       auto const number = [&](char const* of, char const* shown, double factor, char const* unit) {
         auto const found = stages->at(name).find(of);
