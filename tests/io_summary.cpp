@@ -17,7 +17,8 @@ CurveSummary of_records(double unaccounted) {
     row.largest_q_eps1 = n == 21 ? 0.0205 : row.eps1;
     summary.add(row);
   }
-  EnergyRow energy;
+  EnergyRow energy;  // of the first record, and of the last
+  summary.add(energy);
   energy.boundary_work = 1;
   energy.residual = unaccounted;
   summary.add(energy);

@@ -2,31 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "domain/measurement/loading_numbers.hpp"
 #include "scenes.hpp"
-#include "small_test.hpp"
+#include "stage_run.hpp"
 
 namespace clathra {
 namespace {
-
-/// Sand, so that a test takes a second.
-Scene sand() {
-  Scene scene = small_test();
-  scene.hydrate.saturation = 0;
-  scene.test.max_platen_wave_stress = 0;
-  scene.test.inertial_number = 5e-4;
-  return scene;
-}
-
-Scene with(std::vector<LoadingStage> stages) {
-  Scene scene = sand();
-  scene.test.kind = TestKind::list;
-  scene.stages = std::move(stages);
-  return scene;
-}
 
 /// Five stages, one of each kind of side.
 Scene five_stages() {
@@ -46,40 +29,7 @@ Scene five_stages() {
   return with({compression, shear, unloading, undrained, constant_mean});
 }
 
-struct Course {
-  std::vector<HistoryRow> rows;
-  std::vector<StageResult> stages;
-  std::uint64_t hash = 0;
-  Specimen specimen;
-  std::vector<HistoryRow> of(std::string const& name) const {
-    std::vector<HistoryRow> found;
-    for (HistoryRow const& row : rows)
-      if (row.stage == name) found.push_back(row);
-    return found;
-  }
-  StageResult const& result(std::string const& name) const {
-    for (StageResult const& one : stages)
-      if (one.name == name) return one;
-    throw std::logic_error("no stage " + name);
-  }
-};
-
-/// @param pace  steps between two looks of the caller;  @param restarts  taken apart and put together after every so many calls
-Course run(Scene const& scene, std::int64_t pace = 100'000, int restarts = 0, Specimen const& specimen = small_specimen()) {
-  auto test = std::make_unique<BiaxialTest>(scene, specimen, ProgressCallback());
-  Course course;
-  course.rows.push_back(test->record());
-  for (int calls = 1; !test->finished(); ++calls) {
-    if (restarts > 0 && calls % restarts == 0) test = std::make_unique<BiaxialTest>(scene, test->state(), Ranks{});
-    if (test->advance(pace)) course.rows.push_back(test->record());
-  }
-  course.stages = test->stage_results();
-  course.hash = test->state_hash();
-  course.specimen = test->specimen();
-  return course;
-}
-
-void expect_same_rows(Course const& one, Course const& other) {
+void expect_same_rows(StageRun const& one, StageRun const& other) {
   ASSERT_EQ(one.rows.size(), other.rows.size());
   for (std::size_t i = 0; i < one.rows.size(); ++i) {
     EXPECT_EQ(one.rows[i].stage, other.rows[i].stage) << i;
@@ -97,17 +47,17 @@ TEST(Stages, ThatABiaxialTestStandsForHaveItsBits) {
   Scene list = scene;
   list.stages = stages_of(scene);
   list.test.kind = TestKind::list;
-  Course const preset = run(scene), written_out = run(list);
+  StageRun const preset = run_stages(scene), written_out = run_stages(list);
   EXPECT_EQ(preset.rows.size(), 41u);
   expect_same_rows(preset, written_out);
 }
 
 TEST(Stages, DoNotKnowThePaceOfTheirCallerNorRestarts) {
-  Course const whole = run(five_stages());
+  StageRun const whole = run_stages(five_stages());
   ASSERT_EQ(whole.stages.size(), 5u);
-  expect_same_rows(whole, run(five_stages(), 37));
-  expect_same_rows(whole, run(five_stages(), 1000, 3));
-  Course const restarted = run(five_stages(), 700, 1);
+  expect_same_rows(whole, run_stages(five_stages(), 37));
+  expect_same_rows(whole, run_stages(five_stages(), 1000, 3));
+  StageRun const restarted = run_stages(five_stages(), 700, 1);
   expect_same_rows(whole, restarted);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(restarted.stages[i].ended_by, whole.stages[i].ended_by);
@@ -116,7 +66,7 @@ TEST(Stages, DoNotKnowThePaceOfTheirCallerNorRestarts) {
 }
 
 TEST(Stages, SayWhatTheyEndedBy) {
-  Course const course = run(five_stages());
+  StageRun const course = run_stages(five_stages());
   EXPECT_EQ(course.result("compression").ended_by, "rest");
   EXPECT_EQ(course.result("shear").ended_by, "path");
   EXPECT_EQ(course.result("unloading").ended_by, "deviator stress");
@@ -137,7 +87,7 @@ TEST(Stages, EndAtTheVeryStep) {
       unloading = LoadingStage("unloading", SideScene::at_inertial_number(-5e-4), SideScene::at_stress(1e6));
   shear.until.deviator_stress = 0.5e6;
   unloading.until.deviator_stress = 0.1e6;
-  Course const course = run(with({shear, unloading}));
+  StageRun const course = run_stages(with({shear, unloading}));
   double const up = course.of("shear").back().q_Pa, down = course.of("unloading").back().q_Pa;
   EXPECT_GE(up, 0.5e6);
   EXPECT_LT(up, 0.51e6);
@@ -149,7 +99,7 @@ TEST(Stages, EndAtTheVeryStep) {
 TEST(Stages, KeepTheVolumeToRounding) {
   LoadingStage shear("shear", SideScene::at_inertial_number(5e-4), SideScene::following(Follow::constant_volume));
   shear.until.axial_strain = 0.02;
-  Course const course = run(with({shear}));
+  StageRun const course = run_stages(with({shear}));
   ASSERT_GT(course.rows.size(), 10u);
   for (HistoryRow const& row : course.rows) EXPECT_LT(std::abs(row.eps_v), 1e-12) << row.eps1;
   double const e = course.rows.front().void_ratio;
@@ -157,13 +107,13 @@ TEST(Stages, KeepTheVolumeToRounding) {
   EXPECT_GT(std::abs(course.rows.back().sigma3_Pa - course.rows.front().sigma3_Pa), 0.05e6) << "which takes stress";
 }
 
-/// u = (K_w / n) eps_v for a fluid that gives way, n the porosity: softer than the sand, as stiff, and much stiffer.
+/// u = (K_w / n) eps_v for a fluid that gives way, n the porosity: from much softer than the sand to much stiffer.
 TEST(Stages, KeepTheVolumeOfTheirFluid) {
-  for (double const modulus : {2e7, 1e8, 2.2e9}) {
+  for (double const modulus : {1e5, 2e6, 2e7, 1e8, 2.2e9}) {
     LoadingStage shear("shear", SideScene::at_inertial_number(1e-4), SideScene::following(Follow::constant_volume));
     shear.lateral.fluid_modulus = modulus;
     shear.until.axial_strain = 0.01;
-    Course const course = run(with({shear}));
+    StageRun const course = run_stages(with({shear}));
     double const e = course.rows.front().void_ratio, stiffness = modulus * (1 + e) / e;
     double largest = 0;
     for (HistoryRow const& row : course.rows)
@@ -171,14 +121,14 @@ TEST(Stages, KeepTheVolumeOfTheirFluid) {
     for (HistoryRow const& row : course.rows)
       EXPECT_NEAR(stiffness * row.eps_v, course.rows.front().sigma3_Pa - row.sigma3_Pa, 0.08 * largest)
           << modulus << " " << row.eps1;
-    EXPECT_GT(largest, 0.02e6);
+    EXPECT_GT(largest, std::min(0.02e6, 0.03 * modulus)) << "of a strain of a few per mille at least";
   }
 }
 
 TEST(Stages, KeepTheMeanStress) {
   LoadingStage shear("shear", SideScene::at_inertial_number(1e-4), SideScene::following(Follow::constant_mean_stress));
   shear.until.axial_strain = 0.02;
-  Course const course = run(with({shear}));
+  StageRun const course = run_stages(with({shear}));
   double mean = 0;
   for (HistoryRow const& row : course.rows) {
     EXPECT_NEAR(row.p_Pa, 1e6, 0.02e6) << row.eps1;
@@ -192,7 +142,7 @@ TEST(Stages, TurnRoundBetweenTwoMarks) {
   LoadingStage cycles("cycles", SideScene::at_inertial_number(5e-4), SideScene::at_stress(1e6));
   cycles.turn.axial_strain = {0, 0.002};
   cycles.until.cycles = 3;
-  Course const course = run(with({cycles}));
+  StageRun const course = run_stages(with({cycles}));
   EXPECT_EQ(course.stages.front().ended_by, "cycles");
   EXPECT_EQ(course.stages.front().numbers.at("turns"), 6);
   EXPECT_NEAR(course.stages.front().numbers.at("path"), 6 * 0.002, 6 * 1.6e-5) << "a step strains by 8e-6";
@@ -214,49 +164,11 @@ TEST(Stages, OfAnExtensionOpen) {
   Scene scene = sand();
   scene.test.kind = TestKind::extension;
   scene.test.axial_strain = 0.01;
-  Course const course = run(scene);
+  StageRun const course = run_stages(scene);
   EXPECT_NEAR(course.rows.back().eps1, -0.01, 1e-5);
   EXPECT_EQ(course.rows.size(), 41u);
   EXPECT_LT(course.rows.back().q_Pa, -0.2e6);
   EXPECT_NEAR(course.rows.back().sigma3_Pa, 1e6, 0.05e6);
-}
-
-TEST(Stages, BearADeadLoadOrSayThatItFailed) {
-  for (bool const stands : {true, false}) {
-    Scene scene = sand();
-    scene.test.kind = TestKind::creep;
-    scene.test.axial_strain = 0.06;
-    scene.test.dead_load = stands ? 0.3e6 : 3e6;
-    Course const course = run(scene);
-    StageResult const& result = course.stages.front();
-    EXPECT_EQ(result.ended_by, stands ? "rest" : "axial strain");
-    EXPECT_EQ(result.numbers.at("failed"), stands ? 0 : 1);
-    if (stands) {
-      EXPECT_NEAR(course.rows.back().sigma1_Pa, 1.3e6, 0.01e6);
-      continue;
-    }
-    EXPECT_LT(result.numbers.at("failed_eps1"), 0.06);
-    EXPECT_LT(result.numbers.at("failed_q_Pa"), 3e6);
-    EXPECT_NE(result.warnings.back().find("failed under its dead load"), std::string::npos);
-  }
-}
-
-TEST(Stages, ThatCannotComeToTheirEndAreRefused) {
-  LoadingStage shear("shear", SideScene::at_inertial_number(9e-3), SideScene::at_stress(1e6));
-  shear.until.deviator_stress = 50e6;
-  try {
-    run(with({shear}));
-    ADD_FAILURE() << "ended";
-  } catch (Refused const& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("stage 'shear' has not come to its end within a path of 50 %"), std::string::npos)
-        << refusal.what();
-  }
-  Scene unsettled = sand();
-  unsettled.test.kind = TestKind::oedometer;
-  BiaxialTest test(unsettled, small_specimen(), {});
-  unsettled.test.consolidation_steps = 300;
-  BiaxialTest hurried(unsettled, test.state(), Ranks{});
-  EXPECT_THROW((void)hurried.advance(10'000), Refused);
 }
 
 /// Hexagonal lattices that neither slide nor roll: C11 = (sqrt(3)/4) (3 k_n + k_s), C12 = (sqrt(3)/4) (k_n - k_s) for springs
@@ -271,7 +183,7 @@ class Lattice : public testing::Test {
     scene.test.kind = kind;
     scene.test.largest_stress = 1.2e6;
     scene.test.increments = 2;
-    Course const course = run(scene, 100'000, 0, lattice(columns));
+    StageRun const course = run_stages(scene, 100'000, 0, lattice(columns));
     LoadingCurves curves;
     for (HistoryRow const& row : course.of("compression")) {
       curves.eps1.push_back(row.eps1), curves.eps_v.push_back(row.eps_v), curves.sigma1.push_back(row.sigma1_Pa);

@@ -32,7 +32,10 @@ void CurveSummary::add(EnergyRow const& row) {
 StageRecord CurveSummary::numbers() const {
   StageRecord numbers;
   if (count_ == 0) return numbers;
-  if (last_.stage == shear_stage) numbers = record_of(test());
+  if (last_.stage == shear_stage)
+    numbers = record_of(test());
+  else
+    numbers["largest_q_Pa"] = *std::max_element(largest_q_.begin(), largest_q_.end());
   numbers["records"] = count_;
   for (BreakModeNames const& m : break_modes) numbers[m.broken] = static_cast<double>(last_.broken[m.mode]);
   if (largest_work_ > 0) numbers["energy_residual"] = std::fabs(energy_residual());
@@ -50,7 +53,7 @@ std::vector<std::string> CurveSummary::warnings() const {
   return texts;
 }
 
-std::string CurveSummary::text(double sigma3_held) const {
+std::string CurveSummary::text(std::optional<double> sigma3_held) const {
   if (count_ == 0) return {};
   TestNumbers const n = test();
   std::string text = fmt::format("{:<9} q {:.4g} MPa at eps1 {:.3g} %, eps_v {:.3g} %{}\n", n.passed_peak ? "peak" : "largest",
@@ -66,7 +69,7 @@ std::string CurveSummary::text(double sigma3_held) const {
     text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {}\n", last_.bonds_intact, last_.bonds_intact_pct,
                         modes);
   }
-  text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the checks\n", 100 * sigma3_held);
+  if (sigma3_held) text += fmt::format("control   sigma3 within 1 % in {:.1f} % of the checks\n", 100 * *sigma3_held);
   if (largest_work_ > 0)
     text += fmt::format("energy    {:.3g} % of the boundary work unaccounted for\n", 100 * std::fabs(energy_residual()));
   return text;

@@ -1,5 +1,6 @@
 #pragma once
 /// The numbers of a finished test that people compare: peak, residual, volume change, quality of the control.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ class CurveSummary {
   StageRecord numbers() const;
   /// In words: why the numbers are not to be trusted (energy residual above 1 % of the work).
   std::vector<std::string> warnings() const;
-  /// A few lines for the screen. @param sigma3_held  part of the checks with sigma3 within 1 %
-  std::string text(double sigma3_held) const;
+  /// A few lines for the screen. @param sigma3_held  part of the checks with sigma3 within 1 %, where it is to be held
+  std::string text(std::optional<double> sigma3_held) const;
 
  private:
   /// Of the ledger since the first record, over the largest work since then.

@@ -74,12 +74,6 @@ Forecast forecast(Scene const& scene, SpecimenDesign const& design, int ranks) {
   RateNumbers const rate = rate_of(result.numbers);
   result.warnings = rate_warnings(scene, rate);
   result.refusals = rate_refusals(scene, rate);
-  for (LoadingStage const& stage : scene.stages) {
-    RateNumbers const own = rate_numbers(scene, stage, design.grading.d50(), design.height, design.void_ratio);
-    for (std::string const& text : rate_refusals(scene, own))
-      if (std::find(result.refusals.begin(), result.refusals.end(), text) == result.refusals.end())
-        result.refusals.push_back("stage '" + stage.name + "': " + text);
-  }
   if (std::string const warning = disk_warning(scene, result.numbers); !warning.empty()) result.warnings.push_back(warning);
   if (std::string const refusal = memory_refusal(result.numbers); !refusal.empty())
     result.refusals.push_back(refusal), result.out_of_memory = true;
@@ -133,8 +127,8 @@ std::string forecast_text(Scene const& scene, Forecast const& forecast, MachineS
       "time step",
       fmt::format("{:.3g} s ({:g} of {}{})", n.at("time_step_s"), scene.run.step_choice().safety,
                   scene.run.time_step_rule == TimeStepRule::adaptive ? "the limit of stability" : "the estimate", rotation));
-  text += table_row("strain rate", fmt::format("{:.4g} 1/s, up to {:.4g} % axial strain", n.at("strain_rate_per_s"),
-                                               scene.test.axial_strain * 100));
+  text += table_row("strain rate",
+                    fmt::format("{:.4g} 1/s, up to {:.4g} % axial strain", n.at("strain_rate_per_s"), planned_path(scene) * 100));
   std::string const lowered =
       n.at("rate_share") < 1 ? fmt::format("lowered from {:.3g} by test.max_platen_wave_stress; ", scene.test.inertial_number)
                              : "";

@@ -9,9 +9,10 @@ namespace {
 
 /// A line on a stage that is not a shear. @param end  where it ended, and by what
 std::string stage_text(StageEnding const& end, StageRecord const& numbers) {
-  return fmt::format("{:<9} sigma1 {:.4g} MPa, sigma3 {:.4g} MPa over a path of {:.3g} % of eps1, ended by {}\n", end.stage,
-                     numbers.at("end_sigma1_Pa") * 1e-6, numbers.at("end_sigma3_Pa") * 1e-6, numbers.at("path") * 100,
-                     end.ended_by);
+  return fmt::format(
+      "{:<9} sigma1 {:.4g} MPa, sigma3 {:.4g} MPa, largest q {:.4g} MPa over a path of {:.3g} % of eps1, ended by {}\n",
+      end.stage, numbers.at("end_sigma1_Pa") * 1e-6, numbers.at("end_sigma3_Pa") * 1e-6, numbers.at("largest_q_Pa") * 1e-6,
+      numbers.at("path") * 100, end.ended_by);
 }
 
 }  // namespace
@@ -44,7 +45,10 @@ void RunReporter::say_end(RunRecord const& record, double confining_stress, std:
   std::string text = start_text(record.stages.at("prepare"), confining_stress);
   for (StageEnding const& end : record.stage_ends) {
     StageRecord const& numbers = record.stages.at(end.stage);
-    text += end.stage == shear_stage ? summary_of(end.stage).text(numbers.at("sigma3_held")) : stage_text(end, numbers);
+    auto const held = numbers.find("sigma3_held");
+    text += end.stage == shear_stage
+                ? summary_of(end.stage).text(held == numbers.end() ? std::nullopt : std::optional(held->second))
+                : stage_text(end, numbers);
   }
   print_result(text + fmt::format("results   {}\n", folder.string()));  // a closed stdout is no failure of the run
 }

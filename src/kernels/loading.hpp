@@ -21,14 +21,14 @@ struct ServoLaw {
 
 /// One pair of opposite walls. Closing (compression) is positive.
 struct AxisDrive {
-  enum class Kind { hold, rate, stress, constant_area, constant_mean_stress };
+  enum class Kind { hold, rate, stress, constant_area, constant_mean_stress, soft_fluid };
   Kind kind = Kind::hold;
   Real strain_rate = 0;      ///< `rate`: natural strain rate [1/s], compression positive
   Real target_stress = 0;    ///< `stress`, and what `constant_mean_stress` comes to now [Pa]
   bool one_sided = false;    ///< only the right or top wall moves
   Real integral = 0;         ///< servo state: closing speed of either wall [m/s] that has held the stress so far
   Real largest_speed = 1;    ///< cap on |closing speed| of either wall [m/s]
-  Real held_area = 0;        ///< `constant_area`, of the box [m^2]
+  Real held_area = 0;        ///< `constant_area` and `soft_fluid`, of the box [m^2]
   Real fluid_stiffness = 0;  ///< of the fluid that keeps it, K_w over the porosity [Pa]; 0 = infinite
   Real held_stress = 0;      ///< `constant_mean_stress`: p; with a fluid the stress on this pair where its pressure is 0 [Pa]
   Real slow_stress = 0;      ///< on the other pair, with a fluid on this one, without what is faster than filter_time [Pa]
@@ -51,6 +51,15 @@ struct AxisDrive {
     drive.fluid_stiffness = stiffness;
     drive.held_stress = drive.slow_stress = own;
     drive.filter_time = filter_time;
+    return drive;
+  }
+  /// The same for a fluid that is softer than the specimen: the walls are steered to the stress that it leaves.
+  static AxisDrive at_stress_of_fluid(Real area, Real stiffness, Real own, Real largest_speed) {
+    AxisDrive drive = at_stress(own, largest_speed);
+    drive.kind = Kind::soft_fluid;
+    drive.held_area = area;
+    drive.fluid_stiffness = stiffness;
+    drive.held_stress = own;
     return drive;
   }
   /// (sigma_1 + sigma_3) / 2 stays `mean` [Pa]. @param other  the stress on the other pair now [Pa];  @param filter_time  of its
@@ -83,7 +92,11 @@ struct AxisDrive {
   }
 
   /// What the walls feel decides what this pair is steered to, or which area is left to a fluid.
-  KOKKOS_INLINE_FUNCTION void follow(Real own, Real on_other, Real dt) {
+  KOKKOS_INLINE_FUNCTION void follow(Real own, Real on_other, Real area, Real dt) {
+    if (kind == Kind::soft_fluid) {
+      target_stress = lane_max(Real(0), held_stress - fluid_stiffness * (1 - area / held_area));
+      return;
+    }
     bool const keeps_mean = kind == Kind::constant_mean_stress;
     if (!keeps_mean && fluid_stiffness == 0) return;
     slow_stress += ((keeps_mean ? on_other : own) - slow_stress) * lane_min(Real(1), dt / filter_time);
@@ -108,8 +121,9 @@ struct Loading {
   KOKKOS_INLINE_FUNCTION void steer(Walls& walls, WallStress const& stress, WallReactions const& reactions, Real dt) {
     int const contacts_x = (reactions.contacts[left] + reactions.contacts[right]) / 2;
     int const contacts_y = (reactions.contacts[bottom] + reactions.contacts[top]) / 2;
-    x.follow(stress.x, stress.y, dt);
-    y.follow(stress.y, stress.x, dt);
+    Real const area = walls.width() * walls.height();
+    x.follow(stress.x, stress.y, area, dt);
+    y.follow(stress.y, stress.x, area, dt);
     Real const speed_x = x.closing_speed(servo, stress.x, walls.height(), walls.width(), contacts_x, dt);
     Real const speed_y = y.closing_speed(servo, stress.y, walls.width(), walls.height(), contacts_y, dt);
     walls.velocity[left] = x.one_sided ? 0 : speed_x;

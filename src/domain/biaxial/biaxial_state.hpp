@@ -69,6 +69,7 @@ struct BiaxialTest::State {
   double signed_rate(SideScene const& side) const;
   bool is_on(double stress, bool lateral) const;
   AxisDrive drive_of(SideScene const& side, double strain_rate, bool lateral, StrainRates const& present) const;
+  void require_end_ahead() const;
   void put_increment_on();
   void reverse();
   LoadingStage const& now() const { return stages[static_cast<std::size_t>(place.index)]; }
@@ -82,6 +83,7 @@ struct BiaxialTest::State {
   void look_at_rest();
   void look_for_failure();
   bool turn_is_due() const;
+  bool holds_lateral_stress() const;
   std::optional<std::string> end_reached() const;
   void end_stage(std::string const& ended_by);
   StageResult result(std::string const& ended_by) const;

@@ -5,6 +5,7 @@
 #include "domain/biaxial/biaxial_state.hpp"
 #include "domain/generation/equilibration.hpp"
 #include "domain/scene/hydrate.hpp"
+#include "domain/scene/scene_laws.hpp"
 #include "domain/scene/short_number.hpp"
 
 namespace clathra {
@@ -78,12 +79,24 @@ void BiaxialTest::State::begin_stage(std::int64_t index) {
   rate = rate_numbers(scene, now(), d50, a.walls().height(), a.void_ratio(), a.facts.added_mass);
   for (std::string const& warning : check_rate(scene, rate))
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  require_end_ahead();
   set_in_motion(present);
   put_increment_on();
   watch = {};
   last_row = place.start;
   began_quasi_static = preparation.at("quasi_static") == 1 && is_quasi_static(scene, rate);
   preparation["quasi_static"] = began_quasi_static ? 1 : 0;
+}
+
+/// @throws Refused where a rate leads away from the axial strain that alone ends the stage
+void BiaxialTest::State::require_end_ahead() const {
+  StageEnd const& end = now().until;
+  StageEnd others = end;
+  others.axial_strain = not_given;
+  if (place.sense == 0 || now().turn.any() || !is_given(end.axial_strain) || others.any()) return;
+  if (place.sense * (end.axial_strain - place.start.eps1) > 0) return;
+  throw Refused("stage '" + now().name + "' begins at an axial strain of " + short_number(100 * place.start.eps1, 4) +
+                " % and goes away from " + short_number(100 * end.axial_strain, 4) + " %, where it is to end");
 }
 
 /// How the box closes now: servo walls go on at the speed that has held their stress.
@@ -116,22 +129,28 @@ AxisDrive BiaxialTest::State::drive_of(SideScene const& side, double strain_rate
   if (side.hold) return AxisDrive::held();
   if (side.has_rate()) return AxisDrive::at_rate(strain_rate);
   WallStress const stress = a.stress();
+  double const opposite = lateral ? a.walls().height() : a.walls().width(),
+               answering = largest_lateral_speed * 0.5 * rate.strain_rate * opposite;
+  double const servo_speed = other.has_rate() ? -0.5 * elastic_lateral_ratio * signed_rate(other) * span : 0.5 * going * span;
   if (side.follow == Follow::constant_volume) {
     if (side.fluid_modulus == 0) return AxisDrive::at_constant_area(a.area());
-    double const porosity = a.void_ratio() / (1 + a.void_ratio());
-    return AxisDrive::at_area_of_fluid(a.area(), side.fluid_modulus / porosity, lateral ? stress.x : stress.y,
-                                       wave_transit(*simulation));
+    double const porosity = a.void_ratio() / (1 + a.void_ratio()), stiffness = side.fluid_modulus / porosity,
+                 own = lateral ? stress.x : stress.y;
+    if (stiffness > packing_modulus(a.laws.contact.grain))
+      return AxisDrive::at_area_of_fluid(a.area(), stiffness, own, wave_transit(*simulation));
+    AxisDrive drive = AxisDrive::at_stress_of_fluid(a.area(), stiffness, own, answering);
+    drive.integral = servo_speed;
+    return drive;
   }
   // A servo that holds a stress may outrun a platen; one that puts a load on may not.
   bool const holds = other.has_rate() || side.follow != Follow::nothing || is_on(side.stress, lateral);
-  double const opposite = lateral ? a.walls().height() : a.walls().width(),
-               cap = holds ? largest_lateral_speed * 0.5 * rate.strain_rate * opposite : 0.5 * rate.strain_rate * span;
+  double const cap = holds ? answering : 0.5 * rate.strain_rate * span;
   AxisDrive drive = AxisDrive::at_stress(side.stress, cap);
   if (side.follow == Follow::constant_mean_stress) {
     drive =
         AxisDrive::at_constant_mean(0.5 * (stress.x + stress.y), lateral ? stress.y : stress.x, wave_transit(*simulation), cap);
   }
-  drive.integral = other.has_rate() ? -0.5 * elastic_lateral_ratio * signed_rate(other) * span : 0.5 * going * span;
+  drive.integral = servo_speed;
   return drive;
 }
 
@@ -148,7 +167,7 @@ void BiaxialTest::State::set_in_motion(StrainRates const& present) {
   auto const motion = [](SideScene const& side, double own, SideScene const& other, double of_other, double present_one) {
     if (side.has_rate()) return own;
     if (side.hold) return 0.0;
-    if (side.follow == Follow::constant_volume) return -of_other;
+    if (side.follow == Follow::constant_volume && side.fluid_modulus == 0) return -of_other;
     return other.has_rate() ? -elastic_lateral_ratio * of_other : present_one;
   };
   StrainRates next;

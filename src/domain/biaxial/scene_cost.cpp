@@ -118,7 +118,11 @@ StageRecord predict(Scene const& scene, int ranks) { return predict(scene, desig
 
 StageRecord predict(Scene const& scene, SpecimenDesign const& design, int ranks) {
   bool const bonded = has_bonds(scene);
-  RateNumbers const rate = rate_numbers(scene, design.grading.d50(), design.height, design.void_ratio);
+  RateNumbers rate;  // of the fastest stage
+  for (LoadingStage const& stage : stages_of(scene)) {
+    RateNumbers const own = rate_numbers(scene, stage, design.grading.d50(), design.height, design.void_ratio);
+    if (own.strain_rate > rate.strain_rate) rate = own;
+  }
   auto const discs = static_cast<double>(design.particles);
   StageRecord p;
   p["particles"] = discs;

@@ -93,7 +93,7 @@ std::vector<std::string> ShearWatch::warnings(bool bonded, bool began_at_rest) c
         "q on the walls and q of the contacts were up to %.2g of p apart on the way to the peak (%g is usual): stress "
         "varies along the specimen, %s",
         to_peak_.largest_mismatch, mismatch_limit, advice));
-  if (share(to_peak_.held, to_peak_.checks) < least_held)
+  if (to_peak_.checks > 0 && share(to_peak_.held, to_peak_.checks) < least_held)
     texts.push_back(printed_text(
         "sigma_3 was within %g %% in only %.1f %% of the checks up to the peak of q (fewer than %g %%): the servo walls "
         "did not hold it, %s",

@@ -17,7 +17,7 @@ constexpr double stress_of_look = 0.05;       // of the confining stress, that q
 constexpr double rounding = 1e-9;             // of a strain, which is the sum of many steps
 
 /// Of a dead load: what is called failure where it lasts longer than so many transits of a compression wave.
-constexpr double failed_strain = 0.2, failed_inertia = 1e-3, failed_stress = 0.05, transits = 10;
+constexpr double failed_strain = 0.2, failed_inertia = 1e-3, failed_stress = 0.05, failed_rise = 0.01, transits = 10;
 
 /// Whether a value that began on one side of a mark has come to it.
 bool has_come_to(double mark, double start, double value, double slack) {
@@ -134,8 +134,7 @@ bool BiaxialTest::State::look() {
   if (place.sense != 0) return false;
   look_for_failure();
   place.turn(eps1());
-  StageEnd const& end = now().until;
-  if (!end.rest && now().increments == 1) return false;
+  if (!now().has_stress_only()) return false;
   std::int64_t const before = place.increment;
   look_at_rest();
   return place.increment != before;
@@ -152,15 +151,20 @@ void BiaxialTest::State::look_at_rest() {
   place.checks_at_rest = why.empty() ? place.checks_at_rest + 1 : 0;
   bool const last = place.increment >= now().increments;
   bool rests = place.checks_at_rest >= checks_to_rest;
-  if (!rests && !place.failed && simulation->assembly().steps() - place.increment_began >= scene.test.consolidation_steps) {
+  if (!rests && !place.failed && now().until.rest &&
+      simulation->assembly().steps() - place.increment_began >= scene.test.consolidation_steps) {
     std::string const text = "stage '" + now().name + "' did not come to rest within " +
                              std::to_string(scene.test.consolidation_steps) + " steps: " + why;
     if (!now().allow_unsettled && !scene.run.ignore_guards)
       throw Refused(text + "; test.consolidation_steps gives it more, allow_unsettled = true goes on" + ignore_hint);
     warnings.push_back(text);
-    rests = true;
+    place.unsettled = rests = true;
+    began_quasi_static = false;
+    preparation["quasi_static"] = 0;
     if (last) place.checks_at_rest = checks_to_rest;
   }
+  if (rests && last && !now().until.rest)
+    throw Refused("stage '" + now().name + "' has come to rest under its stresses without coming to its end");
   if (rests && !last) put_increment_on();
 }
 
@@ -174,7 +178,9 @@ void BiaxialTest::State::look_for_failure() {
   bool const at_cap = std::abs(a.walls().velocity[bottom]) >= 0.999 * load.largest_speed;
   bool const failing = v.eps1 - place.start.eps1 >= failed_strain || inertia > failed_inertia ||
                        (at_cap && v.sigma1 < (1 - failed_stress) * load.target_stress);
-  if (!failing) {
+  bool const rising = v.sigma1 > place.risen_to + failed_rise * load.target_stress;
+  if (rising) place.risen_to = v.sigma1;
+  if (!failing || rising) {  // while the load is being put on the platens are at their largest speed, too
     place.failing_since = -1;
     return;
   }
@@ -200,10 +206,11 @@ std::optional<std::string> BiaxialTest::State::end_reached() const {
   if (end.cycles > 0 && place.turns >= 2 * end.cycles) return "cycles";
   if (end.path > 0 && within >= end.path * (1 - rounding)) return "path";
   bool const last = place.increment >= now().increments;
-  if (end.rest && last && place.checks_at_rest >= checks_to_rest) return "rest";
-  if (end.path == 0 && within >= longest_path)
+  if (end.rest && last && place.checks_at_rest >= checks_to_rest) return place.unsettled ? "steps, not at rest" : "rest";
+  double const lateral = std::abs((v.eps_v - v.eps1) - (first.eps_v - first.eps1));
+  if (end.path == 0 && std::max(within, place.sense == 0 ? lateral : 0) >= longest_path)
     throw Refused("stage '" + now().name + "' has not come to its end within a path of " + short_number(100 * longest_path) +
-                  " % of axial strain: what it is to end by cannot be reached, or needs a longer until.path");
+                  " %: what it is to end by cannot be reached, or needs a longer until.path");
   return {};
 }
 
@@ -213,12 +220,13 @@ void BiaxialTest::State::end_stage(std::string const& ended_by) {
 }
 
 StageResult BiaxialTest::State::result(std::string const& ended_by) const {
-  constexpr double said = 1.01;  // of the strain that was asked for
+  constexpr double said = 0.01, least_said = 1e-3;  // of the strain that was asked for; a strain
   TestValues const v = values(), &first = place.start;
   StageResult result{now().name, ended_by, watch.record(), watch.warnings(bonds0 > 0, preparation.at("at_rest") == 1)};
   StageRecord& numbers = result.numbers;
   numbers["steps"] = static_cast<double>(simulation->assembly().steps() - place.first_step);
   numbers["path"] = place.path_within(v.eps1);
+  numbers["quasi_static"] = preparation.at("quasi_static");
   numbers["time_step_renewals"] = static_cast<double>(simulation->time_steps().updates());
   numbers["strain_eps1"] = v.eps1 - first.eps1;
   numbers["strain_eps_v"] = v.eps_v - first.eps_v;
@@ -227,6 +235,10 @@ StageResult BiaxialTest::State::result(std::string const& ended_by) const {
   numbers["start_sigma3_Pa"] = first.sigma3;
   numbers["end_sigma1_Pa"] = v.sigma1;
   numbers["end_sigma3_Pa"] = v.sigma3;
+  if (!holds_lateral_stress())
+    for (char const* const of_stress : {"sigma3_held", "sigma3_held_to_peak", "sigma3_error", "sigma3_error_to_peak"})
+      numbers.erase(of_stress);
+  if (place.unsettled) numbers["unsettled"] = 1;
   if (now().turn.any()) numbers["turns"] = static_cast<double>(place.turns);
   if (now().vertical.has_stress() && now().increments == 1) numbers["failed"] = place.failed ? 1 : 0;
   if (place.failed) {
@@ -241,7 +253,8 @@ StageResult BiaxialTest::State::result(std::string const& ended_by) const {
     result.warnings.push_back(soft);
   if (std::string const problem = collapse(simulation->assembly().void_ratio(), 0); scene.run.ignore_guards && !problem.empty())
     result.warnings.push_back(guard_ignored + problem);
-  if (double const wanted = now().until.axial_strain; ended_by == "axial strain" && std::abs(v.eps1) > said * std::abs(wanted))
+  if (double const wanted = now().until.axial_strain;
+      ended_by == "axial strain" && std::abs(v.eps1 - wanted) > said * std::max(std::abs(wanted), least_said))
     result.warnings.push_back("the stage ends at an axial strain of " + short_number(100 * v.eps1, 4) + " %, " +
                               short_number(100 * wanted, 4) +
                               " % was asked for: a single step strains it that far, lower the rate");
@@ -269,11 +282,18 @@ double BiaxialTest::State::fraction() const {
   return (static_cast<double>(place.index) + std::clamp(within, 0.0, 1.0)) / static_cast<double>(stages.size());
 }
 
+/// Neither where it is on its way to another one.
+bool BiaxialTest::State::holds_lateral_stress() const {
+  constexpr double near = 0.02;
+  double const stress = now().lateral.stress;
+  return stress > 0 && now().increments == 1 && std::abs(place.start.sigma3 / stress - 1) < near;
+}
+
 /// Masses scaled further than usual must not carry the loads that contacts should: such a test ends.
 void BiaxialTest::State::check() {
   double const within = place.path_within(eps1());
   ShearCheck seen = look_at_shear(*simulation, measures(), eps1());
-  if (now().increments > 1) seen.stress_error = 0;  // it is on its way
+  if (!holds_lateral_stress()) seen.stress_error = 0;
   watch.add(seen);
   if (stage == shear_stage) dilation.check(eps1(), eps_v());
   bool const is_sand = collapse(simulation->assembly().void_ratio(), seen.deep_share).empty();

@@ -41,8 +41,9 @@ struct StagePlace {
   std::int64_t increment = 0, increment_began = 0;  ///< of stresses: which is on, and the step after which it was put on
   std::int64_t checks_at_rest = 0;                  ///< on end
   double failing_since = -1;                        ///< time, negative where it does not fail [s]
+  double risen_to = 0;                              ///< sigma_1, by the steps that count as a rise [Pa]
   double failed_eps1 = 0, failed_q = 0, failed_p = 0;
-  bool failed = false;
+  bool failed = false, unsettled = false;
 
   double path_within(double eps1) const { return travelled + std::abs(eps1 - turned_at); }
   double path(double eps1) const { return path_before + path_within(eps1); }
@@ -68,7 +69,9 @@ struct StagePlace {
     visit("stage_increment_began", increment_began);
     visit("stage_checks_at_rest", checks_at_rest);
     visit("stage_failing_since", failing_since);
+    visit("stage_risen_to", risen_to);
     visit("stage_failed", failed);
+    visit("stage_unsettled", unsettled);
     visit("stage_failed_eps1", failed_eps1);
     visit("stage_failed_q", failed_q);
     visit("stage_failed_p", failed_p);

@@ -8,6 +8,8 @@ namespace clathra {
 
 namespace {
 
+constexpr double isotropic = 0.05;  // q over p, at most
+
 double mean_stress(LoadingCurves const& c, std::size_t i) { return 0.5 * (c.sigma1[i] + c.sigma3[i]); }
 double deviator(LoadingCurves const& c, std::size_t i) { return c.sigma1[i] - c.sigma3[i]; }
 
@@ -45,9 +47,9 @@ void add_loops(LoadingCurves const& c, StageRecord& numbers) {
   }
   double const stored = 0.5 * (0.5 * (highest - lowest)) * (0.5 * (most - least));
   if (stored > 0) numbers["damping_ratio"] = std::abs(area) / (4 * std::numbers::pi * stored);
-  std::size_t const cycles = (turns.size() - 2) / 2;
-  double const later = std::max(1.0, static_cast<double>(cycles) - 1);
-  numbers["strain_per_cycle"] = (c.eps1[turns[1 + 2 * (cycles - 1)]] - c.eps1[turns[1]]) / later;
+  std::size_t const cycles = turns.size() / 2;  // of one upper turn each
+  if (cycles < 2) return;
+  numbers["strain_per_cycle"] = (c.eps1[turns[2 * cycles - 1]] - c.eps1[turns[1]]) / static_cast<double>(cycles - 1);
 }
 
 void add_undrained(LoadingCurves const& c, StageRecord& numbers) {
@@ -75,8 +77,9 @@ StageRecord loading_numbers(LoadingStage const& stage, LoadingCurves const& c) {
   numbers["start_void_ratio"] = c.void_ratio[0];
   numbers["end_void_ratio"] = c.void_ratio[last];
   if (stage.vertical.has_stress() && stage.lateral.hold) add_one_dimensional(c, numbers);
-  if (double const strain = c.eps_v[last] - c.eps_v[0];
-      stage.vertical.has_stress() && stage.vertical.stress == stage.lateral.stress && strain != 0)
+  if (double const strain = c.eps_v[last] - c.eps_v[0]; stage.vertical.has_stress() &&
+                                                        stage.vertical.stress == stage.lateral.stress && strain != 0 &&
+                                                        std::abs(deviator(c, 0)) < isotropic * mean_stress(c, 0))
     numbers["bulk_modulus_Pa"] = (mean_stress(c, last) - mean_stress(c, 0)) / strain;
   if (double const strain = c.eps1[last] - c.eps1[0];
       stage.vertical.has_rate() && stage.vertical.sense() < 0 && !stage.turn.any() && strain != 0)

@@ -91,6 +91,11 @@ struct StageEnd {
   double path = 0;                     ///< of the axial strain within the stage, to and fro; 0 = not given
   int cycles = 0;                      ///< of two turns each; 0 = not given
   bool rest = false;                   ///< under the stresses that the sides hold
+
+  bool any() const {
+    return is_given(axial_strain) || is_given(volumetric_strain) || is_given(deviator_stress) || is_given(mean_stress) ||
+           is_given(stress_ratio) || path > 0 || cycles > 0 || rest;
+  }
 };
 
 struct LoadingStage {

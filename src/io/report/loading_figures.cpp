@@ -197,41 +197,61 @@ Piece loading_figures(std::vector<RunResults> const& runs) {
          dead_load(runs);
 }
 
+namespace {
+
+struct ShownNumber {
+  char const *of, *shown;
+  double factor;
+  char const* unit;
+};
+
+constexpr ShownNumber of_course[] = {{"path", "path", percent, " %"},
+                                     {"start_sigma1_Pa", "σ₁ at the beginning", mega, " MPa"},
+                                     {"end_sigma1_Pa", "σ₁ at the end", mega, " MPa"},
+                                     {"start_sigma3_Pa", "σ₃ at the beginning", mega, " MPa"},
+                                     {"end_sigma3_Pa", "σ₃ at the end", mega, " MPa"},
+                                     {"end_void_ratio", "e at the end", 1, ""}};
+constexpr ShownNumber of_behaviour[] = {{"bulk_modulus_Pa", "bulk modulus", mega, " MPa"},
+                                        {"constrained_modulus_Pa", "M<sub>oed</sub>", mega, " MPa"},
+                                        {"k0", "K₀ at the end", 1, ""},
+                                        {"k0_of_increments", "K₀ of the increments", 1, ""},
+                                        {"secant_stiffness_Pa", "E<sub>ur</sub>", mega, " MPa"},
+                                        {"damping_ratio", "damping ratio of the last loop", percent, " %"},
+                                        {"strain_per_cycle", "strain a cycle", percent, " %"},
+                                        {"largest_pore_pressure_ratio", "largest r<sub>u</sub>", 1, ""},
+                                        {"phase_transformation_eps1", "phase transformation at ε₁", percent, " %"},
+                                        {"peak_q_Pa", "largest q", mega, " MPa"},
+                                        {"largest_q_Pa", "largest q", mega, " MPa"},
+                                        {"failed_eps1", "failed at ε₁", percent, " %"}};
+
+template <std::size_t count>
+std::string number_lines(nlohmann::json const& stage, ShownNumber const (&numbers)[count]) {
+  std::string text;
+  for (ShownNumber const& n : numbers)
+    if (auto const found = stage.find(n.of); found != stage.end() && found->is_number())
+      text += fmt::format("{} {:.4g}{}<br>", n.shown, found->template get<double>() * n.factor, n.unit);
+  return text;
+}
+
+std::string stage_row(std::string const& name, std::string const& ended_by, nlohmann::json const& stage) {
+  auto const verdict = stage.find("quasi_static");
+  bool const is_quasi_static = verdict == stage.end() || *verdict != 0;
+  return fmt::format("<tr><th>{}</th><td>{}{}</td><td>{}</td><td>{}</td></tr>\n", escaped(name),
+                     ended_by.empty() ? "not ended" : escaped(ended_by), is_quasi_static ? "" : "<br>not quasi-static",
+                     number_lines(stage, of_course), number_lines(stage, of_behaviour));
+}
+
+}  // namespace
+
 Piece stage_tables(std::vector<RunResults> const& runs) {
   std::string text;
   for (RunResults const& run : runs) {
     auto const stages = run.record.find("stages"), loading = run.record.find("loading");
     if (is_compression_alone(run) || stages == run.record.end() || loading == run.record.end()) continue;
     std::string rows;
-    for (auto const& end : *loading) {
-      std::string const name = end.value("stage", ""), by = end.value("ended_by", "");
-      if (!stages->contains(name)) continue;
-      rows += fmt::format("<tr><th>{}</th><td>{}</td><td>", escaped(name), by.empty() ? "not ended" : escaped(by));
-      auto const number = [&](char const* of, char const* shown, double factor, char const* unit) {
-        auto const found = stages->at(name).find(of);
-        if (found != stages->at(name).end() && found->is_number())
-          rows += fmt::format("{} {:.4g}{}<br>", shown, found->get<double>() * factor, unit);
-      };
-      number("path", "path", percent, " %");
-      number("start_sigma1_Pa", "σ₁ at the beginning", mega, " MPa");
-      number("end_sigma1_Pa", "σ₁ at the end", mega, " MPa");
-      number("start_sigma3_Pa", "σ₃ at the beginning", mega, " MPa");
-      number("end_sigma3_Pa", "σ₃ at the end", mega, " MPa");
-      number("end_void_ratio", "e at the end", 1, "");
-      rows += "</td><td>";
-      number("bulk_modulus_Pa", "bulk modulus", mega, " MPa");
-      number("constrained_modulus_Pa", "M<sub>oed</sub>", mega, " MPa");
-      number("k0", "K₀ at the end", 1, "");
-      number("k0_of_increments", "K₀ of the increments", 1, "");
-      number("secant_stiffness_Pa", "E<sub>ur</sub>", mega, " MPa");
-      number("damping_ratio", "damping ratio of the last loop", percent, " %");
-      number("strain_per_cycle", "strain a cycle", percent, " %");
-      number("largest_pore_pressure_ratio", "largest r<sub>u</sub>", 1, "");
-      number("phase_transformation_eps1", "phase transformation at ε₁", percent, " %");
-      number("peak_q_Pa", "largest q", mega, " MPa");
-      number("failed_eps1", "failed at ε₁", percent, " %");
-      rows += "</td></tr>\n";
-    }
+    for (auto const& end : *loading)
+      if (std::string const name = end.value("stage", ""); stages->contains(name))
+        rows += stage_row(name, end.value("ended_by", ""), stages->at(name));
     text += (runs.size() > 1 ? "<h3>" + escaped(run_label(run)) + "</h3>\n" : "") +
             "<div class=\"scroll\"><table><thead><tr><th>stage</th><th>ended by</th><th>course</th><th>numbers</th></tr></thead>"
             "<tbody>\n" +

@@ -246,7 +246,7 @@ void check_output(Check& check) {
                 fmt::format("'output.snapshots' ({}) must not exceed 'output.records' ({})", check.scene.output.snapshots,
                             check.scene.output.records));
   constexpr double coarse = 1e-3, past_a_peak = 0.02;  // strains: of rows apart, of tests that may have a peak
-  double const strain = check.scene.test.axial_strain, apart = strain / check.scene.output.records;
+  double const strain = planned_path(check.scene), apart = strain / check.scene.output.records;
   if (apart > coarse && strain > past_a_peak)
     check.warn(
         fmt::format("rows of history.csv are {:.2g} % of strain apart: the volumetric strain and the bonds at the peak, and E50, "

@@ -76,7 +76,9 @@ class SceneReader {
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
     if (std::optional<StageSetting> const setting = stage_setting(name)) return override_stage(*setting, place, value);
     Key const* const key = find_key(name);
-    if (!key) return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100), key_suggestion(name)));
+    if (!key)
+      return report(place, fmt::format("unknown key '{}'{}", name.substr(0, 100),
+                                       name.starts_with("stage.") ? stage_setting_suggestion(name) : key_suggestion(name)));
     overridden_.push_back(key->name);
     if (takes_back(*key, value)) return take_back(*key);
     replace_rates(name);
@@ -276,7 +278,7 @@ class SceneReader {
       else if (inner && prefix.empty() && is_stage_section(dotted))
         read_stage(*inner, dotted);
       else
-        spoil_stage({file_, entry.line, entry.column},
+        spoil_stage(scene_.stages.size() - 1, {file_, entry.line, entry.column},
                     fmt::format("unknown key '{}' in [[stage]]{}", dotted.substr(0, 60), stage_key_suggestion(dotted)));
     }
   }
@@ -287,13 +289,20 @@ class SceneReader {
       assign();
       if (is_not_given(key, scene_)) throw std::invalid_argument("must not be 0: leave it out");
     } catch (std::invalid_argument const& problem) {
-      spoil_stage(place, fmt::format("'{}' {}", key.name, problem.what()));
+      spoil_stage(scene_.stages.size() - 1, place, fmt::format("'{}' {}", key.name, problem.what()));
     }
   }
 
-  void spoil_stage(Place const& place, std::string text) {
+  /// @param stage  its place; its rules are not looked at then
+  void spoil_stage(std::size_t stage, Place const& place, std::string text) {
     report(place, std::move(text));
-    stages_spoilt_ = true;
+    stages_spoilt_.push_back(stage);
+  }
+
+  static std::string names_of(std::vector<LoadingStage> const& stages) {
+    std::string names;
+    for (LoadingStage const& stage : stages) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", stage.name.substr(0, 60));
+    return names.empty() ? "none" : names;
   }
 
   void override_stage(StageSetting const& setting, Place const& place, std::string const& value) {
@@ -302,13 +311,14 @@ class SceneReader {
     for (std::size_t i = 0; i < stages.size() && found == stages.end(); ++i)
       if (setting.stage == std::to_string(i + 1)) found = stages.begin() + static_cast<std::ptrdiff_t>(i);
     if (found == stages.end())
-      return report(place, fmt::format("there is no stage '{}': the file has {} of them in [[stage]]",
-                                       setting.stage.substr(0, 60), stages.size()));
+      return report(place,
+                    fmt::format("there is no stage '{}'; [[stage]] has {}", setting.stage.substr(0, 60), names_of(stages)));
     std::iter_swap(found, stages.end() - 1);
     try {
       set_stated(*setting.key, scene_, value);
     } catch (std::invalid_argument const& problem) {
-      spoil_stage(place, fmt::format("'{}' {}", setting.key->name, problem.what()));
+      spoil_stage(static_cast<std::size_t>(found - stages.begin()), place,
+                  fmt::format("'{}' {}", setting.key->name, problem.what()));
     }
     std::iter_swap(found, stages.end() - 1);
   }
@@ -317,15 +327,16 @@ class SceneReader {
   void complete_stages() {
     bool const is_list = scene_.test.kind == TestKind::list;
     if (scene_.stages.empty()) {
-      if (is_list && !stages_spoilt_) report(place_of({"test.kind"}), "'test.kind' = \"list\" needs sections [[stage]]");
+      if (is_list) report(place_of({"test.kind"}), "'test.kind' = \"list\" needs sections [[stage]]");
       if (is_list) scene_.test.kind = TestKind::biaxial;  // for the checks that follow
       return;
     }
     if (!is_list && places_.count("test.kind") != 0)
       report(stage_places_.front(), "'test.kind' names a list of stages of its own: leave it out, or the sections [[stage]]");
     scene_.test.kind = TestKind::list;
-    if (stages_spoilt_) return;
-    for (StageProblem const& problem : stage_problems(scene_.stages)) report(stage_places_[problem.stage], problem.text);
+    for (StageProblem const& problem : stage_problems(scene_.stages))
+      if (std::find(stages_spoilt_.begin(), stages_spoilt_.end(), problem.stage) == stages_spoilt_.end())
+        report(stage_places_[problem.stage], problem.text);
   }
 
   std::string file_;
@@ -336,7 +347,8 @@ class SceneReader {
   std::vector<std::string> spoilt_;  ///< keys and sections
   std::vector<std::string_view> overridden_;
   std::vector<Place> stage_places_;
-  bool readable_ = true, stages_spoilt_ = false;
+  std::vector<std::size_t> stages_spoilt_;
+  bool readable_ = true;
 };
 
 }  // namespace

@@ -215,7 +215,11 @@ void set_from_boolean(Key const& key, Scene& scene, bool value) {
 }
 
 void set_stated(Key const& key, Scene& scene, std::string_view text) {
-  if (takes_back(key, text)) return set_from_text(key, scene, unquoted(value_text(key, Scene{})));
+  if (takes_back(key, text)) {
+    auto* const number = std::get_if<double& (*)(Scene&)>(&key.field);
+    if (number && std::isnan(read(*number, Scene{}))) return static_cast<void>((*number)(scene) = read(*number, Scene{}));
+    return set_from_text(key, scene, unquoted(value_text(key, Scene{})));
+  }
   set_from_text(key, scene, text);
   if (is_not_given(key, scene)) refuse(zero_problem(key));
 }

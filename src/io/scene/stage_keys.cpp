@@ -75,16 +75,12 @@ int controls_of(SideScene const& side) {
 
 bool is_good_name(std::string_view name) {
   constexpr std::size_t longest = 60;
-  return !name.empty() && name.size() <= longest && name.front() != ' ' && name.back() != ' ' &&
+  bool const is_number = name.find_first_not_of("0123456789") == std::string_view::npos;  // --set takes it for a place
+  return !name.empty() && !is_number && name.size() <= longest && name.front() != ' ' && name.back() != ' ' &&
          std::all_of(name.begin(), name.end(), [](char c) {
            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                   std::string_view(" ._-").find(c) != std::string_view::npos;
          });
-}
-
-bool has_end(StageEnd const& end) {
-  return is_given(end.axial_strain) || is_given(end.volumetric_strain) || is_given(end.deviator_stress) ||
-         is_given(end.mean_stress) || is_given(end.stress_ratio) || end.path > 0 || end.cycles > 0 || end.rest;
 }
 
 /// Tells each thing that is wrong with one stage.
@@ -108,7 +104,7 @@ void check_sides(LoadingStage const& stage, Say const& say) {
 template <class Say>
 void check_ends(LoadingStage const& stage, Say const& say) {
   StageTurn const& turn = stage.turn;
-  if (!has_end(stage.until)) say("'until' states no end of the stage");
+  if (!stage.until.any()) say("'until' states no end of the stage");
   if (stage.until.rest && !stage.has_stress_only())
     say("'until.rest' needs sides that hold or have a stress: a rate does not come to rest");
   if (turn.any() && !stage.vertical.has_rate()) say("'turn' needs a rate of 'vertical'");
@@ -145,6 +141,14 @@ std::string stage_key_suggestion(std::string_view name) {
   std::string_view const leaf = name.substr(name.find('.') + 1);
   for (Key const& key : table)
     if (key.leaf() == leaf) return fmt::format("; did you mean '{}'?", key.name);
+  return "";
+}
+
+std::string stage_setting_suggestion(std::string_view name) {
+  std::size_t const leaf = name.rfind('.'), part = leaf == 0 || leaf == name.npos ? name.npos : name.rfind('.', leaf - 1);
+  for (std::size_t const dot : {part, leaf})
+    if (dot != name.npos)
+      if (std::string text = stage_key_suggestion(name.substr(dot + 1)); !text.empty()) return text;
   return "";
 }
 
@@ -197,7 +201,7 @@ std::vector<StageProblem> stage_problems(std::vector<LoadingStage> const& stages
       problems.push_back({i, fmt::format("stage {} ('{}'): {}", i + 1, stage.name.substr(0, 60), text)});
     };
     if (!is_good_name(stage.name))
-      say("'name' must be given, of letters, digits, blanks and ._-, 60 at most, no blank at its ends");
+      say("'name' must be given, of letters, digits, blanks and ._-, 60 at most, no blank at its ends, not of digits alone");
     for (std::string_view const reserved : {"generate", "prepare", "plan"})
       if (stage.name == reserved || is_consolidation(stage.name)) {
         say("this name is that of a part of each run: choose another");

@@ -20,6 +20,9 @@ bool is_stage_section(std::string_view name);
 /// "; did you mean 'until.axial_strain'?", or nothing.
 std::string stage_key_suggestion(std::string_view name);
 
+/// The same of a name as below whose key is mistaken.
+std::string stage_setting_suggestion(std::string_view name);
+
 /// "stage.2.until.path" or "stage.unloading.until.path": the key of one stage, by its number from 1 or its name.
 struct StageSetting {
   std::string stage;
