@@ -144,7 +144,7 @@ TEST_F(FigureFiles, HaveTheEdgesOfBandsBehindThem) {
   std::vector<MemberResult> members(2);
   for (MemberResult& member : members) member.state = MemberState::finished, member.numbers["peak_q_Pa"] = 5e6;
   members[1].seed = 2;
-  SeedBand const q = seed_bands(folders)[0];
+  SeedBand const q = seed_bands(read_runs(folders))[0];
   std::vector<double> low, high;
   for (auto const& row : table_of(csv_file(write_study_report(study, members, folders, folder / "study.html").front()))) {
     if (row[0] == "all, lower edge") low.push_back(std::stod(row[2]));

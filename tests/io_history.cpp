@@ -185,7 +185,7 @@ TEST_F(History, DoesNotWriteThroughALink) {
 TEST_F(Events, ReadBackAsWrittenAndDamageIsNamedByLine) {
   BreakEvents const events{false, {{7, 1, 5, 1, 0.25, -1e-3}, {9, 2, 3, 4, 1e-5, 0}}, {}};
   EventsFile file(folder / "events.csv");
-  file.write(events);
+  file.write("shear", events);
   file.close();
   auto const back = read_events(folder / "events.csv");
   EXPECT_FALSE(back.detailed);
@@ -195,9 +195,9 @@ TEST_F(Events, ReadBackAsWrittenAndDamageIsNamedByLine) {
   EXPECT_EQ(back.rows[1].id_b, 3);
   EXPECT_EQ(back.rows[1].mode, 4);
   EXPECT_EQ(back.rows[0].y, -1e-3);
-  for (char const* const row :
-       {"7,1,5,tension,0.25\n", "7,1,5,tension,0.25,0,0\n", "7,1,5,boredom,0.25,0\n", "x,1,5,shear,0.25,0\n"}) {
-    std::ofstream(folder / "wrong.csv") << "step,id_a,id_b,mode,x_m,y_m\n" << row;
+  for (char const* const row : {"shear,7,1,5,tension,0.25\n", "shear,7,1,5,tension,0.25,0,0\n", "shear,7,1,5,boredom,0.25,0\n",
+                                "shear,x,1,5,shear,0.25,0\n"}) {
+    std::ofstream(folder / "wrong.csv") << "stage,step,id_a,id_b,mode,x_m,y_m\n" << row;
     EXPECT_EQ(code_of([&] { read_events(folder / "wrong.csv"); }), ExitCode::bad_input) << row;
   }
   EXPECT_EQ(code_of([&] { read_events(folder / "none.csv"); }), ExitCode::file_missing);
@@ -206,30 +206,32 @@ TEST_F(Events, ReadBackAsWrittenAndDamageIsNamedByLine) {
 TEST_F(Events, WithDetailsReadBackAsWritten) {
   BreakEvents events{true, {{7, 1, 5, 1, 0.25, -1e-3}}, {{0.01, 90, 9e-6, 6e-5, 1.001, 1.0 / 3, -1e-4}}};
   EventsFile file(folder / "events.csv", true);
-  file.write(events);
+  file.write("shear", events);
   file.close();
   std::string const header =
-      "step,id_a,id_b,mode,x_m,y_m,eps1,orientation_deg,thickness_m,width_m,utilisation,energy_J_per_m,relative_rotation_rad\n";
+      "stage,step,id_a,id_b,mode,x_m,y_m,eps1,orientation_deg,thickness_m,width_m,utilisation,energy_J_per_m,relative_rotation_"
+      "rad\n";
   EXPECT_EQ(content(folder / "events.csv"),
-            header + "7,1,5,tension,0.25,-0.001,0.01,90,9e-06,6e-05,1.001,0.3333333333333333,-0.0001\n");
+            header + "shear,7,1,5,tension,0.25,-0.001,0.01,90,9e-06,6e-05,1.001,0.3333333333333333,-0.0001\n");
   BreakEvents const back = read_events(folder / "events.csv");
   ASSERT_TRUE(back.detailed);
   ASSERT_EQ(back.details.size(), 1u);
   for (BreakDetailColumn const& column : break_detail_columns)
     EXPECT_EQ(back.details[0].*column.value, events.details[0].*column.value) << column.heading;
-  std::ofstream(folder / "wrong.csv") << header << "7,1,5,tension,0.25,0\n";
+  std::ofstream(folder / "wrong.csv") << header << "shear,7,1,5,tension,0.25,0\n";
   EXPECT_EQ(code_of([&] { read_events(folder / "wrong.csv"); }), ExitCode::bad_input);
 }
 
 TEST_F(Events, AreOneRowEach) {
   EventsFile file(folder / "events.csv");
-  file.write({});
-  file.write(
-      {false,
-       {{12, 3, 4, static_cast<int>(BreakMode::tension), 0.5, 1e-3}, {13, 1, 2, static_cast<int>(BreakMode::rolling), 0, 0}},
-       {}});
+  file.write("shear", {});
+  file.write("unloading", {false,
+                           {{12, 3, 4, static_cast<int>(BreakMode::tension), 0.5, 1e-3},
+                            {13, 1, 2, static_cast<int>(BreakMode::rolling), 0, 0}},
+                           {}});
   file.close();
-  EXPECT_EQ(content(folder / "events.csv"), "step,id_a,id_b,mode,x_m,y_m\n12,3,4,tension,0.5,0.001\n13,1,2,rolling,0,0\n");
+  EXPECT_EQ(content(folder / "events.csv"),
+            "stage,step,id_a,id_b,mode,x_m,y_m\nunloading,12,3,4,tension,0.5,0.001\nunloading,13,1,2,rolling,0,0\n");
 }
 
 /// A folder as a new run takes it.

@@ -1,4 +1,4 @@
-/// Paper files; the claims of Jiang et al. (2017), from planted tests; the scorecard; points of a laboratory.
+/// Paper files; the claims of Jiang et al. (2017), from planted tests; the scorecard.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,6 @@
 
 #include "io/errors/problems.hpp"
 #include "io/formats/text_file.hpp"
-#include "io/results/laboratory_data.hpp"
 #include "io/results/paper_file.hpp"
 #include "io/results/scorecard.hpp"
 #include "io/results/scored_claims.hpp"
@@ -102,7 +101,6 @@ class Files : public testing::Test {
       std::filesystem::temp_directory_path() / ("clathra_paper_claims_" + std::to_string(::getpid()));
 };
 class NumbersOfHistory : public Files {};
-class LaboratoryPoints : public Files {};
 
 Claim const& claim_of(std::vector<Claim> const& claims, std::string const& id) {
   for (Claim const& claim : claims)
@@ -306,42 +304,6 @@ TEST_F(NumbersOfHistory, AreThoseOfAPlantedCurve) {
   EXPECT_NEAR(n.at("q_share_at_6.71"), 0.5 + 0.5 * std::exp(-3.71), 2e-3);
   EXPECT_NEAR(n.at("residual_slope"), 0, 1e-3);
   EXPECT_NEAR(n.at("breakage_place"), 0.01 / (0.01 * std::log(20)), 0.02);
-}
-
-TEST_F(LaboratoryPoints, AreReadAsSeriesInSiUnits) {
-  auto const path = folder / "points.csv";
-  std::ofstream(path) << "# mine\nfigure,name,saturation_pct,confining_stress_MPa,x,y\nq,test 1,26,1,0.5,1.2\nq,test 1,26,1,1,2\n"
-                         "phi,angles,,,26,30.5\n";
-  LaboratoryData const data = read_laboratory_data(path);
-  ASSERT_EQ(data.series.size(), 2U);
-  EXPECT_EQ(data.series[0].x, (std::vector<double>{0.005, 0.01}));
-  EXPECT_EQ(data.series[0].y, (std::vector<double>{1.2e6, 2e6}));
-  EXPECT_EQ(data.series[0].confining_stress, 1e6);
-  EXPECT_EQ(data.series[1].x, (std::vector<double>{26}));
-  EXPECT_EQ(data.series[1].y, (std::vector<double>{30.5}));
-}
-
-TEST_F(LaboratoryPoints, MistakesAreNamedWithTheirLine) {
-  auto const path = folder / "points.csv";
-  std::string const head = "figure,name,saturation_pct,confining_stress_MPa,x,y\n";
-  auto const message = [&](std::string const& text) -> std::string {
-    std::ofstream(path) << text;
-    try {
-      (void)read_laboratory_data(path);
-    } catch (FileProblem const& problem) {
-      return problem.what();
-    }
-    return "no problem";
-  };
-  EXPECT_NE(message("a,b\n").find("line 1 must be the header"), std::string::npos);
-  EXPECT_NE(message(head + "q,a,26,1,1,1\nq,a,26,1,x,1\n").find("line 3: column 'x' must be a number, got 'x'"),
-            std::string::npos);
-  EXPECT_NE(message(head + "tau,a,26,1,1,1\n").find("line 2: column 'figure' must be q, eps_v, c or phi, got 'tau'"),
-            std::string::npos);
-  EXPECT_NE(message(head + "q,a,126,1,1,1\n").find("column 'saturation_pct' must lie between 0 and 100, got 126"),
-            std::string::npos);
-  EXPECT_NE(message(head + "q,a,26\n").find("line 2: has 3 cells, not 6"), std::string::npos);
-  EXPECT_NE(message(head).find("holds no points"), std::string::npos);
 }
 
 }  // namespace

@@ -243,7 +243,7 @@ TEST_F(StudyPage, CutsItsBandsWhereNoValuesArePossible) {
   EXPECT_NE(page.find("at each strain, as far as such values are possible. Of 2 seeds it is wide: 9.0 standard deviations to "
                       "either side; of 5 it would be 1.2."),
             std::string::npos);
-  std::vector<SeedBand> const bands = seed_bands({folder / "first", folder / "second"});
+  std::vector<SeedBand> const bands = seed_bands(read_runs({folder / "first", folder / "second"}));
   constexpr std::size_t q = 0, broken_shear = 6;
   ASSERT_STREQ(curve_columns[broken_shear], "broken_shear");
   EXPECT_EQ(bands[broken_shear].low.back(), 0);

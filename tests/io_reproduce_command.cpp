@@ -97,11 +97,12 @@ TEST_F(ReproduceCommand, GoesOnWhereItWasStoppedAndScoresTheSame) {
 
 TEST_F(ReproduceCommand, DrawsPointsOfALaboratoryAndNamesMistakesInThem) {
   fs::create_directories(folder);
-  std::ofstream(folder / "mine.csv") << "figure,name,saturation_pct,confining_stress_MPa,x,y\nq,my own triaxial test,26,1,1,2\n";
+  std::ofstream(folder / "mine.csv") << "figure,name,strain,saturation_pct,confining_stress_MPa,x,y\n"
+                                        "q,my own triaxial test,natural,26,1,1,2\n";
   std::string const data = "--data '" + (folder / "mine.csv").string() + "'";
   ASSERT_EQ(reproduce("one", "--screening --seeds 1 " + data).code, 0);
   EXPECT_NE(content("one/reproduce.html").find("my own triaxial test"), std::string::npos);
-  std::ofstream(folder / "mine.csv", std::ios::app) << "q,b,26,1,two,2\n";
+  std::ofstream(folder / "mine.csv", std::ios::app) << "q,b,natural,26,1,two,2\n";
   CommandResult const wrong = reproduce("one", "--screening --seeds 1 --collect " + data);
   EXPECT_EQ(wrong.code, 65);
   EXPECT_NE(wrong.output.find("line 3: column 'x' must be a number, got 'two'"), std::string::npos) << wrong.output;

@@ -246,7 +246,7 @@ TEST_F(RunCommand, SnapshotsFollowTheStrainAndVerifyNoticesAChangedFile) {
   EXPECT_EQ(run_clathra("events " + out + " --mode shear --parts 3").code, 0);
   fs::create_directories(folder / "one");
   fs::copy_file(folder / "out" / "history.csv", folder / "one" / "history.csv");
-  std::ofstream(folder / "one" / "events.csv") << events << "7,1,2,rolling,0,0\n";
+  std::ofstream(folder / "one" / "events.csv") << events << "shear,7,1,2,rolling,0,0\n";
   CommandResult const counted = run_clathra("events " + (folder / "one").string() + " --parts 2");
   EXPECT_NE(counted.output.find("\n        0 - 0.25 "), std::string::npos) << counted.output;
   CommandResult const first = run_clathra("info " + out + "/snap/000000000000.h5");

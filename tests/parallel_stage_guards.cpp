@@ -44,6 +44,25 @@ TEST(Stages, SayThatTheyFailedUnderADeadLoad) {
   EXPECT_NE(result.warnings.back().find("failed under its dead load"), std::string::npos);
 }
 
+/// The strain rate falls as a specimen comes to bear its load.
+TEST(Stages, EndWhereTheirStrainRateHasFallen) {
+  double path = 0;
+  for (double const rate : {20.0, 2.0}) {
+    LoadingStage load("load", SideScene::at_stress(1.5e6), SideScene::at_stress(1e6));
+    load.until.strain_rate = rate;
+    StageRun const course = run_stages(with({load}));
+    EXPECT_EQ(course.stages.front().ended_by, "strain rate");
+    std::vector<HistoryRow> const& rows = course.rows;
+    EXPECT_GT(rows.back().eps1, path) << "the lower the rate, the later";
+    path = rows.back().eps1;
+    double fastest = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (rows[i].time_s > rows[i - 1].time_s)
+        fastest = std::max(fastest, (rows[i].eps1 - rows[i - 1].eps1) / (rows[i].time_s - rows[i - 1].time_s));
+    EXPECT_GT(fastest, 2 * rate) << "it was faster before";
+  }
+}
+
 TEST(Stages, ThatCannotComeToTheirEndAreRefused) {
   LoadingStage shear("shear", SideScene::at_inertial_number(9e-3), SideScene::at_stress(1e6));
   shear.until.deviator_stress = 50e6;

@@ -25,7 +25,8 @@ std::string snapshot_text(Snapshot const& s) {
   std::array<std::size_t, contact_state_count> pairs{};
   for (std::uint8_t const state : s.state) ++pairs[state];
   std::string text;
-  text += row("step", fmt::format("{}, {:.6g} s after the shear began", s.step, s.time));
+  text += row("stage", s.stage);
+  text += row("step", fmt::format("{}, {:.6g} s after the consolidation", s.step, s.time));
   text += row("strain", fmt::format("eps1 {:.4g} %, eps_v {:.4g} %", s.eps1 * 100, s.eps_v * 100));
   text += row("stress", fmt::format("sigma1 {:.5g} MPa, sigma3 {:.5g} MPa", s.sigma1 * 1e-6, s.sigma3 * 1e-6));
   text += row("particles", fmt::format("{}", s.id.size()));
@@ -42,6 +43,7 @@ nlohmann::ordered_json snapshot_json(Snapshot const& s) {
     pairs[std::string(contact_state_name(static_cast<std::uint8_t>(state)))] =
         std::count(s.state.begin(), s.state.end(), static_cast<std::uint8_t>(state));
   return {{"kind", "snapshot"},
+          {"stage", s.stage},
           {"step", s.step},
           {"time_s", s.time},
           {"eps1", s.eps1},

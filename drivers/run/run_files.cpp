@@ -44,7 +44,7 @@ void RunFiles::take_events(BiaxialTest& test) {
   BreakEvents const broken = test.take_events();
   since_snapshot_.detailed = broken.detailed;
   on_root(ranks_, [&] {
-    if (events_) events_->write(broken);
+    if (events_) events_->write(test.stage().name, broken);
     if (output_.takes_snapshots()) since_snapshot_.add(broken);
   });
 }

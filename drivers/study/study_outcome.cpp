@@ -63,7 +63,8 @@ ExitCode conclude(StudyPlan const& plan, ProgressLine& line) {
   for (StudyTask const& task : plan.runs) folders.push_back(task.result);
   std::string drawn;
   if (finished > 0) {
-    std::vector<Figure> const figures = write_study_report(plan.study, plan.members, folders, plan.study.folder / "study.html");
+    std::vector<Figure> const figures =
+        write_study_report(plan.study, plan.members, folders, plan.study.folder / "study.html", plan.data);
     if (!plan.figures.empty()) drawn = "figures   " + write_figure_files(figures, plan.figures);
   }
   line.repeat_warnings();

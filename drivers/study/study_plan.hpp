@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "domain/scene/specimen_design.hpp"
+#include "io/results/laboratory_data.hpp"
 #include "io/results/study_results.hpp"
 #include "io/scene/study_members.hpp"
 
@@ -33,6 +34,7 @@ struct StudyPlan {
   std::vector<StudyTask> specimens;                         ///< each for all members of the same scene of generation and seed
   std::map<std::string, std::vector<std::string>> refused;  ///< by group: what the guards of its scene say
   std::map<std::string, SpecimenDesign> designs;            ///< of the specimens that scenes read from files of their own
+  std::optional<LaboratoryData> data;                       ///< laid over the curves of the page
   std::filesystem::path figures;                            ///< folder for those of the page as files; empty = none
 
   /// The scene of a run, once its specimen is there. @throws SceneProblems, FileProblem

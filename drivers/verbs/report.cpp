@@ -18,10 +18,12 @@ namespace {
 
 struct ReportOptions {
   std::vector<std::filesystem::path> runs;
-  std::filesystem::path html, json, figures;
+  std::filesystem::path html, json, figures, data;
 };
 
 ExitCode report(ReportOptions const& options) {
+  std::optional<LaboratoryData> data;
+  if (!options.data.empty()) data = read_laboratory_data(options.data);
   constexpr char instead[] = "name another file";
   if (!options.json.empty()) require_own_file(options.json, "\"clathra numbers\"", instead);
   if (!options.html.empty()) require_own_file(options.html, page_mark, instead);
@@ -31,7 +33,7 @@ ExitCode report(ReportOptions const& options) {
     return print_result(options.json.string() + " is written\n");
   std::filesystem::path html = options.html;
   if (html.empty()) html = options.runs.size() == 1 ? options.runs.front() / "report.html" : "report.html";
-  std::vector<Figure> const figures = write_report(options.runs, html);
+  std::vector<Figure> const figures = write_report(options.runs, html, data);
   return print_result((options.json.empty() ? "" : options.json.string() + " is written\n") + html.string() + " is written\n" +
                       (options.figures.empty() ? "" : write_figure_files(figures, options.figures)));
 }
@@ -51,6 +53,7 @@ void add_report(CLI::App& program, Verb& chosen) {
       ->type_name("FILE")
       ->check(CLI::Validator(name_problem, ""));
   add_figures_option(*verb, options->figures);
+  add_data_option(*verb, options->data);
   verb->footer("Example: clathra report out/s26 out/s41 out/s55 -o out/compared.html --figures out/figures");
   verb->callback([options, &chosen] { chosen = [options] { return report(*options); }; });
 }

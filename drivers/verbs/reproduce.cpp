@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReproduceOptions {
-  std::string paper, output, data, most_time;
-  fs::path figures;
+  std::string paper, output, most_time;
+  fs::path figures, data;
   std::vector<std::string> overrides;
   std::int64_t discs = 0;
   std::uint64_t first_seed = 1;
@@ -140,9 +140,7 @@ void add_options(CLI::App& verb, ReproduceOptions& options) {
   verb.add_option("--set", options.overrides, "override a key of the scene in all tests: may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  verb.add_option("--data", options.data,
-                  "points of your own laboratory to be drawn into the figures (CSV; docs/howto/reproduce-a-paper.md)")
-      ->type_name("FILE");
+  add_data_option(verb, options.data);
   verb.add_flag("--screening", options.screening, "only the tests that the paper's file lists to compare presets by");
   verb.add_option("--jobs", options.parallel, "members at a time (default: as many as cores and memory allow)")
       ->check(CLI::Range(1, 4096))

@@ -36,6 +36,13 @@ CLI::Option* add_figures_option(CLI::App& verb, std::filesystem::path& folder) {
       ->check(CLI::Validator(name_problem, ""));
 }
 
+CLI::Option* add_data_option(CLI::App& verb, std::filesystem::path& file) {
+  return verb
+      .add_option("--data", file,
+                  "points of your own laboratory, laid over the figures of the page (CSV; docs/howto/laboratory-data.md)")
+      ->type_name("FILE");
+}
+
 void add_status_option(CLI::App& verb) {
   verb.add_option_function<std::string>("--status", [](std::string const& file) { open_status(file); })->group("");
 }

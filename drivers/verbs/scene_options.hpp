@@ -23,6 +23,8 @@ struct SceneOptions {
 
 /// Where the figures of a verb's page become files.
 CLI::Option* add_figures_option(CLI::App& verb, std::filesystem::path& folder);
+/// Points of a laboratory for that page.
+CLI::Option* add_data_option(CLI::App& verb, std::filesystem::path& file);
 
 /// The hidden option by which a study learns how far its members are (terminal/status.hpp).
 void add_status_option(CLI::App& verb);

@@ -28,7 +28,7 @@ namespace {
 
 struct StudyOptions {
   std::string file, output, precision_target, launcher, slurm;
-  std::filesystem::path figures;
+  std::filesystem::path figures, data;
   std::vector<std::string> overrides;
   int seeds = 0, max_seeds = 0, parallel = 0, threads = 0, member = 0, specimen = 0;
   bool dry_run = false, collect = false, ignore_guards = false, json = false, skip_refused = false, allow_mixed = false;
@@ -102,6 +102,7 @@ ExitCode print_forecast(StudyPlan const& plan, StudyLimits const& limits, bool j
 ExitCode study(StudyOptions const& options) {
   StudyPlan plan = plan_study(study_of(options));
   plan.figures = options.figures;
+  if (!options.data.empty()) plan.data = read_laboratory_data(options.data);
   add_members(plan);
   // Before study.csv is touched; the waves of a study with a goal are asked again.
   bool const only_plans = options.dry_run || !options.slurm.empty();
@@ -149,8 +150,8 @@ void add_parts(CLI::App& verb, StudyOptions& options) {
   for (auto* const one : {dry, slurm, member, specimen, collected})
     for (auto* const other : {dry, slurm, member, specimen, collected})
       if (one != other) one->excludes(other);
-  auto* const figures = add_figures_option(verb, options.figures);
-  for (auto* const one : {dry, slurm, member, specimen}) figures->excludes(one);
+  for (auto* const of_page : {add_figures_option(verb, options.figures), add_data_option(verb, options.data)})
+    for (auto* const one : {dry, slurm, member, specimen}) of_page->excludes(one);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace clathra {
 Snapshot BiaxialTest::snapshot() const {
   Simulation const& s = *state_->simulation;
   Snapshot snapshot = take_snapshot(s);
+  snapshot.stage = state_->stage;
   snapshot.step = s.assembly().steps() - state_->first_step;
   snapshot.time = s.assembly().time() - state_->start_time;
   snapshot.path = state_->path();

@@ -82,6 +82,7 @@ struct BiaxialTest::State {
   bool look();
   void look_at_rest();
   void look_for_failure();
+  void look_at_rate();
   bool turn_is_due() const;
   bool holds_lateral_stress() const;
   std::optional<std::string> end_reached() const;

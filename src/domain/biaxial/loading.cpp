@@ -73,6 +73,7 @@ void BiaxialTest::State::begin_stage(std::int64_t index) {
     next.start = {0, 0, 0, 0, a.stress().y, a.stress().x};
   }
   next.turned_at = next.start.eps1;
+  next.looked = next.start;
   place = next;
   place.sense = now().vertical.has_rate() ? now().vertical.sense() : 0;
   stage = now().name;

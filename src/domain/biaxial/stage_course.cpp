@@ -1,6 +1,7 @@
 /// How a stage of the loading goes on, and how it ends.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "domain/biaxial/biaxial_state.hpp"
 #include "domain/generation/equilibration.hpp"
@@ -135,6 +136,7 @@ bool BiaxialTest::State::look() {
   look_for_failure();
   place.turn(eps1());
   if (!now().has_stress_only()) return false;
+  look_at_rate();
   std::int64_t const before = place.increment;
   look_at_rest();
   return place.increment != before;
@@ -163,9 +165,17 @@ void BiaxialTest::State::look_at_rest() {
     preparation["quasi_static"] = 0;
     if (last) place.checks_at_rest = checks_to_rest;
   }
-  if (rests && last && !now().until.rest)
+  if (rests && last && !now().until.rest && now().until.strain_rate == 0)
     throw Refused("stage '" + now().name + "' has come to rest under its stresses without coming to its end");
   if (rests && !last) put_increment_on();
+}
+
+/// How fast the box strains, on the average since the last look.
+void BiaxialTest::State::look_at_rate() {
+  TestValues const v = values(), last = std::exchange(place.looked, v);
+  double const vertical = v.eps1 - last.eps1, lateral = v.eps_v - last.eps_v - vertical, time = v.time - last.time;
+  bool const slow = time > 0 && std::max(std::abs(vertical), std::abs(lateral)) < now().until.strain_rate * time;
+  place.checks_slow = slow ? place.checks_slow + 1 : 0;
 }
 
 /// A dead load that the specimen does not bear: the first time is kept, and the stage goes on.
@@ -206,7 +216,9 @@ std::optional<std::string> BiaxialTest::State::end_reached() const {
   if (end.cycles > 0 && place.turns >= 2 * end.cycles) return "cycles";
   if (end.path > 0 && within >= end.path * (1 - rounding)) return "path";
   bool const last = place.increment >= now().increments;
-  if (end.rest && last && place.checks_at_rest >= checks_to_rest) return place.unsettled ? "steps, not at rest" : "rest";
+  if (end.strain_rate > 0 && last && place.checks_slow >= checks_to_rest) return "strain rate";
+  if ((end.rest || end.strain_rate > 0) && last && place.checks_at_rest >= checks_to_rest)
+    return place.unsettled ? "steps, not at rest" : "rest";
   double const lateral = std::abs((v.eps_v - v.eps1) - (first.eps_v - first.eps1));
   if (end.path == 0 && std::max(within, place.sense == 0 ? lateral : 0) >= longest_path)
     throw Refused("stage '" + now().name + "' has not come to its end within a path of " + short_number(100 * longest_path) +

@@ -40,6 +40,8 @@ struct StagePlace {
   std::int64_t turns = 0;
   std::int64_t increment = 0, increment_began = 0;  ///< of stresses: which is on, and the step after which it was put on
   std::int64_t checks_at_rest = 0;                  ///< on end
+  TestValues looked;                                ///< at the last look
+  std::int64_t checks_slow = 0;                     ///< on end, of the strain rate
   double failing_since = -1;                        ///< time, negative where it does not fail [s]
   double risen_to = 0;                              ///< sigma_1, by the steps that count as a rise [Pa]
   double failed_eps1 = 0, failed_q = 0, failed_p = 0;
@@ -68,6 +70,8 @@ struct StagePlace {
     visit("stage_increment", increment);
     visit("stage_increment_began", increment_began);
     visit("stage_checks_at_rest", checks_at_rest);
+    looked.for_each_number("stage_looked", visit);
+    visit("stage_checks_slow", checks_slow);
     visit("stage_failing_since", failing_since);
     visit("stage_risen_to", risen_to);
     visit("stage_failed", failed);

@@ -22,7 +22,8 @@ inline constexpr int contact_state_count = 1 + break_mode_count;
 /// Discs in spatial order (`id` is their identity), pairs once each; with several ranks this rank's discs and pairs, and discs
 /// are numbered through all ranks. Compression and closing are positive, the contact normal points from a to b.
 struct Snapshot {
-  std::int64_t step = 0;                                ///< of the shear
+  std::string stage;                                    ///< that the test is in
+  std::int64_t step = 0;                                ///< since the consolidation
   double time = 0;                                      ///< [s]
   double path = 0;                                      ///< of the axial strain, to and fro; of a series
   double eps1 = 0, eps_v = 0;                           ///< natural strains since the consolidation

@@ -89,12 +89,13 @@ struct StageEnd {
   double mean_stress = not_given;      ///< p = (sigma_1 + sigma_3) / 2 [Pa]
   double stress_ratio = not_given;     ///< q / p
   double path = 0;                     ///< of the axial strain within the stage, to and fro; 0 = not given
+  double strain_rate = 0;              ///< of the faster sides under stresses, to fall below [1/s]; 0 = not given
   int cycles = 0;                      ///< of two turns each; 0 = not given
   bool rest = false;                   ///< under the stresses that the sides hold
 
   bool any() const {
     return is_given(axial_strain) || is_given(volumetric_strain) || is_given(deviator_stress) || is_given(mean_stress) ||
-           is_given(stress_ratio) || path > 0 || cycles > 0 || rest;
+           is_given(stress_ratio) || path > 0 || strain_rate > 0 || cycles > 0 || rest;
   }
 };
 

@@ -15,16 +15,18 @@ namespace clathra {
 namespace {
 
 /// A column of every run that has it against its axial strain.
-Plot plot_of(std::vector<RunResults> const& runs, Variable const& what) {
+Plot plot_of(ShownRuns const& shown, Variable const& what) {
+  std::vector<RunResults> const& runs = shown.runs;
   Plot plot;
   Range strains, values;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     HistoryTable const& history = runs[i].history;
     if (!history.has(what.column)) continue;
     plot.curves.push_back({run_label(runs[i]), history[axial_strain.column], history[what.column], run_stroke(i)});
-    strains.include(plot.curves.back().x);
-    values.include(plot.curves.back().y);
   }
+  if (!plot.curves.empty())
+    for (Curve& points : shown.data.over(axial_strain, what)) plot.curves.push_back(std::move(points));
+  for (Curve const& curve : plot.curves) strains.include(curve.x), values.include(curve.y);
   plot.x = strains.exact_axis(axial_strain);
   plot.y = values.axis(what);
   return plot;
@@ -67,8 +69,9 @@ Piece consolidation_figure(std::vector<RunResults> const& runs) {
                     plot.description);
 }
 
-Piece stress_figure(std::vector<RunResults> const& runs) {
-  Plot plot = plot_of(runs, {"deviator stress q [MPa]", "q_Pa", mega});
+Piece stress_figure(ShownRuns const& shown) {
+  std::vector<RunResults> const& runs = shown.runs;
+  Plot plot = plot_of(shown, {"deviator stress q [MPa]", "q_Pa", mega});
   plot.title = "Deviator stress against axial strain";
   for (RunResults const& run : runs) {
     if (!run.has_peak()) continue;
@@ -82,8 +85,9 @@ Piece stress_figure(std::vector<RunResults> const& runs) {
                 "stress on the walls, while the top and bottom close in on each other.");
 }
 
-Piece volume_figure(std::vector<RunResults> const& runs) {
-  Plot plot = plot_of(runs, {"volumetric strain εᵥ [%]", "eps_v", percent});
+Piece volume_figure(ShownRuns const& shown) {
+  std::vector<RunResults> const& runs = shown.runs;
+  Plot plot = plot_of(shown, {"volumetric strain εᵥ [%]", "eps_v", percent});
   if (plot.curves.empty()) return "";
   plot.title = "Volumetric strain against axial strain";
   for (Curve const& curve : plot.curves)
@@ -93,10 +97,11 @@ Piece volume_figure(std::vector<RunResults> const& runs) {
                 "Below zero it takes more room than before the test. Strains are natural (logarithmic) ones.");
 }
 
-Piece intact_figure(std::vector<RunResults> const& runs) {
+Piece intact_figure(ShownRuns const& shown) {
+  std::vector<RunResults> const& runs = shown.runs;
   if (std::none_of(runs.begin(), runs.end(), [](RunResults const& run) { return run.has_bonds(); }))
     return "<p class=\"soft\">The sand is clean: there are no bonds that could break.</p>\n";
-  Plot plot = plot_of(runs, {"intact bonds [% of those installed]", "bonds_intact_pct"});
+  Plot plot = plot_of(shown, {"intact bonds [% of those installed]", "bonds_intact_pct"});
   std::erase_if(plot.curves, [&](Curve const& curve) {
     return std::none_of(runs.begin(), runs.end(),
                         [&](RunResults const& run) { return run.has_bonds() && run_label(run) == curve.name; });
@@ -229,9 +234,14 @@ std::string run_label(RunResults const& run) {
   return label;
 }
 
-Piece curve_figures(std::vector<RunResults> const& runs) {
-  return stress_figure(runs) + volume_figure(runs) + intact_figure(runs) + mode_figures(runs) + consolidation_figure(runs) +
-         dilatancy_figure(runs);
+ShownRuns shown_runs(std::vector<RunResults> const& runs, LaboratoryOverlay& data) {
+  return {runs, data, [&runs](std::size_t i) { return Curve{run_label(runs[i]), {}, {}, run_stroke(i)}; }};
+}
+
+Piece curve_figures(ShownRuns const& shown) {
+  std::vector<RunResults> const& runs = shown.runs;
+  return stress_figure(shown) + volume_figure(shown) + intact_figure(shown) + mode_figures(runs) + consolidation_figure(runs) +
+         dilatancy_figure(shown);
 }
 
 Piece energy_figures(std::vector<RunResults> const& runs) {

@@ -22,7 +22,10 @@ std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<Member
     for (std::size_t i = 0; i < members.size(); ++i)
       if (members[i].group == g && members[i].state == MemberState::finished) own.push_back(folders[i]);
     if (own.empty()) continue;
-    groups.push_back({study.groups[g].name, study.groups[g].settings, seed_bands(own), run_stroke(groups.size())});
+    std::vector<RunResults> runs = read_runs(own);
+    groups.push_back({study.groups[g].name, study.groups[g].settings, seed_bands(runs), run_stroke(groups.size()), {}});
+    for (RunResults& run : runs)
+      if (run.test_kind() != "biaxial") groups.back().other_tests.push_back(std::move(run));
   }
   return groups;
 }

@@ -45,6 +45,7 @@ struct GroupCurves {
   std::vector<Setting> settings;
   std::vector<SeedBand> bands;
   Stroke stroke;
+  std::vector<RunResults> other_tests;  ///< of these members: those that are not one biaxial compression
 };
 
 /// The groups that have finished members, in the order of the study. @throws FileProblem

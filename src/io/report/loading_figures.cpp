@@ -41,10 +41,9 @@ std::vector<std::size_t> rows_where(RunResults const& run, Wanted const& wanted)
   return rows;
 }
 
-/// Columns of those rows. @param x,y  functions of (history, row)
+/// Columns of those rows. @param curve  its name and stroke;  @param x,y  functions of (history, row)
 template <class Wanted, class X, class Y>
-Curve curve_where(RunResults const& run, std::size_t number, Wanted const& wanted, X const& x, Y const& y) {
-  Curve curve{run_label(run), {}, {}, run_stroke(number)};
+Curve curve_where(RunResults const& run, Curve curve, Wanted const& wanted, X const& x, Y const& y) {
   for (std::size_t const i : rows_where(run, wanted)) {
     double const at = x(run.history, i), value = y(run.history, i);
     if (!std::isfinite(at) || !std::isfinite(value)) continue;
@@ -59,10 +58,11 @@ auto column(char const* name) {
 }
 
 /// Draws curves of two points and more over two axes that hold zero.
-Piece figure_of(char const* heading, char const* title, Variable const& x, Variable const& y, std::vector<Curve> curves,
-                std::string const& caption) {
+Piece figure_of(ShownRuns const& shown, char const* heading, char const* title, Variable const& x, Variable const& y,
+                std::vector<Curve> curves, std::string const& caption) {
   std::erase_if(curves, [](Curve const& curve) { return curve.x.size() < 2; });
   if (curves.empty()) return "";
+  for (Curve& points : shown.data.over(x, y)) curves.push_back(std::move(points));
   Plot plot;
   Range over, values;
   for (Curve const& curve : curves) {
@@ -79,10 +79,10 @@ Piece figure_of(char const* heading, char const* title, Variable const& x, Varia
 }
 
 template <class Wanted, class X, class Y>
-std::vector<Curve> curves_where(std::vector<RunResults> const& runs, Wanted const& wanted, X const& x, Y const& y) {
+std::vector<Curve> curves_where(ShownRuns const& shown, Wanted const& wanted, X const& x, Y const& y) {
   std::vector<Curve> curves;
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    if (!is_compression_alone(runs[i])) curves.push_back(curve_where(runs[i], i, wanted, x, y));
+  for (std::size_t i = 0; i < shown.runs.size(); ++i)
+    if (!is_compression_alone(shown.runs[i])) curves.push_back(curve_where(shown.runs[i], shown.style(i), wanted, x, y));
   return curves;
 }
 
@@ -93,20 +93,22 @@ bool is_undrained(LoadingStage const& stage) { return stage.lateral.follow == Fo
 bool is_dead_load(LoadingStage const& stage) { return stage.vertical.has_stress() && stage.increments == 1; }
 bool is_sheared(LoadingStage const& stage) { return stage.vertical.has_rate(); }
 
-Piece stress_path(std::vector<RunResults> const& runs) {
+Piece stress_path(ShownRuns const& shown) {
   return figure_of(
-      "Stress path", "Deviator stress against mean stress", {"mean stress p [MPa]", "p_Pa", mega},
-      {"deviator stress q [MPa]", "q_Pa", mega}, curves_where(runs, any_stage, column("p_Pa"), column("q_Pa")),
+      shown, "Stress path", "Deviator stress against mean stress", {"mean stress p [MPa]", "p_Pa", mega},
+      {"deviator stress q [MPa]", "q_Pa", mega}, curves_where(shown, any_stage, column("p_Pa"), column("q_Pa")),
       "Effective stresses on the walls: p = (σ₁ + σ₃)/2 and q = σ₁ − σ₃ with σ₁ vertical and σ₃ lateral, whichever is "
       "larger. In the notation of MIT s is p and t is q/2. A path under constant lateral stress rises at 2 to 1.");
 }
 
 /// Void ratio over the logarithm of the stress that was put on.
-Piece void_ratio_figure(std::vector<RunResults> const& runs) {
+Piece void_ratio_figure(ShownRuns const& shown) {
+  Variable const stress{"vertical stress σ₁ [MPa], logarithmic", "sigma1_Pa", mega}, ratio{"void ratio e", "void_ratio"};
   std::vector<Curve> curves = curves_where(
-      runs, is_put_on, [](HistoryTable const& history, std::size_t i) { return history["sigma1_Pa"][i]; }, column("void_ratio"));
+      shown, is_put_on, [](HistoryTable const& history, std::size_t i) { return history["sigma1_Pa"][i]; }, column("void_ratio"));
   std::erase_if(curves, [](Curve const& curve) { return curve.x.size() < 2; });
   if (curves.empty()) return "";
+  for (Curve& points : shown.data.over(stress, ratio)) curves.push_back(std::move(points));
   double least = HUGE_VAL, most = -HUGE_VAL, densest = HUGE_VAL, loosest = -HUGE_VAL;
   Plot plot;
   for (Curve& curve : curves) {
@@ -122,56 +124,56 @@ Piece void_ratio_figure(std::vector<RunResults> const& runs) {
   double const step = tick_step(densest, loosest, 5);
   plot.title = "Void ratio against vertical stress";
   plot.curves = std::move(curves);
-  plot.x = {{"vertical stress σ₁ [MPa], logarithmic", "sigma1_Pa", mega}, least * mega, 1.0001 * most * mega, true};
-  plot.y = {{"void ratio e", "void_ratio"}, std::floor(densest / step) * step, std::ceil(loosest / step) * step};
+  plot.x = {stress, least * mega, 1.0001 * most * mega, true};
+  plot.y = {ratio, std::floor(densest / step) * step, std::ceil(loosest / step) * step};
   return figure(
       "Compression", drawing(plot) + legend(plot.curves),
       "The void ratio e at rest under each increment of the stress, on the way up and on the way down. Where the lateral "
       "stress is put on alike, σ₁ is p.");
 }
 
-Piece lateral_stress(std::vector<RunResults> const& runs) {
+Piece lateral_stress(ShownRuns const& shown) {
   return figure_of(
-      "Lateral stress at rest", "Lateral stress against vertical stress", {"vertical stress σ₁ [MPa]", "sigma1_Pa", mega},
+      shown, "Lateral stress at rest", "Lateral stress against vertical stress", {"vertical stress σ₁ [MPa]", "sigma1_Pa", mega},
       {"lateral stress σ₃ [MPa]", "sigma3_Pa", mega},
-      curves_where(runs, is_one_dimensional, column("sigma1_Pa"), column("sigma3_Pa")),
+      curves_where(shown, is_one_dimensional, column("sigma1_Pa"), column("sigma3_Pa")),
       "Compressed without lateral strain: the slope is the coefficient of earth pressure at rest K₀ = dσ₃/dσ₁. After "
       "unloading the lateral stress stays behind.");
 }
 
-Piece pore_pressure(std::vector<RunResults> const& runs) {
+Piece pore_pressure(ShownRuns const& shown) {
   auto const u = [](HistoryTable const& history, std::size_t i) { return history["sigma3_Pa"][0] - history["sigma3_Pa"][i]; };
   return figure_of(
-      "Pore pressure", "Pore pressure against axial strain", axial_strain, {"pore pressure u [MPa]", "u_Pa", mega},
-      curves_where(runs, is_undrained, column("eps1"), u),
+      shown, "Pore pressure", "Pore pressure against axial strain", axial_strain, {"pore pressure u [MPa]", "u_Pa", mega},
+      curves_where(shown, is_undrained, column("eps1"), u),
       "What the pore water would have to carry at constant volume under a constant total lateral stress: u = σ₃ at the "
       "beginning − σ₃. It rises where the sand would contract, and falls where it would dilate.");
 }
 
-Piece stress_ratio(std::vector<RunResults> const& runs) {
+Piece stress_ratio(ShownRuns const& shown) {
   auto const ratio = [](HistoryTable const& history, std::size_t i) { return history["q_Pa"][i] / history["p_Pa"][i]; };
-  return figure_of("Stress ratio", "Stress ratio against axial strain", axial_strain, {"stress ratio q/p", "q_over_p"},
-                   curves_where(runs, is_sheared, column("eps1"), ratio),
+  return figure_of(shown, "Stress ratio", "Stress ratio against axial strain", axial_strain, {"stress ratio q/p", "q_over_p"},
+                   curves_where(shown, is_sheared, column("eps1"), ratio),
                    "q/p = 2 sin φ of the friction that is mobilised, where there is no cohesion.");
 }
 
-Piece dead_load(std::vector<RunResults> const& runs) {
-  return figure_of("Strain under the dead load", "Axial strain against time", {"time [ms]", "time_s", milli}, axial_strain,
-                   curves_where(runs, is_dead_load, column("time_s"), column("eps1")),
+Piece dead_load(ShownRuns const& shown) {
+  return figure_of(shown, "Strain under the dead load", "Axial strain against time", {"time [ms]", "time_s", milli}, axial_strain,
+                   curves_where(shown, is_dead_load, column("time_s"), column("eps1")),
                    "Nothing in the bonds knows a clock: the specimen either comes to rest or fails. The platens have a largest "
                    "speed, so that a collapse is paced by them.");
 }
 
 }  // namespace
 
-Piece dilatancy_figure(std::vector<RunResults> const& runs) {
+Piece dilatancy_figure(ShownRuns const& shown) {
   constexpr double stretch = 0.005;
   std::vector<Curve> curves;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    Curve curve{run_label(runs[i]), {}, {}, run_stroke(i)};
-    HistoryTable const& history = runs[i].history;
+  for (std::size_t i = 0; i < shown.runs.size(); ++i) {
+    Curve curve = shown.style(i);
+    HistoryTable const& history = shown.runs[i].history;
     std::vector<double> const &eps1 = history["eps1"], &eps_v = history["eps_v"], &q = history["q_Pa"], &p = history["p_Pa"];
-    std::vector<std::size_t> const rows = rows_where(runs[i], [](LoadingStage const& stage) {
+    std::vector<std::size_t> const rows = rows_where(shown.runs[i], [](LoadingStage const& stage) {
       return stage.name == shear_stage && stage.lateral.follow != Follow::constant_volume;
     });
     for (std::size_t from = 0, to = 0; to < rows.size(); ++to) {
@@ -186,15 +188,15 @@ Piece dilatancy_figure(std::vector<RunResults> const& runs) {
     curves.push_back(std::move(curve));
   }
   return figure_of(
-      "Stress and dilatancy", "Stress ratio against dilatancy", {"dilatancy −dεᵥ/dγ", "dilatancy"},
+      shown, "Stress and dilatancy", "Stress ratio against dilatancy", {"dilatancy −dεᵥ/dγ", "dilatancy"},
       {"stress ratio q/p", "q_over_p"}, std::move(curves),
       "How fast the specimen widens as it is sheared, over stretches of 0.5 % of axial strain, and the stress ratio in "
       "their middle; γ = ε₁ − ε₃. Rowe's relation is a rising line: sand bears more while it dilates.");
 }
 
-Piece loading_figures(std::vector<RunResults> const& runs) {
-  return stress_path(runs) + void_ratio_figure(runs) + lateral_stress(runs) + pore_pressure(runs) + stress_ratio(runs) +
-         dead_load(runs);
+Piece loading_figures(ShownRuns const& shown) {
+  return stress_path(shown) + void_ratio_figure(shown) + lateral_stress(shown) + pore_pressure(shown) + stress_ratio(shown) +
+         dead_load(shown);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "io/errors/printable.hpp"
 #include "io/report/png.hpp"
@@ -151,7 +152,9 @@ Piece legend(Piece entries) {
 
 Piece legend(std::vector<Curve> const& curves) {
   Piece entries;
-  for (Curve const& curve : curves) entries += line_entry(curve.stroke, curve.name);
+  std::set<std::string> named;
+  for (Curve const& curve : curves)
+    if (named.insert(curve.name).second) entries += line_entry(curve.stroke, curve.name);
   return legend(std::move(entries));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "domain/scene/hydrate.hpp"
+#include "io/report/laboratory_overlay.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/paper_figures.hpp"
 #include "io/report/strength.hpp"
@@ -26,23 +27,12 @@ std::vector<GroupCurves> chosen(Reproduction const& r, std::vector<GroupCurves> 
   return groups;
 }
 
-Curve points_of(LaboratorySeries const& series) { return {series.name, series.x, series.y, {colours::black, "1 4"}, true}; }
-
-/// Points of the user's laboratory of these tests: of their saturation to half a percent and their stress to a twentieth.
+/// Points of the user's laboratory of these tests.
 std::vector<Curve> laboratory_curves(Reproduction const& r, ShownBand const& what, PaperSeries const& series) {
-  std::vector<Curve> curves;
-  if (!r.data) return curves;
-  for (LaboratorySeries const& points : r.data->series) {
-    if (points.figure != (what.column == shown_bands[0].column ? "q" : "eps_v")) continue;
-    bool const of_series = std::any_of(series.groups.begin(), series.groups.end(), [&](std::string const& name) {
-      Scene const scene = stated_scene(r.paper, *group_of(r.paper, name));
-      double const stress = scene.test.confining_stress;
-      return std::abs(points.saturation - percent * scene.hydrate.saturation) <= 0.5 &&
-             std::abs(points.confining_stress - stress) <= 0.05 * stress;
-    });
-    if (of_series) curves.push_back(points_of(points));
-  }
-  return curves;
+  if (!r.data) return {};
+  std::vector<PageTest> tests;
+  for (std::string const& name : series.groups) tests.push_back(page_test(stated_scene(r.paper, *group_of(r.paper, name))));
+  return LaboratoryOverlay(*r.data, tests).over(axial_strain, what.axis);
 }
 
 }  // namespace
@@ -124,14 +114,11 @@ Piece mohr_circles(Reproduction const& r) {
 }
 
 Piece envelopes_figure(Reproduction const& r, PaperFigure const& f) {
-  std::vector<Curve> points;
-  char const* const wanted = f.number.quantity->unit == "Pa" ? "c" : "phi";
-  if (r.data)
-    for (LaboratorySeries const& series : r.data->series)
-      if (series.figure == wanted) points.push_back(points_of(series));
   std::string const number = f.number.name();
-  return strength_figure(envelopes_by_material(r.study, r.members), f.title, {f.axis.c_str(), number.c_str(), f.number.factor},
-                         points);
+  Variable const axis{f.axis.c_str(), number.c_str(), f.number.factor};
+  std::vector<Curve> const points =
+      r.data ? LaboratoryOverlay(*r.data, {PageTest()}).over(hydrate_saturation, axis) : std::vector<Curve>();
+  return strength_figure(envelopes_by_material(r.study, r.members), f.title, axis, points);
 }
 
 }  // namespace clathra

@@ -34,12 +34,13 @@ Piece part(std::string const& heading, Piece contents) {
   return contents.empty() ? "" : "<h2>" + escaped(heading) + "</h2>\n" + std::move(contents);
 }
 
-Piece everything_but_pictures(std::vector<RunResults> const& runs) {
+Piece everything_but_pictures(std::vector<RunResults> const& runs, LaboratoryOverlay& data) {
+  ShownRuns const shown = shown_runs(runs, data);
   Piece text = part("Summary", summary_table(runs)) + part("Stages", stage_tables(runs)) +
-               part("Loading", side_by_side(loading_figures(runs))) + part("Curves", side_by_side(curve_figures(runs)));
+               part("Loading", side_by_side(loading_figures(shown))) + part("Curves", side_by_side(curve_figures(shown)));
   if (Piece strength = strength_figures(runs); !strength.empty()) text += part("Strength", side_by_side(std::move(strength)));
   if (Piece energy = energy_figures(runs); !energy.empty()) text += part("Energy", side_by_side(std::move(energy)));
-  return text;
+  return std::move(text) + data.note();
 }
 
 /// Which runs have pictures, in words, where not all have.
@@ -77,10 +78,12 @@ Piece pictures(std::vector<RunResults> const& runs, std::size_t room) {
 
 }  // namespace
 
-std::vector<Figure> write_report(std::vector<std::filesystem::path> const& run_folders, std::filesystem::path const& html) {
+std::vector<Figure> write_report(std::vector<std::filesystem::path> const& run_folders, std::filesystem::path const& html,
+                                 std::optional<LaboratoryData> const& data) {
   std::vector<RunResults> const runs = read_runs(run_folders);
+  LaboratoryOverlay overlay = data ? LaboratoryOverlay(*data, page_tests(runs)) : LaboratoryOverlay();
   Piece body = "<h1>" + escaped(title_of(runs)) + "</h1>\n<p class=\"lead\">" + escaped(summary_sentence(runs)) + "</p>\n";
-  body += warning_list(runs) + note_on_missing_columns(runs) + everything_but_pictures(runs);
+  body += warning_list(runs) + note_on_missing_columns(runs) + everything_but_pictures(runs, overlay);
   constexpr std::size_t least_room = 1'000'000, text_of_pictures = 100'000;
   std::size_t const taken = body.html.size() + text_of_pictures * runs.size();
   body += pictures(runs, taken + least_room < largest_page ? largest_page - taken : least_room);

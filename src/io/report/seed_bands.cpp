@@ -5,7 +5,6 @@
 
 #include "domain/measurement/confidence.hpp"
 #include "domain/measurement/curve_features.hpp"
-#include "io/results/run_results.hpp"
 
 namespace clathra {
 namespace {
@@ -33,8 +32,7 @@ PossibleRange possible_range(std::string_view name) {
   return {};
 }
 
-std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_folders) {
-  std::vector<RunResults> const runs = read_runs(run_folders);
+std::vector<SeedBand> seed_bands(std::vector<RunResults> const& runs) {
   std::vector<SeedBand> bands;
   for (char const* const column : curve_columns) {
     SeedBand band;

@@ -1,7 +1,6 @@
 #pragma once
 /// Curves of runs that differ in their seed only, laid over each other.
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -29,7 +28,6 @@ struct PossibleRange {
 PossibleRange possible_range(std::string_view name);
 
 /// One band for each of curve_columns; empty where a run has no such column. Between records curves are straight.
-/// @throws FileProblem
-std::vector<SeedBand> seed_bands(std::vector<std::filesystem::path> const& run_folders);
+std::vector<SeedBand> seed_bands(std::vector<RunResults> const& runs);
 
 }  // namespace clathra

@@ -14,6 +14,8 @@
 #include "domain/measurement/test_numbers.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/group_curves.hpp"
+#include "io/report/laboratory_overlay.hpp"
+#include "io/report/loading_figures.hpp"
 #include "io/report/markup.hpp"
 #include "io/results/shown_units.hpp"
 
@@ -98,7 +100,7 @@ std::string table_of_groups(std::vector<GroupNumbers> const& groups, std::vector
          "</tbody></table></div>\n";
 }
 
-Piece strength_part(std::vector<GroupNumbers> const& materials) {
+Piece strength_part(std::vector<GroupNumbers> const& materials, LaboratoryOverlay& points) {
   if (materials.empty()) return "";
   Piece text = "<h2>Strength</h2>\n" + table_of_groups(materials,
                                                        {{"peak_cohesion_Pa", "c at the peak", "MPa", mega},
@@ -108,8 +110,11 @@ Piece strength_part(std::vector<GroupNumbers> const& materials) {
                                                         {"residual_cohesion_Pa", "residual c", "MPa", mega},
                                                         {"residual_friction_angle_deg", "residual φ", "°", 1}},
                                                        "material");
-  return text + side_by_side(strength_figure(materials, "Cohesion", {"cohesion c [MPa]", "peak_cohesion_Pa", mega}) +
-                             strength_figure(materials, "Friction angle", {"friction angle φ [°]", "peak_friction_angle_deg"}));
+  Piece figures;
+  for (auto const& [heading, number] : {std::pair{"Cohesion", Variable{"cohesion c [MPa]", "peak_cohesion_Pa", mega}},
+                                        {"Friction angle", Variable{"friction angle φ [°]", "peak_friction_angle_deg"}}})
+    figures += strength_figure(materials, heading, number, points.over(hydrate_saturation, number));
+  return text + side_by_side(std::move(figures));
 }
 
 /// The keys that have several values, in words.
@@ -207,6 +212,43 @@ std::string note_on_rising(Study const& study, std::vector<MemberResult> const& 
       rising.size(), finished, escaped(first_of(rising)), (1 - share_past_peak) * percent);
 }
 
+std::vector<PageTest> tests_of(Study const& study) {
+  std::vector<PageTest> tests;
+  for (StudyGroup const& group : study.groups) tests.push_back(page_test(member_scene(study, group, study.seeds.front()).scene));
+  return tests;
+}
+
+Piece curves_part(std::vector<GroupCurves> const& curves, LaboratoryOverlay& points) {
+  Piece overlays;
+  for (ShownBand const& what : shown_bands) {
+    bool const any = std::any_of(curves.begin(), curves.end(), [&](GroupCurves const& g) { return says_something(g, what); });
+    if (any) overlays += overlay(curves, what, points.over(axial_strain, what.axis));
+  }
+  return overlays.empty() ? "" : "<h2>Curves</h2>\n" + side_by_side(std::move(overlays));
+}
+
+/// What tests that are not one biaxial compression have to draw, each seed a line.
+Piece loading_part(std::vector<GroupCurves> const& groups, LaboratoryOverlay& points) {
+  constexpr std::size_t most_runs = 100;
+  std::vector<RunResults> runs;
+  std::vector<Curve> styles;
+  std::size_t left_out = 0;
+  for (GroupCurves const& group : groups)
+    for (RunResults const& run : group.other_tests) {
+      if (runs.size() == most_runs) {
+        ++left_out;
+        continue;
+      }
+      runs.push_back(run);
+      styles.push_back({group.name, {}, {}, {group.stroke.colour, group.stroke.dash, 1.2}});
+    }
+  Piece figures = loading_figures({runs, points, [&](std::size_t i) { return styles[i]; }});
+  if (figures.empty()) return "";
+  return fmt::format("<h2>Loading</h2>\n<p class=\"soft\">A line for each seed, in the colour of its group.{}</p>\n",
+                     left_out > 0 ? fmt::format(" {} members more are not drawn.", left_out) : "") +
+         side_by_side(std::move(figures));
+}
+
 std::vector<Column> result_columns() {
   return {{peak_number, "peak q", "MPa", mega},
           {"peak_eps1", "at ε₁", "%", percent},
@@ -220,7 +262,8 @@ std::vector<Column> result_columns() {
 }  // namespace
 
 std::vector<Figure> write_study_report(Study const& study, std::vector<MemberResult> const& members,
-                                       std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html) {
+                                       std::vector<std::filesystem::path> const& folders, std::filesystem::path const& html,
+                                       std::optional<LaboratoryData> const& data) {
   std::vector<GroupNumbers> const groups = numbers_by_group(study, members);
   std::vector<GroupCurves> const curves = curves_of_groups(study, members, folders);
   auto const finished =
@@ -233,9 +276,12 @@ std::vector<Figure> write_study_report(Study const& study, std::vector<MemberRes
       finished, groups.size(), groups.size() == 1 ? "" : "s", escaped(varied_keys(study)));
   body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" +
           table_of_groups(groups, result_columns(), "group") + note_on_rising(study, members);
-  Piece overlays, multiples;
-  for (ShownBand const& what : shown_bands) overlays += overlay(curves, what);
-  body += "<h2>Curves</h2>\n" + side_by_side(std::move(overlays)) + strength_part(envelopes_by_material(study, members));
+  Piece multiples;
+  LaboratoryOverlay points = data ? LaboratoryOverlay(*data, tests_of(study)) : LaboratoryOverlay();
+  body += curves_part(curves, points);
+  body += loading_part(curves, points);
+  body += strength_part(envelopes_by_material(study, members), points);
+  body += points.note();
   for (ShownBand const& what : std::span(shown_bands).first(multiplied))
     if (Piece small = curves.size() > 1 ? small_multiples(curves, what) : ""; !small.empty())
       multiples += fmt::format("<h3>{} over {}</h3>\n", what.axis.title, axial_strain.title) + std::move(small);

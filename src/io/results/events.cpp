@@ -15,10 +15,10 @@ namespace clathra {
 
 namespace {
 
-constexpr std::size_t plain_cells = 6, detailed_cells = plain_cells + std::size(break_detail_columns);
+constexpr std::size_t plain_cells = 7, detailed_cells = plain_cells + std::size(break_detail_columns);
 
 std::string header(bool detailed) {
-  std::string text = "step,id_a,id_b,mode,x_m,y_m";
+  std::string text = "stage,step,id_a,id_b,mode,x_m,y_m";
   if (detailed)
     for (BreakDetailColumn const& column : break_detail_columns) text += fmt::format(",{}", column.heading);
   return text;
@@ -30,12 +30,12 @@ EventsFile::EventsFile(std::filesystem::path path, bool detailed) : file_(std::m
   file_.write(header(detailed) + "\n");
 }
 
-void EventsFile::write(BreakEvents const& events) {
+void EventsFile::write(std::string_view stage, BreakEvents const& events) {
   std::string rows;
   for (std::size_t k = 0; k < events.rows.size(); ++k) {
     BreakEvent const& event = events.rows[k];
-    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{}", event.step, event.id_a, event.id_b, break_mode_name(event.mode),
-                   event.x, event.y);
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{}", stage, event.step, event.id_a, event.id_b,
+                   break_mode_name(event.mode), event.x, event.y);
     if (events.detailed)
       for (BreakDetailColumn const& column : break_detail_columns)
         fmt::format_to(std::back_inserter(rows), ",{}", events.details[k].*column.value);
@@ -52,11 +52,11 @@ void add_event(std::vector<std::string_view> const& cells, BreakEvents& events) 
   std::size_t const wanted = events.detailed ? detailed_cells : plain_cells;
   if (cells.size() != wanted) throw std::invalid_argument(fmt::format("has {} cells, not {}", cells.size(), wanted));
   int mode = 1;
-  while (mode < break_mode_count && cells[3] != break_mode_name(mode)) ++mode;
+  while (mode < break_mode_count && cells[4] != break_mode_name(mode)) ++mode;
   if (mode == break_mode_count) throw std::invalid_argument("names no mode of breakage");
   auto const whole = [&](std::size_t k) { return static_cast<std::int64_t>(parse_number(cells[k])); };
   events.rows.push_back(
-      {whole(0), static_cast<int>(whole(1)), static_cast<int>(whole(2)), mode, parse_number(cells[4]), parse_number(cells[5])});
+      {whole(1), static_cast<int>(whole(2)), static_cast<int>(whole(3)), mode, parse_number(cells[5]), parse_number(cells[6])});
   if (!events.detailed) return;
   BreakDetails details;
   std::size_t k = plain_cells;

@@ -1,5 +1,6 @@
 #pragma once
 /// events.csv: each broken bond once.
+#include <string_view>
 #include <vector>
 
 #include "domain/simulation/break_event.hpp"
@@ -15,9 +16,9 @@ class EventsFile {
   /// Goes on with the file behind its first `bytes`.
   EventsFile(std::filesystem::path path, std::uintmax_t bytes) : file_(std::move(path), bytes) {}
 
-  /// One row an event: step, ids of the discs, how the bond broke, where [m], and its details where the events are detailed, as
-  /// they must be in a file that is. @throws FileProblem io_error
-  void write(BreakEvents const& events);
+  /// One row an event: the stage of the test, step, ids of the discs, how the bond broke, where [m], and its details where the
+  /// events are detailed, as they must be in a file that is. @throws FileProblem io_error
+  void write(std::string_view stage, BreakEvents const& events);
   void close() { file_.close(); }
   RowsWritten flushed() const { return file_.flushed(); }
 

@@ -16,9 +16,9 @@
 namespace clathra {
 namespace {
 
-constexpr std::string_view header_line = "figure,name,saturation_pct,confining_stress_MPa,x,y";
-constexpr std::size_t largest_laboratory_file = std::size_t{16} << 20;
-constexpr double pascals = 1e6;
+constexpr std::string_view header_line = "figure,name,strain,saturation_pct,confining_stress_MPa,x,y";
+constexpr std::size_t largest_laboratory_file = std::size_t{16} << 20, cells_of_row = 7;
+constexpr double pascals = 1e6, strains = 1 / percent;
 
 double number_of(std::string_view cell, char const* column, double least, double most) {
   double value = 0;
@@ -32,22 +32,57 @@ double number_of(std::string_view cell, char const* column, double least, double
   return value;
 }
 
+LaboratoryAxes const& axes_of(std::string_view figure) {
+  std::string allowed;
+  for (LaboratoryAxes const& axes : laboratory_axes()) {
+    if (axes.figure == figure) return axes;
+    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", axes.figure);
+  }
+  throw std::invalid_argument(
+      fmt::format("column 'figure' must be one of {}, got '{}'", allowed, printable(std::string(figure))));
+}
+
+/// Whether strains are engineering ones.
+bool is_engineering(LaboratoryAxes const& axes, std::string_view cell) {
+  bool const has_strains = axes.x_strain || axes.y_strain;
+  if (has_strains ? cell == "natural" || cell == "engineering" : cell.empty()) return cell == "engineering";
+  throw std::invalid_argument(fmt::format("column 'strain' must be {}, got '{}'",
+                                          has_strains ? "natural or engineering" : "empty for a figure without strains",
+                                          printable(std::string(cell))));
+}
+
+double natural(double engineering, char const* column) {
+  if (!(engineering < 1))
+    throw std::invalid_argument(
+        fmt::format("column '{}' must lie below 100 for an engineering strain, got {:g}", column, engineering * percent));
+  return -std::log1p(-engineering);
+}
+
+std::optional<double> stated(std::string_view cell, char const* column, double least, double most, double factor) {
+  if (cell.empty()) return {};
+  return factor * number_of(cell, column, least, most);
+}
+
 void add_point(LaboratoryData& data, std::vector<std::string_view> const& cells) {
-  if (cells.size() != 6) throw std::invalid_argument(fmt::format("has {} cells, not 6 ({})", cells.size(), header_line));
-  LaboratorySeries series;
-  series.figure = cells[0];
-  series.name = cells[1];
-  bool const curve = series.figure == "q" || series.figure == "eps_v";
-  if (!curve && series.figure != "c" && series.figure != "phi")
-    throw std::invalid_argument(fmt::format("column 'figure' must be q, eps_v, c or phi, got '{}'", printable(series.figure)));
-  constexpr double most_y = 1e6;
-  double const factor = series.figure == "q" || series.figure == "c" ? pascals : series.figure == "eps_v" ? 1 / percent : 1;
-  series.saturation = curve ? number_of(cells[2], "saturation_pct", 0, 100) : 0;
-  series.confining_stress = curve ? pascals * number_of(cells[3], "confining_stress_MPa", 1e-3, 1e3) : 0;
-  double const x = curve ? number_of(cells[4], "x", -1, 100) / percent : number_of(cells[4], "x", 0, 100);
-  double const y = factor * number_of(cells[5], "y", -most_y, most_y);
+  if (cells.size() != cells_of_row)
+    throw std::invalid_argument(fmt::format("has {} cells, not {} ({})", cells.size(), cells_of_row, header_line));
+  constexpr double most = 1e6;
+  LaboratoryAxes const& axes = axes_of(cells[0]);
+  bool const engineering = is_engineering(axes, cells[2]);
+  if (axes.x_column == "saturation_pct" && !(cells[3].empty() && cells[4].empty()))
+    throw std::invalid_argument("columns 'saturation_pct' and 'confining_stress_MPa' must be empty for " +
+                                std::string(axes.figure));
+  LaboratorySeries series{&axes,
+                          std::string(cells[1]),
+                          stated(cells[3], "saturation_pct", 0, 100, 1),
+                          stated(cells[4], "confining_stress_MPa", 1e-3, 1e3, pascals),
+                          {},
+                          {}};
+  double x = axes.x_factor * number_of(cells[5], "x", -most, most), y = axes.y_factor * number_of(cells[6], "y", -most, most);
+  if (engineering && axes.x_strain) x = natural(x, "x");
+  if (engineering && axes.y_strain) y = natural(y, "y");
   auto const same = std::find_if(data.series.begin(), data.series.end(), [&](LaboratorySeries const& s) {
-    return s.figure == series.figure && s.name == series.name && s.saturation == series.saturation &&
+    return s.axes == series.axes && s.name == series.name && s.saturation == series.saturation &&
            s.confining_stress == series.confining_stress;
   });
   LaboratorySeries& to = same == data.series.end() ? data.series.emplace_back(std::move(series)) : *same;
@@ -56,6 +91,20 @@ void add_point(LaboratoryData& data, std::vector<std::string_view> const& cells)
 }
 
 }  // namespace
+
+std::vector<LaboratoryAxes> const& laboratory_axes() {
+  static std::vector<LaboratoryAxes> const all{
+      {"q", "eps1", "q_Pa", "axial strain in %", "q in MPa", strains, pascals, true, false},
+      {"eps_v", "eps1", "eps_v", "axial strain in %", "volumetric strain in %", strains, strains, true, true},
+      {"pore_pressure", "eps1", "u_Pa", "axial strain in %", "u in MPa", strains, pascals, true, false},
+      {"stress_ratio", "eps1", "q_over_p", "axial strain in %", "q/p", strains, 1, true, false},
+      {"stress_path", "p_Pa", "q_Pa", "p in MPa", "q in MPa", pascals, pascals, false, false},
+      {"compression", "sigma1_Pa", "void_ratio", "sigma_1 in MPa", "void ratio", pascals, 1, false, false},
+      {"lateral_stress", "sigma1_Pa", "sigma3_Pa", "sigma_1 in MPa", "sigma_3 in MPa", pascals, pascals, false, false},
+      {"c", "saturation_pct", "peak_cohesion_Pa", "saturation in %", "c in MPa", 1, pascals, false, false},
+      {"phi", "saturation_pct", "peak_friction_angle_deg", "saturation in %", "phi in degrees", 1, 1, false, false}};
+  return all;
+}
 
 LaboratoryData read_laboratory_data(std::filesystem::path const& path) {
   std::string const text = read_text_file(path, largest_laboratory_file);

@@ -183,6 +183,7 @@ void write_snapshot(std::filesystem::path const& path, Snapshot const& snapshot,
   auto const write_content = [&](Hdf5File& file) {
     file.set_attribute("format", std::string(snapshot_format));
     file.set_attribute("version", snapshot_version);
+    file.set_attribute("stage", snapshot.stage);
     file.set_attribute("step", snapshot.step);
     file.set_attribute("particles", total(snapshot.id.size()));
     file.set_attribute("contacts", total(snapshot.a.size()));
@@ -207,6 +208,7 @@ Snapshot read_snapshot(std::filesystem::path const& path) {
   if (discs < 1 || discs > 1'000'000'000 || pairs < 0 || pairs > 10'000'000'000)
     file.fail(ExitCode::bad_input, fmt::format("claims {} particles and {} contacts", discs, pairs));
   Snapshot s;
+  s.stage = file.text_attribute("stage");
   s.step = file.integer_attribute("step");
   for_each_scalar(s, [&](char const* name, double& value, char const*) { value = file.double_attribute(name); });
   read_discs(file, s, static_cast<std::size_t>(discs));

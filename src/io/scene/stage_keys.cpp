@@ -62,6 +62,7 @@ Key const table[] = {
   {"until.mean_stress", quantity, of_part<&Stage::until, &StageEnd::mean_stress>, "p = (sigma_1 + sigma_3) / 2 likewise", pressure, 0, 1e9, no_end},
   {"until.stress_ratio", quantity, of_part<&Stage::until, &StageEnd::stress_ratio>, "q / p likewise", ratio, -2, 2, no_end},
   {"until.path", quantity, of_part<&Stage::until, &StageEnd::path>, "path of the axial strain within the stage, back and forth", ratio, 1e-6, 100, "refused after 50 % without an end"},
+  {"until.strain_rate", quantity, of_part<&Stage::until, &StageEnd::strain_rate>, "strain rate of the faster sides under their stresses, that is to be fallen below for three looks on end", rate, 1e-9, 1e6, no_end},
   {"until.cycles", integer, of_part<&Stage::until, &StageEnd::cycles>, "cycles of two turns each", ratio, 1, 1e6, no_end},
   {"until.rest", boolean, of_part<&Stage::until, &StageEnd::rest>, "the stage ends where the specimen rests under its stresses"},
 };
@@ -107,6 +108,8 @@ void check_ends(LoadingStage const& stage, Say const& say) {
   if (!stage.until.any()) say("'until' states no end of the stage");
   if (stage.until.rest && !stage.has_stress_only())
     say("'until.rest' needs sides that hold or have a stress: a rate does not come to rest");
+  if (stage.until.strain_rate > 0 && !stage.has_stress_only())
+    say("'until.strain_rate' needs sides that hold or have a stress: a rate is what it is");
   if (turn.any() && !stage.vertical.has_rate()) say("'turn' needs a rate of 'vertical'");
   if (!turn.axial_strain.empty() && !turn.deviator_stress.empty())
     say("give either 'turn.deviator_stress' or 'turn.axial_strain', not both");
