@@ -25,7 +25,7 @@ offers "check" ch
 offers "--version" --ve
 offers "--dry-run" study --dr
 offers "--set" run scene.toml --s
-offers "hydrate.saturation=" run --set hydrate.s
+offers "hydrate.saturation=" run --set hydrate.sat
 offers "parallel" run scene.toml --set bond.contact_coupling = pa
 offers "replaces parallel replaces_keeping_force" run --set bond.contact_coupling =
 offers "true false" run --set run.ignore_guards =

@@ -6,6 +6,7 @@
 #include "domain/biaxial/biaxial_test.hpp"
 #include "domain/measurement/history_row.hpp"
 #include "domain/scene/hydrate.hpp"
+#include "domain/scene/phase_boundary.hpp"
 #include "extreme_rows.hpp"
 #include "packing.hpp"
 #include "scenes.hpp"
@@ -148,17 +149,17 @@ TEST(ExtremeScenes, SaturationsAtTheEdgesOfEquation3) {
 TEST(ExtremeScenes, HydrateAtItsStabilityLineAndAHairPast) {
   HydrateScene hydrate;
   hydrate.saturation = 0.55;
-  hydrate.temperature = stability_temperature(hydrate.pore_pressure);
-  EXPECT_EQ(hydrate_problem(hydrate), "");
+  hydrate.temperature = equilibrium_temperature(hydrate.pore_pressure, hydrate.salinity);
+  EXPECT_EQ(stability_problem(hydrate), "");
   print_row("temperature at the stability line", "goes on", "goes on");
   hydrate.temperature = std::nextafter(hydrate.temperature, 100);
   expect_refusal<std::runtime_error>("temperature a hair past it", "stable", [&] {
-    if (std::string const problem = hydrate_problem(hydrate); !problem.empty()) throw std::runtime_error(problem);
+    if (std::string const problem = stability_problem(hydrate); !problem.empty()) throw std::runtime_error(problem);
   });
-  hydrate.temperature = stability_temperature(hydrate.pore_pressure);
-  hydrate.pore_pressure *= 1 - 1e-12;
+  hydrate.temperature = equilibrium_temperature(hydrate.pore_pressure, hydrate.salinity);
+  hydrate.pore_pressure *= 1 - 1e-7;
   expect_refusal<std::runtime_error>("pore pressure a hair below it", "stable", [&] {
-    if (std::string const problem = hydrate_problem(hydrate); !problem.empty()) throw std::runtime_error(problem);
+    if (std::string const problem = stability_problem(hydrate); !problem.empty()) throw std::runtime_error(problem);
   });
 }
 

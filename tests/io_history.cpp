@@ -114,7 +114,7 @@ TEST_F(History, AppendsTheEnergyLedgerWhereThereIsOne) {
   ASSERT_EQ(names.size(), cells.size());
   EXPECT_EQ(names.back(), "residual_J_per_m");
   EXPECT_EQ(cells.back(), "7");
-  EXPECT_EQ(names[names.size() - 11], "boundary_work_J_per_m");
+  EXPECT_EQ(names[names.size() - 12], "boundary_work_J_per_m");
 }
 
 TEST_F(History, GoesOnWithItsOwnColumns) {

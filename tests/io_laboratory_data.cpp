@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "command.hpp"
 #include "io/errors/problems.hpp"
 #include "io/report/laboratory_overlay.hpp"
 #include "io/results/laboratory_data.hpp"
@@ -99,6 +100,30 @@ TEST_F(LaboratoryPoints, LieInTheFiguresOfAReport) {
   EXPECT_NE(page.find("</svg>my triaxial test</li>"), std::string::npos) << "in the legend";
   EXPECT_NE(page.find("no figure shows: b (phi"), std::string::npos);
   EXPECT_EQ(page_on({folder / "run"}).find("my triaxial test"), std::string::npos);
+}
+
+/// Also of tests that are not one compression, which have no bands over the axial strain alone.
+TEST_F(LaboratoryPoints, LieOnThePageOfAStudy) {
+  std::ofstream(folder / "base.toml") << "[specimen]\nparticles = 100\nvoid_ratio = 0.28\ncompaction_layers = 1\n"
+                                         "[test]\nkind = \"constant_volume\"\naxial_strain = \"0.4 %\"\n[output]\nrecords = 10\n";
+  std::ofstream(folder / "many.toml") << "scene = \"base.toml\"\nseeds = 2\n[matrix]\n"
+                                         "test.confining_stress = [\"1 MPa\", \"2 MPa\"]\n";
+  fs::path const out = folder / "out";
+  std::ofstream(folder / "points.csv") << "figure,name,strain,saturation_pct,confining_stress_MPa,x,y\n"
+                                          "stress_path,my undrained test,,,2,1.5,0.5\nstress_path,my undrained test,,,2,1.6,0.7\n"
+                                          "q,of another stress,natural,,5,1,2\n";
+  CommandResult const result = run_clathra("study '" + (folder / "many.toml").string() + "' --output '" + out.string() +
+                                           "' --data '" + (folder / "points.csv").string() + "'");
+  ASSERT_EQ(result.code, 0) << result.output;
+  std::string const page = content_of(out / "study.html");
+  std::string const plot = page.substr(page.find("<title>Deviator stress against mean stress"));
+  std::string const drawn = plot.substr(0, plot.find("</figure>"));
+  std::size_t lines = 0;
+  for (std::size_t at = drawn.find("<polyline"); at != drawn.npos; at = drawn.find("<polyline", at + 1)) ++lines;
+  EXPECT_GE(lines, 5u) << "four members and the points";
+  EXPECT_EQ(drawn.find("</svg>1MPa</li>"), drawn.rfind("</svg>1MPa</li>")) << "one entry for both seeds";
+  EXPECT_NE(drawn.find("</svg>my undrained test</li>"), std::string::npos);
+  EXPECT_NE(page.find("no figure shows: of another stress (q, of another"), std::string::npos);
 }
 
 }  // namespace

@@ -275,7 +275,7 @@ TEST_F(Report, NamesWhatIsWrongWithARun) {
     return code_of([&] { page_on({run}); }, &message);
   };
   EXPECT_EQ(with_history(history + "1,2,3\n"), ExitCode::bad_input);
-  EXPECT_NE(message.find("line 303: 3 cells, the header has 27"), std::string::npos) << message;
+  EXPECT_NE(message.find("line 303: 3 cells, the header has 28"), std::string::npos) << message;
   EXPECT_EQ(with_history(std::regex_replace(history, std::regex("\nshear,100,0,"), "\nshear,100,zero,")), ExitCode::bad_input);
   EXPECT_NE(message.find("line 3: 'zero' in column time_s is no number"), std::string::npos) << message;
   EXPECT_EQ(with_history(std::regex_replace(history, std::regex("q_Pa|,sigma3_Pa"), ",r_Pa")), ExitCode::bad_input);
@@ -358,7 +358,7 @@ TEST_F(Report, BearsARecordAndAHistoryWithHolesInThem) {
   std::string const history = content_of(run / "history.csv");
   std::size_t const row = history.find("\nshear,300,");
   std::ofstream(run / "history.csv") << history.substr(0, row)
-                                     << "\nshear,300,0,nan,inf,nan,nan,nan,nan,0,0,0,1,1,1,1,1,1,1,1,1,1,1,nan,nan,nan,nan"
+                                     << "\nshear,300,0,nan,inf,nan,nan,nan,nan,0,0,0,1,1,1,1,1,1,1,1,1,1,1,1,nan,nan,nan,nan"
                                      << history.substr(history.find('\n', row + 1));
   std::string const page = page_on({run});
   EXPECT_EQ(curves_of(page, "Deviator stress").size(), 2u) << "the curve has a gap";

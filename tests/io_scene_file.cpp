@@ -273,12 +273,11 @@ TEST(SceneFile, ThreeOfFourFixTheSpecimen) {
   expect_problem(box + "particles = 80000\n", "do not fit");
 }
 
-TEST(SceneFile, HydrateOutsideItsStabilityFieldIsRefusedUnlessAllowed) {
+TEST(SceneFile, HydrateOutsideItsStabilityFieldIsRefused) {
   std::string const warm = sized + "[hydrate]\nsaturation = 0.55\ntemperature = \"12 degC\"\n";
-  expect_problem(
-      warm, "my.toml:5:15: error: hydrate is not stable at 12 degC and a pore pressure of 8 MPa: it dissociates above 9.78 degC");
-  LoadedScene const allowed = load(warm + "allow_unstable = true\n");
-  ASSERT_EQ(allowed.warnings.size(), 1u);
+  expect_problem(warm, "my.toml:5:15: refused: hydrate is not stable at 12 degC and a pore pressure of 8 MPa in water of 35 ppt",
+                 ExitCode::refused);
+  EXPECT_EQ(load(warm, {"run.ignore_guards=true"}).warnings.size(), 1u);
   EXPECT_NO_THROW(load(sized + "[hydrate]\ntemperature = \"12 degC\"\n")) << "clean sand has no hydrate to be unstable";
   EXPECT_NO_THROW(load(warm + "[bond]\nlaw = \"none\"\n"));
 }

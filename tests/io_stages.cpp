@@ -77,11 +77,11 @@ TEST(StagesInAScene, AreWrittenBackAsTheyAre) {
 TEST(StagesInAScene, OfEachKindAreWrittenOutAndReadBack) {
   for (std::string_view const kind : find_key("test.kind")->choices) {
     if (kind == "list") continue;
-    Scene const scene = load(sized, {"test.kind=" + std::string(kind), "test.dead_load=1 MPa"}).scene;
+    Scene const scene = load(sized, {"test.kind=" + std::string(kind), "test.dead_load=1 MPa", "hydrate.saturation=41 %"}).scene;
     std::string const resolved = resolved_scene(scene, "folder"), mark = "# [[stage]]";
     EXPECT_NE(resolved.find(mark), std::string::npos) << kind;
     std::vector<LoadingStage> const stages = stages_of(scene);
-    Scene const list = load(sized + stages_toml(stages)).scene;
+    Scene const list = load(sized + "[hydrate]\nsaturation = 0.41\n" + stages_toml(stages)).scene;
     EXPECT_EQ(stages_toml(stages_of(list)), stages_toml(stages)) << kind;
   }
   for (Key const& key : stage_schema()) {

@@ -80,23 +80,6 @@ TEST_F(StudyCommand, LeavesATableWithARowForEachMemberAndStatisticsOfEachGroup) 
   EXPECT_EQ(csv(), before) << "what is finished is not run again, its times stay, too";
 }
 
-TEST_F(StudyCommand, DrawsTestsThatAreNoCompressionAndPointsOfALaboratory) {
-  std::ofstream(folder / "points.csv") << "figure,name,strain,saturation_pct,confining_stress_MPa,x,y\n"
-                                          "stress_path,my undrained test,,,2,1.5,0.5\nstress_path,my undrained test,,,2,1.6,0.7\n"
-                                          "q,of another stress,natural,,5,1,2\n";
-  CommandResult const result = study(two, "--set test.kind=constant_volume --data '" + (folder / "points.csv").string() + "'");
-  ASSERT_EQ(result.code, 0) << result.output;
-  std::string const page = read_text_file(out / "study.html", 1 << 24);
-  std::string const plot = page.substr(page.find("<title>Deviator stress against mean stress"));
-  std::string const drawn = plot.substr(0, plot.find("</figure>"));
-  std::size_t lines = 0;
-  for (std::size_t at = drawn.find("<polyline"); at != drawn.npos; at = drawn.find("<polyline", at + 1)) ++lines;
-  EXPECT_GE(lines, 5u) << "four members and the points";
-  EXPECT_EQ(drawn.find("</svg>1MPa</li>"), drawn.rfind("</svg>1MPa</li>")) << "one entry for both seeds";
-  EXPECT_NE(drawn.find("</svg>my undrained test</li>"), std::string::npos);
-  EXPECT_NE(page.find("no figure shows: of another stress (q, of another"), std::string::npos);
-}
-
 TEST_F(StudyCommand, NamesAMemberThatFailsAndGoesOnWithTheOthers) {
   CommandResult const result = study("seeds = 1\n[matrix]\nspecimen.void_ratio = [0.1, 0.28, 0.29]\n");
   EXPECT_EQ(result.code, 78) << result.output;

@@ -65,7 +65,7 @@ class Package(unittest.TestCase):
 
     def test_events_have_details_with_units(self):
         run = self.run_of_scene
-        self.assertEqual(len(run.events.columns), 13)
+        self.assertEqual(len(run.events.columns), 14)
         units = run.events.attrs["units"]
         self.assertEqual([units[name] for name in ("eps1", "orientation_deg", "width_m", "utilisation", "energy_J_per_m", "relative_rotation_rad")],
                          ["", "deg", "m", "", "J/m", "rad"])

@@ -24,7 +24,7 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
       history_.emplace(folder_ / "history.csv", before->history.bytes);
       if (events) events_.emplace(folder_ / "events.csv", before->events.bytes);
     } else {
-      history_.emplace(folder_ / "history.csv", output_.energy);
+      history_.emplace(folder_ / "history.csv", output_.energy, changes_hydrate(stages_of(scene)));
       if (events) events_.emplace(folder_ / "events.csv", output_.event_details);
     }
   });

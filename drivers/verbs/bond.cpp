@@ -52,6 +52,7 @@ BondCard evaluate(BondOptions const& options) {
   double const force = read("--normal-force", options.normal_force, Dimension::line_force);
   for (auto const& [option, length] : {std::pair{"--d50", d50}, {"--r1", r1}, {"--r2", r2}})
     if (!(length > 0)) throw SceneProblems({{option, 0, 0, "must be above 0"}});
+  if (std::string const problem = stability_problem(scene.hydrate); !problem.empty()) print_error("note: " + problem);
   if (std::string const problem = hydrate_problem(scene.hydrate); !problem.empty()) print_error("note: " + problem);
   if (std::string const warning = fit_warning(scene.hydrate); !warning.empty()) print_error("note: " + warning);
   if (std::string const warning = saturation_warning(scene.hydrate.saturation); !warning.empty()) print_error("note: " + warning);

@@ -14,7 +14,7 @@ from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetColorTransferFun
                              SaveScreenshot, Show, Threshold, XDMFReader)
 
 BROKEN = {2: ("tension", [0.0, 0.62, 0.45]), 3: ("compression", [0.9, 0.62, 0.0]), 4: ("shear", [0.0, 0.45, 0.7]),
-          5: ("rolling", [0.84, 0.37, 0.0])}
+          5: ("rolling", [0.84, 0.37, 0.0]), 6: ("dissolved", [0.34, 0.71, 0.91])}
 MAGNITUDE = -1
 PICTURE = [900, 1500]  # pixels
 # What the discs can be coloured by: array of the snapshots, component, unit.

@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 from matplotlib.collections import LineCollection
 
 STATES = {1: ("intact", "0.7", 0.3), 2: ("tension", "#009e73", 1), 3: ("compression", "#e69f00", 1), 4: ("shear", "#0072b2", 1),
-          5: ("rolling", "#d55e00", 1)}
+          5: ("rolling", "#d55e00", 1), 6: ("dissolved", "#56b4e9", 1)}
 
 
 def main():

@@ -5,8 +5,8 @@
 
 namespace clathra {
 
-/// How a bond broke. `none` = intact. The numbers stand in files.
-enum class BreakMode : std::int8_t { none = 0, tension = 1, compression = 2, shear = 3, rolling = 4 };
+/// How a bond broke, or that its hydrate dissolved between steps. `none` = intact. The numbers stand in files.
+enum class BreakMode : std::int8_t { none = 0, tension = 1, compression = 2, shear = 3, rolling = 4, dissolved = 5 };
 
 /// The names of a mode: its own, and that of its column in history.csv, of its state in exported pairs.
 struct BreakModeNames {
@@ -17,7 +17,8 @@ struct BreakModeNames {
 inline constexpr BreakModeNames break_modes[] = {{BreakMode::tension, "tension", "broken_tension"},
                                                  {BreakMode::compression, "compression", "broken_compression"},
                                                  {BreakMode::shear, "shear", "broken_shear"},
-                                                 {BreakMode::rolling, "rolling", "broken_rolling"}};
+                                                 {BreakMode::rolling, "rolling", "broken_rolling"},
+                                                 {BreakMode::dissolved, "dissolved", "broken_dissolved"}};
 inline constexpr int break_mode_count = 1 + static_cast<int>(std::size(break_modes));  ///< with `none`
 
 /// Of a mode's number; "none" for those that there are not.

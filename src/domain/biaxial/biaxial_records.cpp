@@ -7,7 +7,10 @@
 #include "domain/biaxial/biaxial_state.hpp"
 #include "domain/measurement/history_row.hpp"
 #include "domain/measurement/snapshot.hpp"
+#include "domain/scene/hydrate.hpp"
+#include "domain/scene/phase_boundary.hpp"
 #include "domain/simulation/break_event.hpp"
+#include "kernels/bond_law.hpp"
 
 namespace clathra {
 
@@ -50,6 +53,11 @@ HistoryRow BiaxialTest::State::row(Measures const& m, double strain_rate) const 
   row.platen_wave_stress =
       platen_wave_stress(scene, strain_rate, a.walls().height(), row.void_ratio, scene.grains.density * (1 + a.facts.added_mass));
   row.unbalanced = m.unbalanced_ratio(a.discs());
+  row.temperature = hydrate.temperature;
+  row.pore_pressure = hydrate.pore_pressure;
+  row.saturation_pct = 100 * hydrate.saturation;
+  row.boundary_K = equilibrium_temperature(hydrate.pore_pressure, scene.hydrate.salinity) - hydrate.temperature;
+  row.boundary_Pa = hydrate.pore_pressure - equilibrium_pressure(hydrate.temperature, scene.hydrate.salinity);
   LargestDeviator const& largest = a.now.walls.largest;
   bool const between = largest.q > row.q_Pa;
   row.largest_q_Pa = between ? largest.q : row.q_Pa;
@@ -91,11 +99,12 @@ EnergyRow BiaxialTest::energy() {
   row.dashpot = lost.dashpot;
   row.damping = lost.damping;
   row.breakage = lost.breakage;
+  row.dissolved = state_->dissolved;
   EnergyRow const& start = state_->start;
   double const stored = row.kinetic + row.grain_elastic + row.bond_elastic + row.wall_elastic;
   double const stored_at_start = start.kinetic + start.grain_elastic + start.bond_elastic + start.wall_elastic;
-  row.residual =
-      row.boundary_work - (stored - stored_at_start) - (row.sliding + row.rolling + row.dashpot + row.damping + row.breakage);
+  row.residual = row.boundary_work - (stored - stored_at_start) -
+                 (row.sliding + row.rolling + row.dashpot + row.damping + row.breakage + row.dissolved);
   return row;
 }
 
@@ -136,6 +145,8 @@ void BiaxialTest::State::for_each_number(Visit&& visit) {
   visit("platen_wave_stress", rate.platen_wave_stress);
   for_each_energy_column(start, [&](std::string const& name, double& value) { visit("start_" + name, value); });
   visit("work_of_turns", work_of_turns);
+  hydrate.for_each_number("hydrate", visit);
+  visit("dissolved", dissolved);
   place.for_each_number(visit);
   last_row.for_each_number("last_row", visit);
   watch.for_each_number(visit);
@@ -167,6 +178,8 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   t.events_taken = static_cast<int>(state.events_taken);
   SimulationLaws laws = test_laws(scene, t.d50, state.simulation.numbers.at("critical_thickness"));
   laws.motion.damping = scene.damping.local;
+  if (changes_hydrate(t.stages) && laws.contact.bond_kind != BondKind::none)
+    laws.contact.bond = changed_bond_law(scene, laws.contact.bond, t.hydrate_scene(t.hydrate));
   t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
   t.done = state.done;
   t.stage = t.now().name;

@@ -43,6 +43,8 @@ struct BiaxialTest::State {
   int events_taken = 0;                              // of those that this rank has seen
   bool at_rest = false, began_quasi_static = false;  // when the loading began
   EnergyRow start;
+  HydrateState hydrate;      // of now
+  double dissolved = 0;      // elastic energy that bonds took along as they changed or left [J/m]
   double work_of_turns = 0;  // what it took to set the discs in motion anew where stages begin and rates turn round [J/m]
   ShearWatch watch;          // of the stage
   DilationWatch dilation;
@@ -75,6 +77,17 @@ struct BiaxialTest::State {
   LoadingStage const& now() const { return stages[static_cast<std::size_t>(place.index)]; }
   bool is_last() const { return place.index + 1 == static_cast<std::int64_t>(stages.size()); }
 
+  // Hydrate that changes (hydrate_course.cpp):
+  HydrateScene hydrate_scene(HydrateState const& state) const;
+  BondLaw bond_law_of(HydrateState const& state) const;
+  HydrateState hydrate_at(double part) const;
+  void put_hydrate_on();
+  void change_hydrate(HydrateState const& next);
+  std::string hydrate_words(HydrateState const& state) const;
+  double stress_lost() const;
+  bool has_lost_stress() const;
+  bool is_last_increment() const { return now().hydrate.any() ? place.hydrate_part >= 1 : place.increment >= now().increments; }
+
   // How it goes on (stage_course.cpp):
   bool advance(std::int64_t most_steps, double pause_at);
   std::int64_t steps_to_look() const;
@@ -85,9 +98,11 @@ struct BiaxialTest::State {
   void look_at_rate();
   bool turn_is_due() const;
   bool holds_lateral_stress() const;
+  bool bears_dead_load() const { return now().vertical.has_stress() && (now().increments == 1 || now().hydrate.any()); }
   std::optional<std::string> end_reached() const;
   void end_stage(std::string const& ended_by);
   StageResult result(std::string const& ended_by) const;
+  void add_failure(StageResult& result) const;
   double fraction() const;
   /// Whether walls that are steered move as they like: then somebody has to look every now and then.
   bool looks() const;

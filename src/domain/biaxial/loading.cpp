@@ -40,6 +40,7 @@ void BiaxialTest::State::begin_loading() {
   preparation["added_mass_share"] = s.assembly().facts.added_mass;
   count_from_here(stages.front().name.c_str());
   preparation["quasi_static"] = at_rest ? 1 : 0;
+  hydrate = {scene.hydrate.temperature, scene.hydrate.pore_pressure, scene.hydrate.saturation};
   begin_stage(0);
   if (scene.run.scales_masses_further()) warnings.push_back(text_of_scaling());
   if (scene.output.energy) s.set_ledger(true);
@@ -73,6 +74,7 @@ void BiaxialTest::State::begin_stage(std::int64_t index) {
     next.start = {0, 0, 0, 0, a.stress().y, a.stress().x};
   }
   next.turned_at = next.start.eps1;
+  next.hydrate_at_start = hydrate;
   next.looked = next.start;
   place = next;
   place.sense = now().vertical.has_rate() ? now().vertical.sense() : 0;
@@ -194,8 +196,11 @@ void BiaxialTest::State::reverse() {
 /// The next of the equal factors, one or more, by which a stress goes from that of the beginning to its target.
 void BiaxialTest::State::put_increment_on() {
   place.checks_at_rest = 0;
+  place.increment_is_due = false;
   place.increment_began = simulation->assembly().steps();
-  double const part = static_cast<double>(++place.increment) / now().increments;
+  if (now().hydrate.any() && place.increment > 0) return put_hydrate_on();  // under all of the stress
+  ++place.increment;
+  double const part = now().hydrate.any() ? 1 : static_cast<double>(place.increment) / now().increments;
   auto const put_on = [part](AxisDrive& drive, double from, SideScene const& side) {
     if (!side.has_stress()) return;
     drive.target_stress = part >= 1 ? side.stress : std::max(from, 1.0) * std::pow(side.stress / std::max(from, 1.0), part);

@@ -20,6 +20,12 @@ constexpr double rounding = 1e-9;             // of a strain, which is the sum o
 /// Of a dead load: what is called failure where it lasts longer than so many transits of a compression wave.
 constexpr double failed_strain = 0.2, failed_inertia = 1e-3, failed_stress = 0.05, failed_rise = 0.01, transits = 10;
 
+void add_hydrate(StageRecord& numbers, std::string const& when, HydrateState const& state) {
+  numbers[when + "_temperature_degC"] = state.temperature;
+  numbers[when + "_pore_pressure_Pa"] = state.pore_pressure;
+  numbers[when + "_saturation"] = state.saturation;
+}
+
 /// Whether a value that began on one side of a mark has come to it.
 bool has_come_to(double mark, double start, double value, double slack) {
   return is_given(mark) && (start < mark ? value >= mark - slack : value <= mark + slack);
@@ -89,6 +95,7 @@ bool BiaxialTest::State::advance(std::int64_t most_steps, double pause_at) {
   }
   Simulation& s = *simulation;
   for (std::int64_t const last = s.assembly().steps() + most_steps; s.assembly().steps() < last;) {
+    if (place.increment_is_due) put_increment_on();
     s.step(std::min(last - s.assembly().steps(), steps_to_look()), limits(pause_at));
     bool const is_look = steps_to_look() == steps_between_looks, stopped = s.assembly().now.stop == StepStop::at_limit;
     if (looks() && !is_look && !stopped) continue;
@@ -137,12 +144,11 @@ bool BiaxialTest::State::look() {
   place.turn(eps1());
   if (!now().has_stress_only()) return false;
   look_at_rate();
-  std::int64_t const before = place.increment;
   look_at_rest();
-  return place.increment != before;
+  return place.increment_is_due;
 }
 
-/// Whether the specimen rests under the stresses that are on; then the next ones are put on. @throws Refused where it does not
+/// Whether the specimen rests under the stresses that are on; then the next increment is due. @throws Refused where it does not
 /// within test.consolidation_steps
 void BiaxialTest::State::look_at_rest() {
   Loading const& loading = simulation->assembly().now.walls.loading;
@@ -151,12 +157,12 @@ void BiaxialTest::State::look_at_rest() {
   };
   std::string const why = unrest(*simulation, measures(), {wanted(loading.x), wanted(loading.y)}, rest_of_increment);
   place.checks_at_rest = why.empty() ? place.checks_at_rest + 1 : 0;
-  bool const last = place.increment >= now().increments;
+  bool const last = is_last_increment();
   bool rests = place.checks_at_rest >= checks_to_rest;
   if (!rests && !place.failed && now().until.rest &&
       simulation->assembly().steps() - place.increment_began >= scene.test.consolidation_steps) {
     std::string const text = "stage '" + now().name + "' did not come to rest within " +
-                             std::to_string(scene.test.consolidation_steps) + " steps: " + why;
+                             std::to_string(scene.test.consolidation_steps) + " steps" + hydrate_words(hydrate) + ": " + why;
     if (!now().allow_unsettled && !scene.run.ignore_guards)
       throw Refused(text + "; test.consolidation_steps gives it more, allow_unsettled = true goes on" + ignore_hint);
     warnings.push_back(text);
@@ -167,7 +173,7 @@ void BiaxialTest::State::look_at_rest() {
   }
   if (rests && last && !now().until.rest && now().until.strain_rate == 0)
     throw Refused("stage '" + now().name + "' has come to rest under its stresses without coming to its end");
-  if (rests && !last) put_increment_on();
+  place.increment_is_due = rests && !last;
 }
 
 /// How fast the box strains, on the average since the last look.
@@ -180,7 +186,7 @@ void BiaxialTest::State::look_at_rate() {
 
 /// A dead load that the specimen does not bear: the first time is kept, and the stage goes on.
 void BiaxialTest::State::look_for_failure() {
-  if (place.failed || !now().vertical.has_stress() || now().increments > 1) return;
+  if (place.failed || !bears_dead_load()) return;
   Assembly const& a = simulation->assembly();
   TestValues const v = values();
   AxisDrive const& load = a.now.walls.loading.y;
@@ -200,6 +206,7 @@ void BiaxialTest::State::look_for_failure() {
   place.failed_eps1 = v.eps1;
   place.failed_q = v.q();
   place.failed_p = v.p();
+  place.hydrate_failed = hydrate;
 }
 
 /// What the stage ends by, if it does. @throws Refused where it has gone a long way without coming to anything that is stated
@@ -215,7 +222,9 @@ std::optional<std::string> BiaxialTest::State::end_reached() const {
   if (has_come_to(end.stress_ratio, first.q() / first.p(), v.q() / v.p(), 0)) return "stress ratio";
   if (end.cycles > 0 && place.turns >= 2 * end.cycles) return "cycles";
   if (end.path > 0 && within >= end.path * (1 - rounding)) return "path";
-  bool const last = place.increment >= now().increments;
+  bool const last = is_last_increment();
+  if (has_lost_stress()) return "no effective stress";
+  if (now().hydrate.any() && place.failed && v.eps1 - first.eps1 >= failed_strain) return "failed";
   if (end.strain_rate > 0 && last && place.checks_slow >= checks_to_rest) return "strain rate";
   if ((end.rest || end.strain_rate > 0) && last && place.checks_at_rest >= checks_to_rest)
     return place.unsettled ? "steps, not at rest" : "rest";
@@ -229,6 +238,18 @@ std::optional<std::string> BiaxialTest::State::end_reached() const {
 void BiaxialTest::State::end_stage(std::string const& ended_by) {
   done.push_back(result(ended_by));
   place.over = true;
+}
+
+/// Where a dead load was not borne, and that it was not.
+void BiaxialTest::State::add_failure(StageResult& result) const {
+  StageRecord& numbers = result.numbers;
+  numbers["failed_eps1"] = place.failed_eps1;
+  numbers["failed_q_Pa"] = place.failed_q;
+  numbers["failed_p_Pa"] = place.failed_p;
+  if (now().hydrate.any()) add_hydrate(numbers, "failed", place.hydrate_failed);
+  result.warnings.push_back("the specimen failed under its dead load at an axial strain of " +
+                            short_number(100 * place.failed_eps1) + " %" + hydrate_words(place.hydrate_failed) +
+                            "; the platens have a largest speed, so that its collapse is paced");
 }
 
 StageResult BiaxialTest::State::result(std::string const& ended_by) const {
@@ -251,16 +272,10 @@ StageResult BiaxialTest::State::result(std::string const& ended_by) const {
     for (char const* const of_stress : {"sigma3_held", "sigma3_held_to_peak", "sigma3_error", "sigma3_error_to_peak"})
       numbers.erase(of_stress);
   if (place.unsettled) numbers["unsettled"] = 1;
+  if (now().hydrate.any()) add_hydrate(numbers, "end", hydrate);
   if (now().turn.any()) numbers["turns"] = static_cast<double>(place.turns);
-  if (now().vertical.has_stress() && now().increments == 1) numbers["failed"] = place.failed ? 1 : 0;
-  if (place.failed) {
-    numbers["failed_eps1"] = place.failed_eps1;
-    numbers["failed_q_Pa"] = place.failed_q;
-    numbers["failed_p_Pa"] = place.failed_p;
-    result.warnings.push_back("the specimen failed under its dead load at an axial strain of " +
-                              short_number(100 * place.failed_eps1) +
-                              " %; the platens have a largest speed, so that its collapse is paced");
-  }
+  if (bears_dead_load()) numbers["failed"] = place.failed ? 1 : 0;
+  if (place.failed) add_failure(result);
   if (std::string const soft = stiffness_warning_at(scene, watch.largest_sigma1()); !soft.empty())
     result.warnings.push_back(soft);
   if (std::string const problem = collapse(simulation->assembly().void_ratio(), 0); scene.run.ignore_guards && !problem.empty())

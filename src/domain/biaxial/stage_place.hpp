@@ -6,6 +6,19 @@
 
 namespace clathra {
 
+/// Temperature [deg C], pore pressure [Pa] and saturation, as stages change them.
+struct HydrateState {
+  double temperature = 0, pore_pressure = 0, saturation = 0;
+  bool operator==(HydrateState const&) const = default;
+
+  template <class Visit>
+  void for_each_number(std::string const& of, Visit&& visit) {
+    visit(of + "_temperature", temperature);
+    visit(of + "_pore_pressure", pore_pressure);
+    visit(of + "_saturation", saturation);
+  }
+};
+
 /// What rows, ends and figures speak of; strains count from the consolidation, stresses are those of the walls [Pa].
 struct TestValues {
   double time = 0;  ///< since the consolidation [s]
@@ -39,7 +52,10 @@ struct StagePlace {
   double sense = 0;        ///< 1 where a rate closes, -1 where it opens, 0 without a rate
   std::int64_t turns = 0;
   std::int64_t increment = 0, increment_began = 0;  ///< of stresses: which is on, and the step after which it was put on
+  bool increment_is_due = false;                    ///< the next one, after the row of the last
   std::int64_t checks_at_rest = 0;                  ///< on end
+  HydrateState hydrate_at_start, hydrate_failed;    ///< of the stage; where its specimen failed
+  double hydrate_part = 0;                          ///< of its way that the hydrate has gone
   TestValues looked;                                ///< at the last look
   std::int64_t checks_slow = 0;                     ///< on end, of the strain rate
   double failing_since = -1;                        ///< time, negative where it does not fail [s]
@@ -69,7 +85,11 @@ struct StagePlace {
     visit("stage_turns", turns);
     visit("stage_increment", increment);
     visit("stage_increment_began", increment_began);
+    visit("stage_increment_is_due", increment_is_due);
     visit("stage_checks_at_rest", checks_at_rest);
+    hydrate_at_start.for_each_number("stage_hydrate_at_start", visit);
+    hydrate_failed.for_each_number("stage_hydrate_failed", visit);
+    visit("stage_hydrate_part", hydrate_part);
     looked.for_each_number("stage_looked", visit);
     visit("stage_checks_slow", checks_slow);
     visit("stage_failing_since", failing_since);

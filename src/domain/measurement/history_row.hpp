@@ -29,7 +29,19 @@ struct HistoryRow {
   double largest_q_Pa = 0, largest_q_eps1 = 0;         ///< of all steps since the record before, and the axial strain there
   /// Largest angle of dilation over a stretch of 1 % strain that ended since the record before; nan before the first one.
   double dilation_deg = std::numeric_limits<double>::quiet_NaN();
+  // Only where stages change the hydrate:
+  double temperature = 0, pore_pressure = 0, saturation_pct = 0;  ///< [deg C], [Pa], [%]
+  double boundary_K = 0, boundary_Pa = 0;  ///< how much warmer, and under how much less pressure, hydrate would be stable still
 };
+
+template <class Row, class Visit>
+void for_each_hydrate_column(Row& row, Visit&& visit) {
+  visit("temperature_degC", row.temperature);
+  visit("pore_pressure_Pa", row.pore_pressure);
+  visit("saturation_pct", row.saturation_pct);
+  visit("boundary_K", row.boundary_K);
+  visit("boundary_Pa", row.boundary_Pa);
+}
 
 /// Visits (column name, value) in file order; values are double, int64 or, of the stage, a string.
 template <class Row, class Visit>
@@ -66,7 +78,7 @@ void for_each_column(Row& row, Visit&& visit) {
 struct EnergyRow {
   double boundary_work = 0;
   double kinetic = 0, grain_elastic = 0, bond_elastic = 0, wall_elastic = 0;
-  double sliding = 0, rolling = 0, dashpot = 0, damping = 0, breakage = 0;
+  double sliding = 0, rolling = 0, dashpot = 0, damping = 0, breakage = 0, dissolved = 0;
   double residual = 0;
 };
 
@@ -82,6 +94,7 @@ void for_each_energy_column(Row& row, Visit&& visit) {
   visit("dashpot_J_per_m", row.dashpot);
   visit("damping_J_per_m", row.damping);
   visit("breakage_J_per_m", row.breakage);
+  visit("dissolved_J_per_m", row.dissolved);
   visit("residual_J_per_m", row.residual);
 }
 

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "domain/scene/phase_boundary.hpp"
+#include "domain/scene/short_number.hpp"
 #include "domain/scene/units.hpp"
 #include "kernels/bond_law.hpp"
 
 namespace clathra {
 namespace {
 
-constexpr double zero_celsius = 273.15;                 // [K]
 constexpr double printed_tensile_stress = 1.421e7;      // 3 q_max,t of Eq. 14a [Pa]
 constexpr double printed_compressive_stress = 2.571e7;  // 3 q_max,c of Eq. 14b [Pa]
 
@@ -65,20 +66,17 @@ std::string saturation_warning(double saturation) {
   return {};
 }
 
-double stability_temperature(double pore_pressure) {
-  if (!(pore_pressure > 0)) return -zero_celsius;
-  double const inverse = 3.79e-3 - 2.83e-4 * std::log10(pore_pressure * 1e-6);
-  return inverse > 0 ? 1 / inverse - zero_celsius : HUGE_VAL;
+std::string stability_problem(HydrateScene const& hydrate) {
+  double const limit = equilibrium_temperature(hydrate.pore_pressure, hydrate.salinity);
+  if (hydrate.temperature <= limit) return {};
+  double const shown = std::floor(limit * 100) / 100, least = equilibrium_pressure(hydrate.temperature, hydrate.salinity);
+  return "hydrate is not stable at " + format_number(hydrate.temperature) + " degC and a pore pressure of " +
+         format_quantity(hydrate.pore_pressure, Dimension::pressure) + " in water of " + format_number(hydrate.salinity) +
+         " ppt of salt: it dissociates above " + format_number(shown) + " degC, or below " +
+         short_number(std::ceil(least * 1e-4) * 1e-2) + " MPa";
 }
 
 std::string hydrate_problem(HydrateScene const& hydrate) {
-  double const limit = stability_temperature(hydrate.pore_pressure);
-  if (!hydrate.allow_unstable && !(hydrate.temperature <= limit)) {
-    double const shown = std::floor(limit * 100) / 100;
-    return "hydrate is not stable at " + format_number(hydrate.temperature) + " degC and a pore pressure of " +
-           format_quantity(hydrate.pore_pressure, Dimension::pressure) + ": it dissociates above " + format_number(shown) +
-           " degC (hydrate.allow_unstable = true runs it anyway)";
-  }
   HydrateStrength const strength = hydrate_strength(hydrate.temperature, hydrate.pore_pressure, hydrate.density);
   if (!(strength.tension > 0) || !(strength.compression > 0))
     return "hydrate has no strength left at " + state_text(hydrate) + " (Eq. 13)";
@@ -133,6 +131,24 @@ BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness)
   double const flattest = std::min(rod_thickness(law.strength, thickest), 1.15e-3);
   law.least_shape_of_shear = shape_of_shear(flattest) * (1 - 1e-12);
   law.least_shape_of_rolling = shape_of_rolling(flattest) * (1 - 1e-12);
+  return law;
+}
+
+double remaining_thickness(double formed, double saturation, double spread) {
+  constexpr double none = 0.2;
+  double const edge = none + spread;
+  if (saturation >= edge) return critical_thickness_ratio(saturation) / critical_thickness_ratio(formed);
+  return critical_thickness_ratio(edge) / critical_thickness_ratio(formed) * std::max(0.0, saturation - none) / spread;
+}
+
+BondLaw changed_bond_law(Scene const& scene, BondLaw const& formed, HydrateScene const& now) {
+  BondLaw law = formed;
+  law.critical_thickness =
+      formed.critical_thickness * remaining_thickness(scene.hydrate.saturation, now.saturation, scene.hydrate.spread_of_loss);
+  if (scene.bond.strength_from == StrengthFrom::printed) return law;
+  HydrateStrength const solid = hydrate_strength(now.temperature, now.pore_pressure, now.density);
+  law.strength.tensile_stress = 3 * solid.tension;
+  law.strength.compressive_stress = 3 * solid.compression;
   return law;
 }
 

@@ -31,17 +31,16 @@ double critical_thickness_ratio(double saturation);
 /// What Eq. 3 does with a saturation outside its range (above 20 % up to 70 %), in words; empty within it and without hydrate.
 std::string saturation_warning(double saturation);
 
-/// Temperature [deg C] up to which hydrate is stable at a pore pressure [Pa] in sea water: 1/T = 3.79e-3 - 2.83e-4 log10(P/MPa)
-/// (Dickens and Quinby-Hunt 1994). Recalled, not re-read: used as a gate only.
-double stability_temperature(double pore_pressure);
+/// Why hydrate of this state dissociates (phase_boundary.hpp), with the boundary at its pressure and at its temperature; or an
+/// empty string.
+std::string stability_problem(HydrateScene const& hydrate);
 
-/// Why this state cannot carry bonds (outside the stability field and not hydrate.allow_unstable, strength or modulus not
-/// positive), or an empty string.
+/// Why this state cannot carry bonds (strength or modulus not positive), or an empty string.
 std::string hydrate_problem(HydrateScene const& hydrate);
 
 /// What of this state Eqs. 13 and 18 were not fitted to, in words; empty where nothing is. The data that are known to us begin at
 /// -30 degC and have 1.5 to 8 MPa and 720 to 840 kg/m^3; Jiang et al. (2017) take 900 kg/m^3, which counts as inside. Where
-/// they end on the warm side is not known; there hydrate_problem() sees to it that hydrate is stable.
+/// they end on the warm side is not known; there stability_problem() sees to it that hydrate is stable.
 std::string fit_warning(HydrateScene const& hydrate);
 
 /// True where a scene can have bonds at all: there is hydrate, and a law for it. Nothing of bonds is allocated or launched
@@ -51,6 +50,15 @@ bool has_bonds(Scene const& scene);
 /// The bond law of a scene whose hydrate has the critical thickness h_max [m] between grains of the median diameter d50 [m]. 3
 /// q_t and 3 q_c come from Eq. 13 (`conditions`) or are 1.421e7 and 2.571e7 Pa (`printed`); E_m is that of Eq. 18 with both.
 BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness);
+
+/// h_max over that of formation when the saturation has fallen to a value: Eq. 3, whose jump at 20 % is spread linearly.
+/// @param formed  saturation of formation, above 20 % + spread
+double remaining_thickness(double formed, double saturation, double spread);
+
+/// The law of bonds that have formed, when their hydrate has become another one: its temperature and pressure change the
+/// strength (Eq. 13, where bond.strength_from is "conditions"), its saturation the width B. E_m and h_max in h_0 stay those of
+/// formation.
+BondLaw changed_bond_law(Scene const& scene, BondLaw const& formed, HydrateScene const& now);
 
 /// Every number of one bond, for `clathra bond` and for checks by hand. SI.
 struct BondCard {

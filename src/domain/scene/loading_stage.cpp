@@ -1,5 +1,6 @@
 #include "domain/scene/loading_stage.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "domain/scene/scene.hpp"
@@ -85,6 +86,37 @@ LoadingStage loaded_dead(TestScene const& test) {
   return stage;
 }
 
+/// A dead load, and under it hydrate that changes. @param lost  of the effective stresses since the dead load [Pa]
+LoadingStage changed(TestScene const& test, char const* name, double lost) {
+  LoadingStage stage(name, SideScene::at_stress(test.confining_stress + test.dead_load - lost),
+                     SideScene::at_stress(test.confining_stress - lost));
+  stage.increments = test.increments;
+  stage.until.rest = true;
+  stage.until.axial_strain = test.axial_strain;
+  return stage;
+}
+
+std::vector<LoadingStage> heated(TestScene const& test) {
+  LoadingStage stage = changed(test, "heating", 0);
+  stage.hydrate.temperature = test.final_temperature;
+  stage.hydrate.saturation = test.final_saturation;
+  if (test.dead_load > 0) return {loaded_dead(test), stage};
+  return {stage};
+}
+
+/// At constant total stress; hydrate is lost as the pressure falls, and the pressure comes back.
+std::vector<LoadingStage> depressurised(Scene const& scene) {
+  TestScene const& test = scene.test;
+  LoadingStage down = changed(test, "depressurisation", 0),
+               up = changed(test, "repressurisation", test.final_pore_pressure - scene.hydrate.pore_pressure);
+  down.hydrate.pore_pressure = test.final_pore_pressure;
+  down.hydrate.saturation = test.final_saturation;
+  up.hydrate.pore_pressure = scene.hydrate.pore_pressure;
+  down.hydrate.constant_total_stress = up.hydrate.constant_total_stress = true;
+  if (test.dead_load > 0) return {loaded_dead(test), down, up};
+  return {down, up};
+}
+
 }  // namespace
 
 std::vector<LoadingStage> stages_of(Scene const& scene) {
@@ -107,10 +139,18 @@ std::vector<LoadingStage> stages_of(Scene const& scene) {
       return {cycled(test)};
     case TestKind::creep:
       return {loaded_dead(test)};
+    case TestKind::heating:
+      return heated(test);
+    case TestKind::depressurisation:
+      return depressurised(scene);
     case TestKind::list:
       return scene.stages;
   }
   return {};
+}
+
+bool changes_hydrate(std::vector<LoadingStage> const& stages) {
+  return std::any_of(stages.begin(), stages.end(), [](LoadingStage const& stage) { return stage.hydrate.any(); });
 }
 
 namespace {

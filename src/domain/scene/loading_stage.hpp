@@ -33,6 +33,8 @@ enum class TestKind {
   unload_reload,
   cyclic,
   creep,
+  heating,
+  depressurisation,
   list
 };
 
@@ -82,6 +84,19 @@ struct StageTurn {
   bool any() const { return !deviator_stress.empty() || !axial_strain.empty(); }
 };
 
+/// What temperature, pore pressure and saturation come to by the end of a stage, in straight lines from where they are: the more
+/// the specimen bears of each increment, the larger is the next. What is not given stays.
+struct HydrateChange {
+  double temperature = not_given;      ///< [deg C]
+  double pore_pressure = not_given;    ///< [Pa]
+  double saturation = not_given;       ///< 0..1, not above that of formation
+  bool constant_total_stress = false;  ///< effective stresses of the sides fall as the pore pressure rises
+  bool undrained = false;  ///< likewise; the pressure stays until the boundary of stability, and follows that from there
+
+  bool any() const { return is_given(temperature) || is_given(pore_pressure) || is_given(saturation); }
+  bool holds_total_stress() const { return constant_total_stress || undrained; }
+};
+
 /// A stage ends where the first of these is reached, from whichever side. Strains count from the consolidation.
 struct StageEnd {
   double axial_strain = not_given, volumetric_strain = not_given;
@@ -106,8 +121,9 @@ struct LoadingStage {
 
   std::string name;
   SideScene vertical, lateral;
-  int increments = 1;            ///< in which stresses are put on, with rest after each but the last
+  int increments = 1;            ///< in which stresses are put on, with rest after each but the last; of hydrate, at least
   bool allow_unsettled = false;  ///< go on where the specimen does not come to rest
+  HydrateChange hydrate;
   StageTurn turn;
   StageEnd until;
 
@@ -118,6 +134,9 @@ struct LoadingStage {
   }
   bool has_stress_only() const { return !vertical.has_rate() && !lateral.has_rate(); }
 };
+
+/// Whether any of them changes the hydrate.
+bool changes_hydrate(std::vector<LoadingStage> const& stages);
 
 inline constexpr double longest_path = 0.5;  ///< of a stage that states none
 

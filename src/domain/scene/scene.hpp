@@ -58,11 +58,12 @@ struct GradingScene {
 
 /// `[hydrate]`
 struct HydrateScene {
-  double saturation = 0;        ///< S_MH as a fraction 0..1; 0 = clean sand
-  double temperature = 5;       ///< [deg C]
-  double pore_pressure = 8e6;   ///< sigma_w [Pa]
-  double density = 900;         ///< [kg/m^3]
-  bool allow_unstable = false;  ///< go on outside the stability field of hydrate
+  double saturation = 0;         ///< S_MH as a fraction 0..1; 0 = clean sand
+  double temperature = 5;        ///< [deg C]
+  double pore_pressure = 8e6;    ///< sigma_w [Pa]
+  double density = 900;          ///< [kg/m^3]
+  double salinity = 35;          ///< of the pore water [ppt]
+  double spread_of_loss = 0.02;  ///< saturation above 20 % over which h_max falls to 0, where Eq. 3 jumps
 };
 
 /// `[bond]`
@@ -97,12 +98,15 @@ struct TestScene {
   int consolidation_steps = 200000;  ///< at most; likewise of each increment of a stress
   // Of kinds that ask for them:
   double largest_stress = 0;                   ///< of isotropic and oedometer tests [Pa]; 0 = four times the confining stress
-  int increments = 20;                         ///< of these, on the way up and on the way down
+  int increments = 20;                         ///< of these, on the way up and on the way down, and of hydrate
   std::vector<double> unload_at;               ///< axial strains, ascending; empty = half of axial_strain
   std::vector<double> cyclic_deviator_stress;  ///< two, ascending [Pa]; empty = between axial strains of 0 and axial_strain
   int cycles = 10;
-  double fluid_modulus = 0;  ///< K_w of constant_volume [Pa]; 0 = infinite
-  double dead_load = 0;      ///< deviator stress of a creep test [Pa]
+  double fluid_modulus = 0;          ///< K_w of constant_volume [Pa]; 0 = infinite
+  double dead_load = 0;              ///< deviator stress of a creep test, and while hydrate changes [Pa]
+  double final_temperature = 15;     ///< of heating [deg C]
+  double final_pore_pressure = 3e6;  ///< of depressurisation [Pa]
+  double final_saturation = 0.2;     ///< of both
 };
 
 /// `[damping]`: parts of the model. What the numbers after a semicolon say was measured (docs/explanation/accuracy.md).

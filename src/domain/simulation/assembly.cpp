@@ -25,6 +25,10 @@ Measures Assembly::measures() const {
   return in_range([&] { return measure(particles, rows, laws.contact, wall_contacts(), walls(), laws.wall, sums); });
 }
 
+LeavingBonds Assembly::leaving_bonds(BondLaw const& next) const {
+  return in_range([&] { return clathra::leaving_bonds(particles, rows, laws.contact, next, sums); });
+}
+
 DissipationTotals Assembly::losses() const {
   if (!laws.contact.ledger) return {};
   return in_range([&] { return total_losses(dissipation, particles.owned, sums); });

@@ -7,6 +7,7 @@
 #include "domain/simulation/ghosts.hpp"
 #include "domain/simulation/neighbour_list_upkeep.hpp"
 #include "domain/simulation/rigid_walls.hpp"
+#include "kernels/hydrate_change.hpp"
 #include "kernels/measures.hpp"
 #include "kernels/spectrum.hpp"
 
@@ -69,7 +70,9 @@ struct Assembly {
   WallContacts wall_contacts() const;  ///< of this rank; none without rigid walls
   WallReactions const& reactions() const { return now.walls.reactions; }
   WallStress stress() const { return wall_stress(walls(), reactions()); }
-  Real area() const { return now.box().area(); }                     ///< of the box [m^2]
+  Real area() const { return now.box().area(); }  ///< of the box [m^2]
+  /// What the bonds carry that a next law of their hydrate would let leave.
+  LeavingBonds leaving_bonds(BondLaw const& next) const;
   Real void_ratio() const { return area() / facts.solid_area - 1; }  ///< nominal
   Real boundary_work() const { return now.walls.work; }              ///< [J/m]
   /// The homogeneous motion since the last neighbour search.

@@ -7,6 +7,7 @@
 #include "domain/simulation/neighbour_search.hpp"
 #include "domain/simulation/specimen_transfer.hpp"
 #include "kernels/history_forces.hpp"
+#include "kernels/hydrate_change.hpp"
 
 namespace clathra {
 
@@ -82,6 +83,20 @@ void Simulation::set_laws(SimulationLaws const& laws) {
     keep_moments(a.particles, a.rows, before, now);
   if (ledger) allocate_dissipation(a.dissipation, a.laws.losses(), a.particles.x.extent(0));
   time_steps_.after_laws(a.laws);
+}
+
+void Simulation::change_hydrate(BondLaw const& next) {
+  Assembly& a = assembly_;
+  if (!a.rows.features.bonds) throw std::invalid_argument("there are no bonds whose hydrate could change");
+  graph_.drop();
+  upload_state(/*host_synchronous=*/true);  // the log of breaks reads the box
+  a.rows = with_forces(a.particles, a.rows, a.laws.contact);
+  change_bonds(a.particles, a.rows, a.laws.contact, next, a.broken.log_of(steps_.state), a.now.step);
+  a.laws.contact.bond = next;
+  prepare_rows(a.particles, a.rows, next);
+  re_reference_rows(a.particles, a.rows, a.laws.contact);
+  time_steps_.ask();
+  evaluate_forces();
 }
 
 void Simulation::set_skin(Real skin) {

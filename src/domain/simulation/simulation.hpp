@@ -48,6 +48,9 @@ class Simulation {
   Loading& loading() { return assembly_.now.walls.loading; }
   /// History that both laws need is kept.
   void set_laws(SimulationLaws const& laws);
+  /// Bonds as their hydrate becomes between steps: narrower, of another strength, or gone (kernels/hydrate_change.hpp). Forces
+  /// are those of the new state afterwards.
+  void change_hydrate(BondLaw const& next);
   void set_skin(Real skin);
   void set_ledger(bool on);              ///< opens the ledger with all losses at zero, or closes it
   void keep_breaks(BreakRecord record);  ///< from now on

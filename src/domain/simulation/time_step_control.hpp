@@ -26,6 +26,7 @@ class TimeStepControl {
   /// Pairs that were not listed may touch from now on.
   void after_search() { due_ = follows_; }
   void after_laws(SimulationLaws const& laws);
+  void ask() { due_ = follows_; }  ///< after springs have changed
   /// @param steps  that were made of this length
   void after_steps(std::int64_t steps, Real time_step);
   /// The same of one step. @param outdated  whether discs were displaced too far for the bound

@@ -50,6 +50,8 @@ Stroke mode_stroke(BreakMode mode) {
       return {colours::blue, "9 3 2 3"};
     case BreakMode::rolling:
       return {colours::vermilion, ""};
+    case BreakMode::dissolved:
+      return {colours::sky, "14 4"};
     case BreakMode::none:
       break;
   }

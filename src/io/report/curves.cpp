@@ -126,6 +126,7 @@ bool has_modes(HistoryTable const& history) {
 std::vector<Curve> mode_curves(HistoryTable const& history) {
   std::vector<Curve> curves;
   for (BreakModeNames const& m : break_modes) {
+    if (m.mode == BreakMode::dissolved && history[m.broken].back() == 0) continue;  // no hydrate has changed
     Curve curve{"", history[axial_strain.column], {}, mode_stroke(m.mode)};
     for (std::size_t i = 0; i < history.rows(); ++i) {
       double all = history["bonds_intact"][i];

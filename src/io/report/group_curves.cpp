@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -30,10 +31,11 @@ std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<Member
   return groups;
 }
 
-/// Whether a column says something: a clean sand has no bonds.
+/// Whether a column says something: a clean sand has no bonds, and at constant volume only rounding is left of the strain.
 bool says_something(GroupCurves const& group, ShownBand const& what) {
   SeedBand const& band = group.bands[what.column];
-  return std::any_of(band.mean.begin(), band.mean.end(), [](double value) { return value != 0; });
+  return std::any_of(band.mean.begin(), band.mean.end(),
+                     [&](double value) { return std::abs(value * what.axis.factor) > least_shown; });
 }
 
 /// Shares end at 100 %.

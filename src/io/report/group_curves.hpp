@@ -52,6 +52,9 @@ struct GroupCurves {
 std::vector<GroupCurves> curves_of_groups(Study const& study, std::vector<MemberResult> const& members,
                                           std::vector<std::filesystem::path> const& folders);
 
+/// What is smaller is rounding, in the units that are shown.
+inline constexpr double least_shown = 1e-6;
+
 /// Whether a band of a group says something: a clean sand has no bonds.
 bool says_something(GroupCurves const& group, ShownBand const& what);
 /// Shares end at 100 %.

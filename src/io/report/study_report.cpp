@@ -14,6 +14,7 @@
 #include "domain/measurement/test_numbers.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/group_curves.hpp"
+#include "io/report/hydrate_figures.hpp"
 #include "io/report/laboratory_overlay.hpp"
 #include "io/report/loading_figures.hpp"
 #include "io/report/markup.hpp"
@@ -76,9 +77,15 @@ std::string rising_seeds(GroupNumbers const& group) {
 std::string table_of_groups(std::vector<GroupNumbers> const& groups, std::vector<Column> const& columns, char const* what) {
   std::string head = fmt::format("<th>{}</th><th>seeds</th>", what), rows;
   std::vector<Column> used;
-  for (Column const& column : columns)
-    if (std::any_of(groups.begin(), groups.end(), [&](GroupNumbers const& g) { return g.values.contains(column.number); }))
-      used.push_back(column);
+  for (Column const& column : columns) {
+    bool known = false, rounding = true;
+    for (GroupNumbers const& group : groups)
+      if (auto const found = group.values.find(column.number); found != group.values.end()) {
+        known = true;
+        for (double const value : found->second) rounding &= value != 0 && std::abs(value * column.factor) < least_shown;
+      }
+    if (known && !rounding) used.push_back(column);
+  }
   for (Column const& column : used)
     head += fmt::format("<th>{}{}</th>", column.heading,
                         *column.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", column.unit) : "");
@@ -242,7 +249,8 @@ Piece loading_part(std::vector<GroupCurves> const& groups, LaboratoryOverlay& po
       runs.push_back(run);
       styles.push_back({group.name, {}, {}, {group.stroke.colour, group.stroke.dash, 1.2}});
     }
-  Piece figures = loading_figures({runs, points, [&](std::size_t i) { return styles[i]; }});
+  ShownRuns const shown{runs, points, [&](std::size_t i) { return styles[i]; }};
+  Piece figures = hydrate_figures(shown) + loading_figures(shown);
   if (figures.empty()) return "";
   return fmt::format("<h2>Loading</h2>\n<p class=\"soft\">A line for each seed, in the colour of its group.{}</p>\n",
                      left_out > 0 ? fmt::format(" {} members more are not drawn.", left_out) : "") +

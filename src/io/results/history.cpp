@@ -82,6 +82,7 @@ std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::u
     try {
       HistoryEntry& entry = entries.emplace_back();
       for_each_column(entry.row, parse);
+      for_each_hydrate_column(entry.row, parse);
       if (ledger) for_each_energy_column(entry.energy.emplace(), parse);
     } catch (std::invalid_argument const& problem) {
       throw FileProblem(ExitCode::bad_input, path, fmt::format("line {}: {}", rows.line(), problem.what()));
@@ -90,11 +91,12 @@ std::vector<HistoryEntry> read_history(std::filesystem::path const& path, std::u
   return entries;
 }
 
-HistoryFile::HistoryFile(std::filesystem::path path, bool energy) : file_(std::move(path)) {
+HistoryFile::HistoryFile(std::filesystem::path path, bool energy, bool hydrate) : file_(std::move(path)) {
   HistoryNames names;
   HistoryRow const row;
   EnergyRow const ledger;
   for_each_column(row, names);
+  if (hydrate) for_each_hydrate_column(row, names);
   if (energy) for_each_energy_column(ledger, names);
   columns_ = names.columns;
   file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
@@ -110,12 +112,14 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::uintmax_t bytes) : fil
 void HistoryFile::write(HistoryRow const& row) {
   Cells cells{columns_};
   for_each_column(row, cells);
+  for_each_hydrate_column(row, cells);
   file_.write(cells.line());
 }
 
 void HistoryFile::write(HistoryRow const& row, EnergyRow const& energy) {
   Cells cells{columns_};
   for_each_column(row, cells);
+  for_each_hydrate_column(row, cells);
   for_each_energy_column(energy, cells);
   file_.write(cells.line());
 }

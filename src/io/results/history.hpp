@@ -11,9 +11,10 @@ namespace clathra {
 
 class HistoryFile {
  public:
-  /// Writes the header. @param energy  the columns of the energy ledger follow those of the record
+  /// Writes the header. @param energy,hydrate  the columns of the energy ledger, and before them those of hydrate that changes,
+  /// follow those of the record
   /// @throws FileProblem cannot_create or io_error
-  HistoryFile(std::filesystem::path path, bool energy);
+  HistoryFile(std::filesystem::path path, bool energy, bool hydrate = false);
   /// Goes on with the file behind its first `bytes`, with the columns that it has. @throws FileProblem
   HistoryFile(std::filesystem::path path, std::uintmax_t bytes);
 

@@ -40,6 +40,7 @@ std::vector<std::string> columns_of_records() {
   ColumnNames columns;
   HistoryRow const row;
   for_each_column(row, columns);
+  for_each_hydrate_column(row, columns);
   return columns.names;
 }
 

@@ -78,6 +78,7 @@ constexpr StageNumber numbers[] = {
     {"shear", "broken_shear", "bonds broken in shear"},
     {"shear", "broken_compression", "bonds broken in compression"},
     {"shear", "broken_rolling", "bonds broken by rolling"},
+    {"shear", "broken_dissolved", "bonds that left as their hydrate was lost"},
     {"shear", "energy_residual", "part of the boundary work that no account of the energy balance has"},
     {"shear", "checks", "checks made, one each 0.02 % of axial strain"},
     {"shear", "mean_unbalanced", "mean over the checks of: mean resultant force on a particle over the mean contact force"},
@@ -125,6 +126,12 @@ constexpr StageNumber numbers[] = {
     {"shear", "failed_eps1", "axial strain where that was seen first"},
     {"shear", "failed_q_Pa", "q there"},
     {"shear", "failed_p_Pa", "p there"},
+    {"shear", "failed_temperature_degC", "temperature of the hydrate there"},
+    {"shear", "failed_pore_pressure_Pa", "pore pressure there"},
+    {"shear", "failed_saturation", "saturation there"},
+    {"shear", "end_temperature_degC", "temperature of the hydrate at the end of a stage that changes it"},
+    {"shear", "end_pore_pressure_Pa", "pore pressure there"},
+    {"shear", "end_saturation", "saturation there"},
 };
 // clang-format on
 

@@ -15,8 +15,8 @@ namespace {
 
 /// Keys that cannot matter to the strength of a material.
 bool is_indifferent(std::string_view key) {
-  static std::set<std::string_view> const names{"run.seed",        "run.threads",   "run.ignore_guards",
-                                                "run.verlet_skin", "specimen.file", "hydrate.allow_unstable"};
+  static std::set<std::string_view> const names{"run.seed", "run.threads", "run.ignore_guards", "run.verlet_skin",
+                                                "specimen.file"};
   return names.count(key) > 0 || key.starts_with("output.");
 }
 

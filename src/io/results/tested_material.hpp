@@ -13,7 +13,7 @@ using SceneValues = std::map<std::string, std::string>;
 
 /// The values that can matter to the strength of a run's material, its saturation and confining stress among them; a key that
 /// run.json does not have yet has its default. Left out is what only chooses how it is computed or written: run.seed,
-/// run.threads, run.ignore_guards, run.verlet_skin, hydrate.allow_unstable, [output], and specimen.file, instead of which the
+/// run.threads, run.ignore_guards, run.verlet_skin, [output], and specimen.file, instead of which the
 /// discs and the void ratio of the specimen that was read stand here (to 0.001). Without bonds at the start there is no
 /// saturation, and of [hydrate] and [bond] only specimen.preparation_stress counts.
 SceneValues material_of(RunResults const& run);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "domain/scene/hydrate.hpp"
+#include "domain/scene/phase_boundary.hpp"
 #include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/scene/units.hpp"
@@ -135,12 +136,15 @@ void check_kind(Check& check) {
       check.warn(fmt::format("{} has no effect with test.kind = {}", key, value_text(*find_key("test.kind"), check.scene)));
   };
   only("test.largest_stress", {TestKind::isotropic, TestKind::oedometer});
-  only("test.increments", {TestKind::isotropic, TestKind::oedometer});
+  only("test.increments", {TestKind::isotropic, TestKind::oedometer, TestKind::heating, TestKind::depressurisation});
   only("test.unload_at", {TestKind::unload_reload});
   only("test.cyclic_deviator_stress", {TestKind::cyclic});
   only("test.cycles", {TestKind::cyclic});
   only("test.fluid_modulus", {TestKind::constant_volume});
-  only("test.dead_load", {TestKind::creep});
+  only("test.dead_load", {TestKind::creep, TestKind::heating, TestKind::depressurisation});
+  only("test.final_temperature", {TestKind::heating});
+  only("test.final_pore_pressure", {TestKind::depressurisation});
+  only("test.final_saturation", {TestKind::heating, TestKind::depressurisation});
   if (test.kind == TestKind::creep && test.dead_load == 0)
     check.error({"test.dead_load", "test.kind"}, "'test.kind' = \"creep\" needs 'test.dead_load'");
   if (test.largest_stress > 0 && test.largest_stress <= test.confining_stress)
@@ -196,9 +200,10 @@ void check_hydrate(Check& check, std::optional<SpecimenDesign> const& design) {
   std::vector<std::string_view> const state = {"hydrate.temperature", "hydrate.pore_pressure", "hydrate.density",
                                                "hydrate.saturation"};
   if (std::string const problem = hydrate_problem(scene.hydrate); !problem.empty()) return check.error(state, problem);
-  HydrateScene gated = scene.hydrate;
-  gated.allow_unstable = false;
-  if (std::string const problem = hydrate_problem(gated); !problem.empty()) check.warn(problem);
+  if (std::string const problem = stability_problem(scene.hydrate); !problem.empty())
+    check.refusal({"hydrate.temperature", "hydrate.pore_pressure", "hydrate.salinity", "hydrate.saturation"}, problem);
+  if (std::string const warning = boundary_warning(scene.hydrate.temperature, scene.hydrate.salinity); !warning.empty())
+    check.warn(warning);
   if (std::string const warning = fit_warning(scene.hydrate); !warning.empty()) check.warn(warning);
   if (scene.bond.critical_thickness_from == CriticalThicknessFrom::given && scene.bond.critical_thickness == 0)
     return check.error({"bond.critical_thickness_from"},
@@ -210,6 +215,43 @@ void check_hydrate(Check& check, std::optional<SpecimenDesign> const& design) {
     if (critical_thickness_ratio(scene.hydrate.saturation) == 0) return;
   }
   if (design) check_strength(check, *design);
+}
+
+/// What stages want of hydrate that changes.
+void check_hydrate_of_stages(Check& check) {
+  Scene const& scene = check.scene;
+  std::vector<LoadingStage> const stages = stages_of(scene);
+  if (!changes_hydrate(stages)) {
+    if (check.changed("hydrate.spread_of_loss")) check.warn("hydrate.spread_of_loss has no effect: no stage changes the hydrate");
+    return;
+  }
+  std::vector<std::string_view> const at = {"test.kind", "hydrate.saturation"};
+  if (!has_bonds(scene)) return check.error(at, "a stage changes the hydrate, and there are no bonds that it could change");
+  if (scene.bond.law == BondLawKind::constant_thickness)
+    check.error({"bond.law"}, "a stage changes the hydrate: how bonds of \"constant_thickness\" lose it is not known");
+  constexpr double none = 0.2;
+  double saturation = scene.hydrate.saturation;
+  if (saturation <= none + scene.hydrate.spread_of_loss)
+    check.error({"hydrate.saturation", "hydrate.spread_of_loss"},
+                fmt::format("a stage changes the hydrate, which must form with a saturation above {:g} %: 20 % and "
+                            "hydrate.spread_of_loss",
+                            (none + scene.hydrate.spread_of_loss) * 100));
+  for (LoadingStage const& stage : stages) {
+    HydrateChange const& change = stage.hydrate;
+    std::string const of = fmt::format("stage '{}': ", stage.name.substr(0, 60));
+    if (is_given(change.saturation) && change.saturation > saturation)
+      check.error(at, fmt::format("{}a saturation of {:g} % is above the {:g} % that are there: hydrate does not form again", of,
+                                  change.saturation * 100, saturation * 100));
+    if (is_given(change.saturation)) saturation = change.saturation;
+    if (is_given(change.temperature))
+      if (std::string const text = boundary_warning(change.temperature, scene.hydrate.salinity); !text.empty())
+        check.warn(of + text);
+    if (scene.bond.strength_from == StrengthFrom::printed && (is_given(change.temperature) || is_given(change.pore_pressure)))
+      check.warn(of + "temperature and pore pressure change no strength with bond.strength_from = \"printed\"");
+    for (SideScene const* const side : {&stage.vertical, &stage.lateral})
+      if (change.any() && side->stress < 0)
+        check.error({"test.final_pore_pressure", "test.confining_stress"}, of + "no effective stress would be left");
+  }
 }
 
 void check_bonding(Check& check) {
@@ -267,6 +309,7 @@ SceneFindings check_scene(Scene const& scene, std::function<bool(std::string_vie
   std::optional<SpecimenDesign> const design = check_design(check);
   check_loading(check);
   check_hydrate(check, design);
+  check_hydrate_of_stages(check);
   check_bonding(check);
   check_output(check);
   return std::move(check.found);

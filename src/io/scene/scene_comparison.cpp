@@ -27,6 +27,8 @@ bool ends_by_strain(TestScene const& test) {
     case TestKind::isotropic:
     case TestKind::oedometer:
     case TestKind::cyclic:
+    case TestKind::heating:
+    case TestKind::depressurisation:
     case TestKind::list:
       return false;
     default:

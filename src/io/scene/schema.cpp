@@ -28,10 +28,10 @@ constexpr ChoiceField choice_at() {
 }
 
 using Names = std::string_view;
-constexpr std::array test_kinds = {Names("biaxial"),       Names("extension"),       Names("isotropic"),
-                                   Names("oedometer"),     Names("constant_volume"), Names("constant_mean_stress"),
-                                   Names("unload_reload"), Names("cyclic"),          Names("creep"),
-                                   Names("list")};
+constexpr std::array test_kinds = {Names("biaxial"),       Names("extension"),        Names("isotropic"),
+                                   Names("oedometer"),     Names("constant_volume"),  Names("constant_mean_stress"),
+                                   Names("unload_reload"), Names("cyclic"),           Names("creep"),
+                                   Names("heating"),       Names("depressurisation"), Names("list")};
 constexpr std::array generators = {Names("under_compaction"), Names("compression")};
 constexpr std::array void_ratio_stages = {Names("preparation"), Names("test")};
 constexpr std::array tables = {Names("toyoura"), Names("uniform")};
@@ -77,7 +77,8 @@ Key const table[] = {
   {"hydrate.temperature", quantity, CLATHRA_FIELD(hydrate, temperature), "temperature of hydrate and pore water", temperature, -100, 100},
   {"hydrate.pore_pressure", quantity, CLATHRA_FIELD(hydrate, pore_pressure), "water pressure in the pores; it acts on the hydrate, all stresses are effective", pressure, 1e3, 1e9},
   {"hydrate.density", quantity, CLATHRA_FIELD(hydrate, density), "density of the hydrate", density, 100, 2000},
-  {"hydrate.allow_unstable", boolean, CLATHRA_FIELD(hydrate, allow_unstable), "go on where hydrate would dissociate"},
+  {"hydrate.salinity", quantity, CLATHRA_FIELD(hydrate, salinity), "salt in the pore water in g/kg, for the boundary of stability; sea water has 35", ratio, 0, 350},
+  {"hydrate.spread_of_loss", quantity, CLATHRA_FIELD(hydrate, spread_of_loss), "saturation above 20 % over which the critical thickness falls to 0 as hydrate is lost, where Eq. 3 jumps", ratio, 1e-4, 0.3},
 
   {"bond.preset", choice, CLATHRA_FIELD(bond, preset), "model of what Jiang et al. (2017) leave open; a key that is stated keeps its value (section Presets)", ratio, 0, 0, {}, bond_presets().names},
   {"bond.law", choice, CLATHRA_CHOICE(bond, law), "bonds: none, of the thickness of the gap each one spans, or all of one thickness", ratio, 0, 0, {}, laws},
@@ -104,12 +105,15 @@ Key const table[] = {
   {"test.wall_friction", quantity, CLATHRA_FIELD(test, wall_friction), "friction coefficient of the walls", ratio, 0, 5, "smooth", {}, true},
   {"test.consolidation_steps", integer, CLATHRA_FIELD(test, consolidation_steps), "most steps of a consolidation, and of an increment of stress; a specimen not at rest by then is refused", ratio, 0, 1e9, "none", {}, true},
   {"test.largest_stress", quantity, CLATHRA_FIELD(test, largest_stress), "stress up to which kind \"isotropic\" or \"oedometer\" compresses, before it unloads", pressure, 1e3, 1e9, "four times test.confining_stress"},
-  {"test.increments", integer, CLATHRA_FIELD(test, increments), "increments by equal factors in which these put the stress on, and take it off", ratio, 1, 1e4},
+  {"test.increments", integer, CLATHRA_FIELD(test, increments), "increments by equal factors in which these put the stress on, and take it off; least number of equal ones in which kind \"heating\" or \"depressurisation\" changes the hydrate", ratio, 1, 1e4},
   {"test.unload_at", quantities, CLATHRA_FIELD(test, unload_at), "axial strains at which kind \"unload_reload\" unloads to q = 0; half of test.axial_strain where it states none", ratio, 1e-6, 0.5},
   {"test.cyclic_deviator_stress", quantities, CLATHRA_FIELD(test, cyclic_deviator_stress), "two values of q between which kind \"cyclic\" goes back and forth; between the axial strains 0 and test.axial_strain where it states none", pressure, -1e9, 1e9},
   {"test.cycles", integer, CLATHRA_FIELD(test, cycles), "cycles of kind \"cyclic\"", ratio, 1, 1e6},
   {"test.fluid_modulus", quantity, CLATHRA_FIELD(test, fluid_modulus), "bulk modulus of the pore fluid in kind \"constant_volume\"; water has 2.2 GPa", pressure, 1e5, 1e12, "the fluid does not give way"},
-  {"test.dead_load", quantity, CLATHRA_FIELD(test, dead_load), "deviator stress that kind \"creep\" puts on and holds", pressure, 1e3, 1e9, "none"},
+  {"test.dead_load", quantity, CLATHRA_FIELD(test, dead_load), "deviator stress that kind \"creep\" puts on and holds, and that stands while kind \"heating\" or \"depressurisation\" changes the hydrate", pressure, 1e3, 1e9, "none"},
+  {"test.final_temperature", quantity, CLATHRA_FIELD(test, final_temperature), "temperature to which kind \"heating\" warms", temperature, -100, 100},
+  {"test.final_pore_pressure", quantity, CLATHRA_FIELD(test, final_pore_pressure), "pore pressure to which kind \"depressurisation\" goes, before it comes back", pressure, 1e3, 1e9},
+  {"test.final_saturation", quantity, CLATHRA_FIELD(test, final_saturation), "saturation that is left by then; up to 20 % there are no bonds", ratio, 0, 1},
 
   {"run.preset", choice, CLATHRA_FIELD(run, preset), "trade-off between speed and accuracy; a key that is stated keeps its value (section Presets)", ratio, 0, 0, {}, run_presets().names},
   {"run.seed", integer, CLATHRA_FIELD(run, seed), "seed of the random numbers", ratio, 0, any_seed},

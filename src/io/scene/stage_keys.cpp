@@ -35,7 +35,7 @@ using enum Dimension;
 using enum Kind;
 constexpr std::array follows = {std::string_view("nothing"), std::string_view("constant_volume"),
                                 std::string_view("constant_mean_stress")};
-constexpr char none[] = "not stated", no_end[] = "no end of this stage";
+constexpr char none[] = "not stated", stays[] = "it stays as it is", no_end[] = "no end of this stage";
 
 // clang-format off
 Key const table[] = {
@@ -54,6 +54,11 @@ Key const table[] = {
   {"lateral.fluid_modulus", quantity, of_part<&Stage::lateral, &SideScene::fluid_modulus>, "bulk modulus of the fluid that keeps the volume which left and right follow", pressure, 1e5, 1e12, "the fluid does not give way"},
   {"increments", integer, of_stage<&Stage::increments>, "increments, by equal factors, in which stresses are put on, with rest after each", ratio, 1, 1e4},
   {"allow_unsettled", boolean, of_stage<&Stage::allow_unsettled>, "go on where the specimen does not come to rest within test.consolidation_steps"},
+  {"hydrate.temperature", quantity, of_part<&Stage::hydrate, &HydrateChange::temperature>, "temperature of the hydrate by the end of the stage, in a straight line over its increments", temperature, -100, 100, stays},
+  {"hydrate.pore_pressure", quantity, of_part<&Stage::hydrate, &HydrateChange::pore_pressure>, "pore pressure likewise", pressure, 1e3, 1e9, stays},
+  {"hydrate.saturation", quantity, of_part<&Stage::hydrate, &HydrateChange::saturation>, "saturation likewise; hydrate does not form again", ratio, 0, 1, stays},
+  {"hydrate.constant_total_stress", boolean, of_part<&Stage::hydrate, &HydrateChange::constant_total_stress>, "the effective stresses of the sides fall by what the pore pressure rises; else they stay"},
+  {"hydrate.undrained", boolean, of_part<&Stage::hydrate, &HydrateChange::undrained>, "likewise, with a pore pressure that stays until the boundary of stability is met, and follows that from there"},
   {"turn.deviator_stress", quantities, of_part<&Stage::turn, &StageTurn::deviator_stress>, "two values of q = sigma_1 - sigma_3 between which the vertical rate goes back and forth", pressure, -1e9, 1e9},
   {"turn.axial_strain", quantities, of_part<&Stage::turn, &StageTurn::axial_strain>, "two axial strains since the consolidation between which the vertical rate goes back and forth", ratio, -0.5, 0.5},
   {"until.axial_strain", quantity, of_part<&Stage::until, &StageEnd::axial_strain>, "natural axial strain since the consolidation at which the stage ends, from either side", ratio, -0.5, 0.5, no_end},
@@ -118,9 +123,26 @@ void check_ends(LoadingStage const& stage, Say const& say) {
   if (stage.until.cycles > 0 && !turn.any()) say("'until.cycles' needs 'turn'");
   if (turn.any() && stage.until.cycles == 0 && stage.until.path == 0)
     say("'turn' needs 'until.cycles' or 'until.path': nothing else ends it for certain");
-  if (stage.increments > 1 &&
+  if (stage.increments > 1 && !stage.hydrate.any() &&
       (!stage.has_stress_only() || !stage.until.rest || !(stage.vertical.has_stress() || stage.lateral.has_stress())))
     say("'increments' need a stress, no rate, and 'until.rest' = true");
+}
+
+template <class Say>
+void check_hydrate_of_stage(LoadingStage const& stage, Say const& say) {
+  HydrateChange const& change = stage.hydrate;
+  if (!change.any()) {
+    if (change.holds_total_stress()) say("'hydrate' says how stresses follow, but nothing that changes");
+    return;
+  }
+  if (!stage.has_stress_only()) say("'hydrate' changes while sides hold or have a stress, not a rate");
+  if (!stage.until.rest)
+    say("'hydrate' needs 'until.rest' = true: each of its increments waits for it, and the stage ends after the last");
+  if (change.undrained && !is_given(change.temperature)) say("'hydrate.undrained' needs 'hydrate.temperature'");
+  if (change.undrained && is_given(change.pore_pressure))
+    say("'hydrate.pore_pressure' follows the temperature where 'hydrate.undrained' is true: leave one of them out");
+  if (change.holds_total_stress() && !stage.vertical.has_stress() && !stage.lateral.has_stress())
+    say("a constant total stress needs a stress of 'vertical' or 'lateral'");
 }
 
 }  // namespace
@@ -214,6 +236,7 @@ std::vector<StageProblem> stage_problems(std::vector<LoadingStage> const& stages
       if (stages[k].name == stage.name) say(fmt::format("stage {} has the same name", k + 1));
     check_sides(stage, say);
     check_ends(stage, say);
+    check_hydrate_of_stage(stage, say);
   }
   return problems;
 }
