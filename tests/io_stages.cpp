@@ -91,6 +91,8 @@ TEST(StagesInAScene, OfEachKindAreWrittenOutAndReadBack) {
                               : key.kind == Kind::choice                                ? "\"constant_volume\""
                               : key.kind == Kind::quantities                            ? "[0, 0.125]"
                               : key.kind == Kind::integer                               ? "7"
+                              : key.leaf() == "temperature"                             ? "\"7 degC\""
+                              : key.leaf() == "pore_pressure"                           ? "\"3 MPa\""
                               : key.leaf() == "stress" || key.leaf() == "fluid_modulus" ? "\"3 MPa\""
                                                                                         : "0.125";
     LoadingStage const stage = stage_of_texts({{std::string(key.name), value}});

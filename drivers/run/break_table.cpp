@@ -71,12 +71,17 @@ std::vector<BreakPart> parts_of(std::vector<BreakRow> const& rows, double first,
 }
 
 std::string count_text(std::vector<BreakPart> const& parts) {
+  bool const dissolved =
+      std::any_of(parts.begin(), parts.end(), [](BreakPart const& part) { return part.counts[BreakMode::dissolved] > 0; });
+  std::vector<BreakModeNames> modes;
+  for (BreakModeNames const& m : break_modes)
+    if (m.mode != BreakMode::dissolved || dissolved) modes.push_back(m);
   std::string text = fmt::format("{:>16}", "eps1 [%]");
-  for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", m.name);
+  for (BreakModeNames const& m : modes) text += fmt::format(" {:>12}", m.name);
   text += fmt::format(" {:>12}\n", "all");
   for (BreakPart const& part : parts) {
     text += fmt::format("{:>16}", fmt::format("{:.3g} - {:.3g}", part.begin * 100, part.end * 100));
-    for (BreakModeNames const& m : break_modes) text += fmt::format(" {:>12}", part.counts[m.mode]);
+    for (BreakModeNames const& m : modes) text += fmt::format(" {:>12}", part.counts[m.mode]);
     text += fmt::format(" {:>12}\n", part.counts.total());
   }
   return text;

@@ -65,7 +65,8 @@ std::string CurveSummary::text(std::optional<double> sigma3_held) const {
   if (last_.bonds_intact + last_.broken.total() > 0) {
     std::string modes;
     for (BreakModeNames const& m : break_modes)
-      modes += fmt::format("{}{} {}", modes.empty() ? "" : ", ", last_.broken[m.mode], m.name);
+      if (m.mode != BreakMode::dissolved || last_.broken[m.mode] > 0)
+        modes += fmt::format("{}{} {}", modes.empty() ? "" : ", ", last_.broken[m.mode], m.name);
     text += fmt::format("bonds     {} intact ({:.3g} % of the first), broken: {}\n", last_.bonds_intact, last_.bonds_intact_pct,
                         modes);
   }
