@@ -94,8 +94,9 @@ struct BiaxialTest::State {
   StepLimits limits(double pause_at) const;
   bool look();
   void look_at_rest();
-  void look_for_failure();
-  void look_at_rate();
+  void look_for_failure(double strain_rate);
+  bool has_strained_far() const;
+  void fail_here();
   bool turn_is_due() const;
   bool holds_lateral_stress() const;
   bool bears_dead_load() const { return now().vertical.has_stress() && (now().increments == 1 || now().hydrate.any()); }

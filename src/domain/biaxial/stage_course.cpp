@@ -140,10 +140,14 @@ bool BiaxialTest::State::turn_is_due() const {
 /// Every now and then where walls are steered. @return whether a row is due
 bool BiaxialTest::State::look() {
   if (place.sense != 0) return false;
-  look_for_failure();
+  TestValues const last = std::exchange(place.looked, values());
+  double const vertical = place.looked.eps1 - last.eps1, lateral = place.looked.eps_v - last.eps_v - vertical,
+               time = place.looked.time - last.time;
+  double const strain_rate = time > 0 ? std::max(std::abs(vertical), std::abs(lateral)) / time : 0;  // on the average
+  look_for_failure(strain_rate);
   place.turn(eps1());
   if (!now().has_stress_only()) return false;
-  look_at_rate();
+  place.checks_slow = time > 0 && strain_rate < now().until.strain_rate ? place.checks_slow + 1 : 0;
   look_at_rest();
   return place.increment_is_due;
 }
@@ -176,37 +180,39 @@ void BiaxialTest::State::look_at_rest() {
   place.increment_is_due = rests && !last;
 }
 
-/// How fast the box strains, on the average since the last look.
-void BiaxialTest::State::look_at_rate() {
-  TestValues const v = values(), last = std::exchange(place.looked, v);
-  double const vertical = v.eps1 - last.eps1, lateral = v.eps_v - last.eps_v - vertical, time = v.time - last.time;
-  bool const slow = time > 0 && std::max(std::abs(vertical), std::abs(lateral)) < now().until.strain_rate * time;
-  place.checks_slow = slow ? place.checks_slow + 1 : 0;
+bool BiaxialTest::State::has_strained_far() const { return eps1() - place.start.eps1 >= failed_strain * (1 - rounding); }
+
+/// The state where a specimen fails, or may begin to.
+void BiaxialTest::State::fail_here() {
+  TestValues const v = values();
+  place.failed = true;
+  place.failed_eps1 = v.eps1;
+  place.failed_q = v.q();
+  place.failed_p = v.p();
+  place.hydrate_failed = hydrate;
 }
 
-/// A dead load that the specimen does not bear: the first time is kept, and the stage goes on.
-void BiaxialTest::State::look_for_failure() {
+/// A dead load that the specimen does not bear: the state where that began is kept, and the stage goes on.
+void BiaxialTest::State::look_for_failure(double strain_rate) {
   if (place.failed || !bears_dead_load()) return;
   Assembly const& a = simulation->assembly();
   TestValues const v = values();
   AxisDrive const& load = a.now.walls.loading.y;
-  double const inertia = rate_of_row() * d50 * std::sqrt(a.facts.moving_density() / std::max(v.p(), 1.0));
+  double const inertia = strain_rate * d50 * std::sqrt(a.facts.moving_density() / std::max(v.p(), 1.0));
   bool const at_cap = std::abs(a.walls().velocity[bottom]) >= 0.999 * load.largest_speed;
-  bool const failing = v.eps1 - place.start.eps1 >= failed_strain || inertia > failed_inertia ||
-                       (at_cap && v.sigma1 < (1 - failed_stress) * load.target_stress);
+  bool const failing = inertia > failed_inertia || (at_cap && v.sigma1 < (1 - failed_stress) * load.target_stress);
+  if (has_strained_far()) return fail_here();
   bool const rising = v.sigma1 > place.risen_to + failed_rise * load.target_stress;
   if (rising) place.risen_to = v.sigma1;
   if (!failing || rising) {  // while the load is being put on the platens are at their largest speed, too
     place.failing_since = -1;
     return;
   }
-  if (place.failing_since < 0) place.failing_since = v.time;
-  if (v.time - place.failing_since <= transits * wave_transit(*simulation)) return;
-  place.failed = true;
-  place.failed_eps1 = v.eps1;
-  place.failed_q = v.q();
-  place.failed_p = v.p();
-  place.hydrate_failed = hydrate;
+  if (place.failing_since < 0) {
+    fail_here();
+    place.failing_since = v.time;
+  }
+  place.failed = v.time - place.failing_since > transits * wave_transit(*simulation);
 }
 
 /// What the stage ends by, if it does. @throws Refused where it has gone a long way without coming to anything that is stated
@@ -236,6 +242,7 @@ std::optional<std::string> BiaxialTest::State::end_reached() const {
 }
 
 void BiaxialTest::State::end_stage(std::string const& ended_by) {
+  if (bears_dead_load() && !place.failed && has_strained_far()) fail_here();
   done.push_back(result(ended_by));
   place.over = true;
 }
