@@ -87,9 +87,7 @@ std::vector<Curve> curves_where(ShownRuns const& shown, Wanted const& wanted, X 
 }
 
 bool any_stage(LoadingStage const&) { return true; }
-bool is_put_on(LoadingStage const& stage) {
-  return stage.has_stress_only() && stage.increments > 1 && !stage.hydrate.any();
-}
+bool is_put_on(LoadingStage const& stage) { return stage.has_stress_only() && stage.increments > 1 && !stage.hydrate.any(); }
 bool is_one_dimensional(LoadingStage const& stage) { return stage.vertical.has_stress() && stage.lateral.hold; }
 bool is_undrained(LoadingStage const& stage) { return stage.lateral.follow == Follow::constant_volume; }
 bool is_dead_load(LoadingStage const& stage) { return stage.vertical.has_stress() && stage.increments == 1; }

@@ -207,7 +207,7 @@ std::string note_on_rising(Study const& study, std::vector<MemberResult> const& 
   std::vector<std::string> rising;
   std::size_t finished = 0;
   for (MemberResult const& member : members) {
-    if (member.state != MemberState::finished) continue;
+    if (member.state != MemberState::finished || !member.numbers.contains(peak_number)) continue;
     ++finished;
     if (!member.peak) rising.push_back(member_name(study.groups[member.group], member.seed));
   }
