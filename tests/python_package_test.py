@@ -45,8 +45,8 @@ class Package(unittest.TestCase):
         self.assertEqual(run.history["largest_q_Pa"].max(), run.numbers["peak_q_Pa"])
         units = run.history.attrs["units"]
         self.assertEqual([units[name] for name in ("q_Pa", "time_s", "eps1", "boundary_work_J_per_m", "bonds_intact_pct")], ["Pa", "s", "", "J/m", "%"])
-        self.assertEqual([clathra.units_of(name) for name in ("step", "strain_rate_per_s", "peak_curvature_per_Pa", "dilation_angle_deg")],
-                         ["", "1/s", "1/Pa", "deg"])
+        self.assertEqual([clathra.units_of(name) for name in ("step", "strain_rate_per_s", "peak_curvature_per_Pa", "dilation_angle_deg", "temperature_degC", "boundary_K")],
+                         ["", "1/s", "1/Pa", "deg", "degC", "K"])
 
     def test_snapshots_are_arrays_with_units(self):
         run = self.run_of_scene

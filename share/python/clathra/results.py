@@ -13,7 +13,7 @@ from .states import Snapshot, Specimen
 
 Path = Union[str, "os.PathLike[str]"]
 
-_ENDINGS = {"Pa": "Pa", "s": "s", "m": "m", "m2": "m^2", "pct": "%", "deg": "deg", "rad": "rad"}
+_ENDINGS = {"Pa": "Pa", "s": "s", "m": "m", "m2": "m^2", "pct": "%", "deg": "deg", "rad": "rad", "degC": "degC", "K": "K"}
 
 
 def units_of(column: str) -> str:
