@@ -229,6 +229,12 @@ void check_hydrate_of_stages(Check& check) {
   if (!has_bonds(scene)) return check.error(at, "a stage changes the hydrate, and there are no bonds that it could change");
   if (scene.bond.law == BondLawKind::constant_thickness)
     check.error({"bond.law"}, "a stage changes the hydrate: how bonds of \"constant_thickness\" lose it is not known");
+  if (scene.test.kind == TestKind::depressurisation &&
+      scene.test.final_pore_pressure - scene.hydrate.pore_pressure >= scene.test.confining_stress)
+    check.error(
+        {"test.final_pore_pressure", "test.confining_stress"},
+        "'test.final_pore_pressure' is above 'hydrate.pore_pressure' by more than the confining stress: at constant total "
+        "stress no effective stress would be left");
   constexpr double none = 0.2;
   double saturation = scene.hydrate.saturation;
   if (saturation <= none + scene.hydrate.spread_of_loss)
@@ -248,9 +254,6 @@ void check_hydrate_of_stages(Check& check) {
         check.warn(of + text);
     if (scene.bond.strength_from == StrengthFrom::printed && (is_given(change.temperature) || is_given(change.pore_pressure)))
       check.warn(of + "temperature and pore pressure change no strength with bond.strength_from = \"printed\"");
-    for (SideScene const* const side : {&stage.vertical, &stage.lateral})
-      if (change.any() && side->stress < 0)
-        check.error({"test.final_pore_pressure", "test.confining_stress"}, of + "no effective stress would be left");
   }
 }
 
