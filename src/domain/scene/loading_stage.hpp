@@ -84,8 +84,8 @@ struct StageTurn {
   bool any() const { return !deviator_stress.empty() || !axial_strain.empty(); }
 };
 
-/// What temperature, pore pressure and saturation come to by the end of a stage, in straight lines from where they are: the more
-/// the specimen bears of each increment, the larger is the next. What is not given stays.
+/// What temperature, pore pressure and saturation come to by the end of a stage, in straight lines from where they are. What is
+/// not given stays.
 struct HydrateChange {
   double temperature = not_given;      ///< [deg C]
   double pore_pressure = not_given;    ///< [Pa]

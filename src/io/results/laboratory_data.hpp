@@ -33,8 +33,8 @@ struct LaboratoryData {
 
 /// Reads a CSV file with the header `figure,name,strain,saturation_pct,confining_stress_MPa,x,y`, one row a point. `strain` is
 /// "natural" or "engineering" (-ln(1 - e) is the natural one) where the figure has strains, else empty; saturation and stress may
-/// be left empty. Rows of the same first five cells are one series, in the order of the file. Lines that begin with # are passed
-/// over.
+/// be left empty. Rows of the same figure, name, saturation and stress are one series, in the order of the file. Lines that begin
+/// with # are passed over.
 /// @throws FileProblem file_missing, or bad_input with line, column, value and what is allowed
 LaboratoryData read_laboratory_data(std::filesystem::path const& path);
 
