@@ -38,8 +38,7 @@ struct LeavingSums {
       std::size_t const e = rows.entry(i, k);
       if (!is_bonded(rows.formation_overlap(e)) || !changed_bond(p, rows, laws.bond, next, i, e).leaves) continue;
       PairState const pair = pair_state(p, rows, laws, i, e);
-      out[0] += 0.5;
-      out[1] += 0.25 * lane_abs(pair.bond_normal) * pair.distance;
+      out[0] += 0.25 * lane_abs(pair.bond_normal) * pair.distance;
     }
   }
 };
@@ -108,12 +107,12 @@ struct ChangeBonds {
 
 }  // namespace
 
-LeavingBonds leaving_bonds(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, BondLaw const& next,
-                           Summation const& sums) {
-  Real const unit[] = {1, sums.unit.energy()};
-  Real out[2] = {0, 0};
-  exact_sums<2>("leaving_bonds", particles.owned, LeavingSums{particles, rows, laws, next}, unit, out, sums.over_ranks);
-  return {out[0], out[1]};
+Real force_of_leaving_bonds(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, BondLaw const& next,
+                            Summation const& sums) {
+  Real const unit[] = {sums.unit.energy()};
+  Real out[1] = {0};
+  exact_sums<1>("leaving_bonds", particles.owned, LeavingSums{particles, rows, laws, next}, unit, out, sums.over_ranks);
+  return out[0];
 }
 
 void change_bonds(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, BondLaw const& next,

@@ -11,15 +11,10 @@
 
 namespace clathra {
 
-/// Bonds that a law would let leave.
-struct LeavingBonds {
-  Real bonds = 0;
-  Real stress_area = 0;  ///< half the sum of |F_n| times the length of the branch [N]: over the area what they carry of p
-};
-
-/// @param laws  that the bonds have followed so far;  @param next  of the hydrate as it would be
-LeavingBonds leaving_bonds(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, BondLaw const& next,
-                           Summation const& sums);
+/// Half the sum of |F_n| times the length of the branch over the bonds that a law would let leave [N]: over the area what they
+/// carry of p. @param laws  that the bonds have followed so far;  @param next  of the hydrate as it would be
+Real force_of_leaving_bonds(ParticleSoA const& particles, ContactRows const& rows, ContactLaws const& laws, BondLaw const& next,
+                            Summation const& sums);
 
 /// Brings the histories of bonds from one law to the next and takes away those that leave. Widths are set by prepare_rows().
 /// @param rows  whose fields hold the forces and moments themselves (with_forces());  @param step  number of the last one

@@ -71,7 +71,7 @@ void BiaxialTest::State::put_hydrate_on() {
   auto const leaving = [&](double part) {
     return a.laws.contact.bond_kind == BondKind::none
                ? 0
-               : a.leaving_bonds(bond_law_of(hydrate_at(part))).stress_area / (a.area() * mean);
+               : a.force_of_leaving_bonds(bond_law_of(hydrate_at(part))) / (a.area() * mean);
   };
   while (step > equal * least_share && leaving(place.hydrate_part + step) > most_leaving) step *= 0.5;
   place.hydrate_part += step;

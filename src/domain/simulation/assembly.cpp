@@ -25,8 +25,8 @@ Measures Assembly::measures() const {
   return in_range([&] { return measure(particles, rows, laws.contact, wall_contacts(), walls(), laws.wall, sums); });
 }
 
-LeavingBonds Assembly::leaving_bonds(BondLaw const& next) const {
-  return in_range([&] { return clathra::leaving_bonds(particles, rows, laws.contact, next, sums); });
+Real Assembly::force_of_leaving_bonds(BondLaw const& next) const {
+  return in_range([&] { return clathra::force_of_leaving_bonds(particles, rows, laws.contact, next, sums); });
 }
 
 DissipationTotals Assembly::losses() const {

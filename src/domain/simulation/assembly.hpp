@@ -71,8 +71,8 @@ struct Assembly {
   WallReactions const& reactions() const { return now.walls.reactions; }
   WallStress stress() const { return wall_stress(walls(), reactions()); }
   Real area() const { return now.box().area(); }  ///< of the box [m^2]
-  /// What the bonds carry that a next law of their hydrate would let leave.
-  LeavingBonds leaving_bonds(BondLaw const& next) const;
+  /// clathra::force_of_leaving_bonds() of a next law of the hydrate [N].
+  Real force_of_leaving_bonds(BondLaw const& next) const;
   Real void_ratio() const { return area() / facts.solid_area - 1; }  ///< nominal
   Real boundary_work() const { return now.walls.work; }              ///< [J/m]
   /// The homogeneous motion since the last neighbour search.
