@@ -12,18 +12,13 @@
 namespace clathra {
 namespace {
 
-/// A quantity of the rows, its name in the legend, and how its line is dashed.
-struct Quantity {
-  char const *name, *column, *dash;
-  double factor;  ///< to the unit that the axis counts in
-};
-
-constexpr Variable increments{"increment at rest", "increment"};
-
 bool changes_hydrate(RunResults const& run) { return run.history.has("saturation_pct") && run.history.has("temperature_degC"); }
 
-/// The rows from the one before the hydrate first changes.
-std::vector<std::size_t> rows_of_change(HistoryTable const& history) {
+}  // namespace
+
+std::vector<std::size_t> rows_where_hydrate_changes(RunResults const& run) {
+  HistoryTable const& history = run.history;
+  if (!changes_hydrate(run)) return {};
   auto const differs = [&](std::size_t i) {
     for (char const* const column : {"temperature_degC", "pore_pressure_Pa", "saturation_pct"})
       if (history[column][i] != history[column][0]) return true;
@@ -36,6 +31,16 @@ std::vector<std::size_t> rows_of_change(HistoryTable const& history) {
   return rows;
 }
 
+namespace {
+
+/// A quantity of the rows, its name in the legend, and how its line is dashed.
+struct Quantity {
+  char const *name, *column, *dash;
+  double factor;  ///< to the unit that the axis counts in
+};
+
+constexpr Variable increments{"increment at rest", "increment"};
+
 /// Curves of several quantities over the increments, in the colour of their run.
 Piece over_increments(ShownRuns const& shown, char const* heading, Variable const& y, std::vector<Quantity> const& quantities,
                       std::string const& caption) {
@@ -45,7 +50,7 @@ Piece over_increments(ShownRuns const& shown, char const* heading, Variable cons
   for (std::size_t r = 0; r < shown.runs.size(); ++r) {
     if (!changes_hydrate(shown.runs[r])) continue;
     HistoryTable const& history = shown.runs[r].history;
-    std::vector<std::size_t> const rows = rows_of_change(history);
+    std::vector<std::size_t> const rows = rows_where_hydrate_changes(shown.runs[r]);
     for (Quantity const& quantity : quantities) {
       if (rows.size() < 2 || !history.has(quantity.column)) continue;
       Curve curve = shown.style(r);
@@ -95,7 +100,7 @@ Piece path_in_the_plane(ShownRuns const& shown) {
     HistoryTable const& history = shown.runs[r].history;
     Curve curve = shown.style(r);
     curve.marked = true;
-    for (std::size_t const i : rows_of_change(history)) {
+    for (std::size_t const i : rows_where_hydrate_changes(shown.runs[r])) {
       curve.x.push_back(history["temperature_degC"][i]);
       curve.y.push_back(history["pore_pressure_Pa"][i]);
       if (std::isfinite(curve.y.back())) most = std::max(most, curve.y.back());

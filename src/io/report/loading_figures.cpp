@@ -10,14 +10,13 @@
 #include "io/report/curves.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plot.hpp"
+#include "io/report/response_envelope.hpp"
 #include "io/results/run_record.hpp"
 #include "io/results/shown_units.hpp"
 #include "io/results/stage_numbers.hpp"
 
 namespace clathra {
-namespace {
 
-/// The stages that a run was asked for.
 std::vector<LoadingStage> stages_of_run(RunResults const& run) {
   auto const scene = run.record.find("scene");
   if (scene == run.record.end()) return {};
@@ -27,6 +26,8 @@ std::vector<LoadingStage> stages_of_run(RunResults const& run) {
     return {};
   }
 }
+
+namespace {
 
 bool is_compression_alone(RunResults const& run) { return run.test_kind() == "biaxial"; }
 
@@ -195,8 +196,8 @@ Piece dilatancy_figure(ShownRuns const& shown) {
 }
 
 Piece loading_figures(ShownRuns const& shown) {
-  return stress_path(shown) + void_ratio_figure(shown) + lateral_stress(shown) + pore_pressure(shown) + stress_ratio(shown) +
-         dead_load(shown);
+  return response_envelopes(shown) + stress_path(shown) + void_ratio_figure(shown) + lateral_stress(shown) +
+         pore_pressure(shown) + stress_ratio(shown) + dead_load(shown);
 }
 
 namespace {

@@ -11,7 +11,7 @@
 namespace clathra {
 namespace {
 
-constexpr double drawing_width = 480, left_margin = 62, right_margin = 20, top_margin = 12, bottom_margin = 48;
+constexpr double drawing_width = 480, left_margin = 68, right_margin = 20, top_margin = 12, bottom_margin = 48;
 constexpr std::size_t most_points = 1000;
 
 /// IdIndex of numbers in a plot.

@@ -12,12 +12,14 @@
 #include <span>
 
 #include "domain/measurement/test_numbers.hpp"
+#include "domain/scene/loading_stage.hpp"
 #include "io/formats/text_file.hpp"
 #include "io/report/group_curves.hpp"
 #include "io/report/hydrate_figures.hpp"
 #include "io/report/laboratory_overlay.hpp"
 #include "io/report/loading_figures.hpp"
 #include "io/report/markup.hpp"
+#include "io/report/sand_strength.hpp"
 #include "io/results/shown_units.hpp"
 
 namespace clathra {
@@ -62,7 +64,7 @@ Piece small_multiples(std::vector<GroupCurves> const& groups, ShownBand const& w
 }
 
 struct Column {
-  char const *number, *heading, *unit;
+  std::string number, heading, unit;
   double factor;
 };
 
@@ -88,7 +90,7 @@ std::string table_of_groups(std::vector<GroupNumbers> const& groups, std::vector
   }
   for (Column const& column : used)
     head += fmt::format("<th>{}{}</th>", column.heading,
-                        *column.unit ? fmt::format(" <span class=\"unit\">[{}]</span>", column.unit) : "");
+                        !column.unit.empty() ? fmt::format(" <span class=\"unit\">[{}]</span>", column.unit) : "");
   for (GroupNumbers const& group : groups) {
     rows += fmt::format("<tr><th>{}</th><td data-run=\"seeds\">{}</td>", escaped(group.name), group.seeds.size());
     for (Column const& column : used) {
@@ -97,8 +99,7 @@ std::string table_of_groups(std::vector<GroupNumbers> const& groups, std::vector
       if (found != group.values.end() && found->second.size() != group.seeds.size())
         cell +=
             fmt::format("<small class=\"unit\">({} seed{})</small>", found->second.size(), found->second.size() == 1 ? "" : "s");
-      if (std::string_view const number = column.number; number == peak_number || number == "residual_q_Pa")
-        cell += rising_seeds(group);
+      if (column.number == peak_number || column.number == "residual_q_Pa") cell += rising_seeds(group);
       rows += fmt::format("<td data-run=\"{} {}\"><span>{}</span></td>", column.heading, column.unit, cell);
     }
     rows += "</tr>\n";
@@ -235,7 +236,7 @@ Piece curves_part(std::vector<GroupCurves> const& curves, LaboratoryOverlay& poi
 }
 
 /// What tests that are not one biaxial compression have to draw, each seed a line.
-Piece loading_part(std::vector<GroupCurves> const& groups, LaboratoryOverlay& points) {
+Piece loading_part(std::vector<GroupCurves> const& groups, std::optional<SandStrength> const& sand, LaboratoryOverlay& points) {
   constexpr std::size_t most_runs = 100;
   std::vector<RunResults> runs;
   std::vector<Curve> styles;
@@ -250,7 +251,7 @@ Piece loading_part(std::vector<GroupCurves> const& groups, LaboratoryOverlay& po
       styles.push_back({group.name, {}, {}, {group.stroke.colour, group.stroke.dash, 1.2}});
     }
   ShownRuns const shown{runs, points, [&](std::size_t i) { return styles[i]; }};
-  Piece figures = hydrate_figures(shown) + loading_figures(shown);
+  Piece figures = hydrate_figures(shown) + failure_figure(shown, sand) + loading_figures(shown);
   if (figures.empty()) return "";
   return fmt::format("<h2>Loading</h2>\n<p class=\"soft\">A line for each seed, in the colour of its group.{}</p>\n",
                      left_out > 0 ? fmt::format(" {} members more are not drawn.", left_out) : "") +
@@ -265,6 +266,41 @@ std::vector<Column> result_columns() {
           {"largest_eps_v", "contraction", "%", percent},
           {"dilation_angle_deg", "ψ", "°", 1},
           {"end_bonds_intact_pct", "intact at the end", "%", 1}};
+}
+
+/// What stages under stresses come to, and what any stage may show of the material.
+Column const of_stresses[] = {{"strain_eps1", "ε₁", "%", percent},
+                              {"strain_eps_v", "εᵥ", "%", percent},
+                              {"failed", "share that failed", "", 1},
+                              {"failed_saturation", "saturation where it failed", "%", percent}},
+             of_stages[] = {{"bulk_modulus_Pa", "bulk modulus", "MPa", mega},
+                            {"constrained_modulus_Pa", "M<sub>oed</sub>", "MPa", mega},
+                            {"k0", "K₀ at the end", "", 1},
+                            {"k0_of_increments", "K₀ of the increments", "", 1},
+                            {"secant_stiffness_Pa", "E<sub>ur</sub>", "MPa", mega},
+                            {"damping_ratio", "damping ratio", "%", percent},
+                            {"strain_per_cycle", "strain a cycle", "%", percent},
+                            {"largest_pore_pressure_ratio", "largest r<sub>u</sub>", "", 1}};
+
+/// What groups are compared by: numbers of a compression, then those of the stages of other tests, in their order.
+std::vector<Column> columns_of(std::vector<GroupCurves> const& groups) {
+  std::vector<Column> columns = result_columns();
+  auto const add = [&](Column column, std::string const& stage, bool alone) {
+    if (!alone) column = {stage + "." + column.number, escaped(stage) + ": " + column.heading, column.unit, column.factor};
+    if (std::none_of(columns.begin(), columns.end(), [&](Column const& c) { return c.number == column.number; }))
+      columns.push_back(std::move(column));
+  };
+  for (GroupCurves const& group : groups) {
+    if (group.other_tests.empty()) continue;
+    std::vector<LoadingStage> const stages = stages_of_run(group.other_tests.front());
+    for (LoadingStage const& stage : stages) {
+      bool const alone = stages.size() == 1 || stage.name == shear_stage;
+      if (stage.has_stress_only())
+        for (Column const& column : of_stresses) add(column, stage.name, alone);
+      for (Column const& column : of_stages) add(column, stage.name, alone);
+    }
+  }
+  return columns;
 }
 
 }  // namespace
@@ -283,11 +319,11 @@ std::vector<Figure> write_study_report(Study const& study, std::vector<MemberRes
       "95 % confidence interval (Student t).</p>\n",
       finished, groups.size(), groups.size() == 1 ? "" : "s", escaped(varied_keys(study)));
   body += problems(study, members) + warnings(study, members) + "<h2>Results</h2>\n" +
-          table_of_groups(groups, result_columns(), "group") + note_on_rising(study, members);
+          table_of_groups(groups, columns_of(curves), "group") + note_on_rising(study, members);
   Piece multiples;
   LaboratoryOverlay points = data ? LaboratoryOverlay(*data, tests_of(study)) : LaboratoryOverlay();
   body += curves_part(curves, points);
-  body += loading_part(curves, points);
+  body += loading_part(curves, strength_of_sand(envelopes_by_material(study, members)), points);
   body += strength_part(envelopes_by_material(study, members), points);
   body += points.note();
   for (ShownBand const& what : std::span(shown_bands).first(multiplied))

@@ -162,7 +162,7 @@ void write_run_record(std::filesystem::path const& path, RunRecord const& record
   json["seed"] = scene.run.seed;
   json["scene"] = scene_json(scene);
   json["stages"] = record.stages;
-  json["loading"] = Json::array();
+  json["loading"] = OrderedJson::array();
   for (StageEnding const& end : record.stage_ends) json["loading"].push_back({{"stage", end.stage}, {"ended_by", end.ended_by}});
   if (!record.layer_void_ratios.empty()) json["layer_void_ratios"] = record.layer_void_ratios;
   json["wall_seconds"] = record.wall_seconds;
