@@ -116,8 +116,10 @@ TEST_F(KeptResults, OfARunKilledBeforeItsFirstCheckpoint) {
   CommandResult const resumed = run("--resume --max-walltime 0.001s " + same);
   EXPECT_EQ(resumed.code, 75) << resumed.output;
   EXPECT_TRUE(says(resumed, "there is no checkpoint yet, so the run starts from the beginning"));
-  std::string const rows = content(out / "history.csv");
-  EXPECT_EQ(before.at((out / "history.csv").string()).substr(0, rows.size()), rows);
+  std::string const rows = content(out / "history.csv"), killed = before.at((out / "history.csv").string());
+  std::size_t const both = std::min(rows.size(), killed.size());
+  EXPECT_GT(both, 1000u);
+  EXPECT_EQ(killed.substr(0, both), rows.substr(0, both));
 }
 
 TEST_F(KeptResults, OfSomebodyElseAreNeverTouched) {

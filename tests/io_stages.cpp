@@ -140,6 +140,19 @@ TEST(StagesInAScene, AreSetByNumberAndByName) {
   EXPECT_EQ(scene.stages[0].name, "shear");
 }
 
+/// Hydrate forms once, where there is some, and changes after that.
+TEST(StagesInAScene, SayWhereHydrateForms) {
+  std::string const hydrate = "[hydrate]\nsaturation = \"41 %\"\n", at_rest = "stage.1.until.rest=true",
+                    in_1 = "stage.1.forms_hydrate=true", in_2 = "stage.2.forms_hydrate=true";
+  EXPECT_TRUE(load(hydrate + two_stages, {in_2}).scene.stages[1].forms_hydrate);
+  expect_problem(hydrate + two_stages, "hydrate forms in stage 1 already", {in_1, in_2});
+  expect_problem(two_stages, "hydrate is to form in a stage, and the scene has none", {in_2});
+  expect_problem(hydrate + two_stages, "'forms_hydrate' in a stage", {in_2, "bond.after_consolidation=false"});
+  expect_problem(hydrate + two_stages, "'hydrate' changes before it forms in stage 2",
+                 {in_2, at_rest, "stage.1.vertical.inertial_number=", "stage.1.vertical.stress=2 MPa",
+                  "stage.1.hydrate.temperature=6 degC"});
+}
+
 /// What may grow when a run is extended is the end of its last stage, not what decides how it goes there.
 TEST(StagesInAScene, GrowOnlyWhereTheStrainIsTheirEnd) {
   for (auto const& [kind, more, grows] : {std::tuple{"biaxial", "", true},

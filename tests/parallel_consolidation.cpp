@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "small_test.hpp"
 
@@ -94,6 +95,51 @@ TEST_F(ConsolidationRows, EndsWhereTheShearBegins) {
   BiaxialTest resumed(bonded_first(), test.state(), {});
   EXPECT_TRUE(resumed.consolidation().empty());
   EXPECT_EQ(resumed.record().stage, "shear");
+}
+
+/// A test that is looked at every so many steps, and taken apart and put together each time.
+struct TakenApart {
+  std::vector<HistoryRow> rows;
+  int restarts_in_consolidation = 0;
+  std::uint64_t hash_at_loading = 0;
+};
+
+TakenApart consolidated_in_parts(Scene const& scene, std::int64_t pace, bool restart) {
+  auto test = std::make_unique<BiaxialTest>(BiaxialTest::to_consolidate(scene, small_specimen()));
+  TakenApart course;
+  course.rows.push_back(test->record());
+  while (test->consolidates()) {
+    if (restart) {
+      test = std::make_unique<BiaxialTest>(scene, test->state(), Ranks{});
+      ++course.restarts_in_consolidation;
+    }
+    if (test->advance(pace) && test->consolidates()) course.rows.push_back(test->record());
+  }
+  course.hash_at_loading = test->state_hash();
+  return course;
+}
+
+TEST_F(ConsolidationRows, KnowNeitherThePaceOfTheCallerNorRestarts) {
+  for (Precision const precision : {Precision::full, Precision::mixed}) {
+    Scene scene = small_test();
+    scene.run.precision = precision;
+    BiaxialTest const whole(scene, small_specimen(), ProgressCallback());
+    for (auto const& [pace, restart] :
+         {std::pair{std::int64_t{7}, false}, {std::int64_t{333}, true}, {std::int64_t{5000}, true}}) {
+      TakenApart const parts = consolidated_in_parts(scene, pace, restart);
+      EXPECT_EQ(parts.hash_at_loading, whole.state_hash()) << pace;
+      ASSERT_EQ(parts.rows.size(), whole.consolidation().size()) << pace;
+      EXPECT_TRUE(!restart || parts.restarts_in_consolidation > 5);
+      for (std::size_t i = 0; i < parts.rows.size(); ++i) {
+        HistoryRow const &one = parts.rows[i], &other = whole.consolidation()[i];
+        EXPECT_EQ(one.stage, other.stage) << i;
+        EXPECT_EQ(one.step, other.step) << i;
+        EXPECT_EQ(one.eps_v, other.eps_v) << i;
+        EXPECT_EQ(one.p_Pa, other.p_Pa) << i;
+        EXPECT_EQ(one.inertial_number, other.inertial_number) << i;
+      }
+    }
+  }
 }
 
 }  // namespace

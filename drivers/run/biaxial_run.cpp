@@ -29,7 +29,7 @@ ExitCode BiaxialRun::run() {
   }
   session_.take_folder(false);
   try {
-    shear();
+    make_test();
     on_root(ranks, [&] { session_.record().result_digests = result_digests(session_.folder()); });
   } catch (Stopped const& stop) {
     return stopped(stop.what());
@@ -47,33 +47,37 @@ ExitCode BiaxialRun::run() {
   return ExitCode::done;
 }
 
-std::unique_ptr<BiaxialTest> BiaxialRun::prepared_test() {
+/// Where the folder still holds an earlier run, its results stay until no guard of the preparation can refuse this one any more.
+std::unique_ptr<BiaxialTest> BiaxialRun::test_to_go_on_with() {
   if (session_.resumes()) return std::move(session_.resume().test);
   Scene const& scene = session_.scene();
   if (!specimen_) {
     specimen_ = generate_recorded(scene, reporter_.line(), session_.record(), session_.ranks());
     write_specimen(session_.specimen_file(), *specimen_, session_.ranks());
   }
-  auto test = std::make_unique<BiaxialTest>(scene, std::move(*specimen_), show_stage(reporter_.line(), session_.ranks()),
-                                            session_.ranks());
+  auto test = session_.begun()
+                  ? std::make_unique<BiaxialTest>(BiaxialTest::to_consolidate(scene, std::move(*specimen_), session_.ranks()))
+                  : std::make_unique<BiaxialTest>(scene, std::move(*specimen_), show_stage(reporter_.line(), session_.ranks()),
+                                                  session_.ranks());
   specimen_.reset();
   return_free_memory();
   session_.take_folder(true);
   return test;
 }
 
-/// Bonds, consolidates, shears and writes what comes out.
-void BiaxialRun::shear() {
+/// Bonds, consolidates, loads and writes what comes out.
+void BiaxialRun::make_test() {
   RunRecord& record = session_.record();
   Speedometer const preparing;
-  std::unique_ptr<BiaxialTest> const test = prepared_test();
+  std::unique_ptr<BiaxialTest> const test = test_to_go_on_with();
   bool const generated = !session_.resumed_from() && record.wall_seconds.contains("generate");
   record.wall_seconds["prepare"] += preparing.seconds() - (generated ? record.wall_seconds.at("generate") : 0);
-  record.stages["prepare"] = test->preparation();
-  record.stages["plan"] = session_.plan_of(*test);
-  reporter_.say_new_warnings(*test);
   try {
-    loop_.run(*test, preparing.seconds());
+    loop_.consolidate(*test);
+    record.stages["prepare"] = test->preparation();
+    record.stages["plan"] = session_.plan_of(*test);
+    reporter_.say_new_warnings(*test);
+    loop_.load(*test, preparing.seconds());
   } catch (...) {
     record_loading(*test);
     throw;
@@ -130,8 +134,10 @@ ExitCode BiaxialRun::diverged(Diverged const& fault) {
 ExitCode BiaxialRun::stopped(std::string const& cause) {
   bool const kept = session_.resumes() || session_.checkpoints().written() > 0;
   ExitCode const code = kept ? ExitCode::to_be_resumed : ExitCode::interrupted;
-  std::string const where =
-      kept ? fmt::format("stopped {} at an axial strain of {:.3g} %", cause, reporter_.last().eps1 * 100) : cause;
+  std::string const where = !kept ? cause
+                            : is_consolidation(reporter_.last().stage)
+                                ? fmt::format("stopped {} in the consolidation", cause)
+                                : fmt::format("stopped {} at an axial strain of {:.3g} %", cause, reporter_.last().eps1 * 100);
   session_.conclude(code, where);
   reporter_.line().repeat_warnings();
   reporter_.line().note("clathra: " + where + session_.what_remains() + (kept ? ", and --resume goes on" : ""));

@@ -8,9 +8,9 @@
 #include "domain/scene/specimen.hpp"
 #include "io/scene/scene_comparison.hpp"
 #include "io/scene/scene_file.hpp"
+#include "run/loading_loop.hpp"
 #include "run/run_reporter.hpp"
 #include "run/run_session.hpp"
-#include "run/shear_loop.hpp"
 
 namespace clathra {
 
@@ -23,8 +23,8 @@ class BiaxialRun {
   ExitCode run();
 
  private:
-  void shear();
-  std::unique_ptr<BiaxialTest> prepared_test();
+  void make_test();
+  std::unique_ptr<BiaxialTest> test_to_go_on_with();
   void record_loading(BiaxialTest const& test);
   Specimen sheared_specimen(BiaxialTest const& test);
   ExitCode diverged(Diverged const& fault);
@@ -36,7 +36,7 @@ class BiaxialRun {
   SceneTexts label_before_;   // of the specimen before this test
   double strain_before_ = 0;  // axial, of earlier tests
   RunSession session_;
-  ShearLoop loop_;
+  LoadingLoop loop_;
 };
 
 }  // namespace clathra

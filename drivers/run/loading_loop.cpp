@@ -1,4 +1,4 @@
-#include "run/shear_loop.hpp"
+#include "run/loading_loop.hpp"
 
 #if __has_include(<malloc.h>)
 #include <malloc.h>
@@ -17,20 +17,50 @@ void return_free_memory() {
 #endif
 }
 
-void ShearLoop::run(BiaxialTest& test, double preparing_seconds) {
-  RunRecord& record = session_.record();
-  Ranks const& ranks = session_.ranks();
+void LoadingLoop::open_files(BiaxialTest const& test) {
+  if (files_) return;
   std::optional<FoundCheckpoint> const& resumed = session_.resumed_from();
-  files_.emplace(session_.folder(), session_.scene(), ranks, test, resumed ? std::optional(resumed->progress) : std::nullopt);
+  goes_on_ = resumed && !test.consolidates();
+  files_.emplace(session_.folder(), session_.scene(), session_.ranks(), test,
+                 resumed ? std::optional(resumed->progress) : std::nullopt);
+}
+
+void LoadingLoop::write_consolidation_row(HistoryRow const& row) {
+  reporter_.add(row);
+  files_->write_consolidation(row);
+}
+
+void LoadingLoop::consolidate(BiaxialTest& test) {
+  if (!test.consolidates()) return;
+  open_files(test);
+  double& seconds = session_.record().wall_seconds["prepare"];
+  double const before = seconds;
+  Speedometer const clock(test.consolidation_progress().fraction);
+  std::int64_t const steps_before = test.disc_steps();
+  if (!session_.resumed_from()) write_consolidation_row(test.record());
+  while (test.consolidates()) {
+    bool const due = test.advance(pace_);
+    seconds = before + clock.seconds();
+    if (!test.consolidates()) break;  // the row is the first of the loading
+    if (due) write_consolidation_row(test.record());
+    reporter_.say_new_warnings(test);
+    reporter_.show(test.consolidation_progress(), clock, steps_before);
+    poll(test);
+  }
+}
+
+void LoadingLoop::load(BiaxialTest& test, double preparing_seconds) {
+  RunRecord& record = session_.record();
+  open_files(test);
   Speedometer const clock(test.fraction());
   std::int64_t const steps_before = test.loading_disc_steps();
   std::map<std::string, double> before = record.wall_seconds;
   double const searching_before = test.search_seconds(), every = session_.limits().checkpoint_every;
-  if (!resumed) {
-    files_->write_consolidation(test.consolidation());
+  if (!goes_on_) {
+    for (HistoryRow const& row : test.consolidation()) write_consolidation_row(row);
     write_record_of(test);
+    if (every > 0 && session_.ranks().any(preparing_seconds > 0.05 * every)) write_checkpoint(test);
   }
-  if (!resumed && every > 0 && ranks.any(preparing_seconds > 0.05 * every)) write_checkpoint(test);
   while (!test.finished()) {
     if (test.advance(pace_, files_->next_snapshot_at())) write_record_of(test);
     reporter_.say_new_warnings(test);
@@ -46,7 +76,7 @@ void ShearLoop::run(BiaxialTest& test, double preparing_seconds) {
   files_->close();
 }
 
-void ShearLoop::write_record_of(BiaxialTest& test) {
+void LoadingLoop::write_record_of(BiaxialTest& test) {
   reporter_.add(test.record());
   bool const keeps_energy = session_.scene().output.energy;
   EnergyRow const energy = keeps_energy ? test.energy() : EnergyRow();
@@ -55,7 +85,7 @@ void ShearLoop::write_record_of(BiaxialTest& test) {
 }
 
 /// Looks, about four times a second, whether the run is to stop or a checkpoint is due. All ranks decide alike.
-void ShearLoop::poll(BiaxialTest& test) {
+void LoadingLoop::poll(BiaxialTest& test) {
   constexpr double poll_interval = 0.25;  // [s]
   RunLimits const& limits = session_.limits();
   double const now = wall_.seconds();
@@ -73,7 +103,7 @@ void ShearLoop::poll(BiaxialTest& test) {
   if (stop) throw Stopped(request[2] > 0 ? "by a signal" : "as its wall time is over");
 }
 
-void ShearLoop::write_checkpoint(BiaxialTest& test) {
+void LoadingLoop::write_checkpoint(BiaxialTest& test) {
   Speedometer const clock;
   RunProgress const progress = files_->flushed();
   return_free_memory();

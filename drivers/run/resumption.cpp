@@ -18,7 +18,8 @@ Resumption resume_from(FoundCheckpoint const& checkpoint, std::filesystem::path 
   on_each(ranks, [&] { resumed.history = read_history(folder / "history.csv", checkpoint.progress.history.bytes); });
   resumed.test = std::make_unique<BiaxialTest>(scene, read_checkpoint(checkpoint, scene, ranks), ranks);
   double const wanted = resumed.test->stage().until.axial_strain;
-  if (double const strain = resumed.test->axial_strain(); is_given(wanted) && wanted > 0 && wanted < strain * (1 - 1e-3))
+  if (double const strain = resumed.test->axial_strain();
+      !resumed.test->consolidates() && is_given(wanted) && wanted > 0 && wanted < strain * (1 - 1e-3))
     throw FileProblem(ExitCode::cannot_create, folder,
                       fmt::format("the test is at an axial strain of {:.4g} % already, test.axial_strain is {:.4g} %",
                                   strain * 100, scene.test.axial_strain * 100));

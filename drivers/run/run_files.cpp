@@ -32,7 +32,7 @@ RunFiles::RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks
   std::vector<SnapshotEntry> const snapshots = before ? before->snapshots : std::vector<SnapshotEntry>();
   snapshots_.emplace(folder_, ranks_, snapshots, output_.lossless_snapshots ? SnapshotNumbers::full : SnapshotNumbers::rounded);
   if (output_.snapshots > 0) interval_ = planned_path(scene) / output_.snapshots;
-  if (!before) return;
+  if (!before || test.consolidates()) return;
   since_snapshot_ = test.events_after(snapshots.empty() ? -1 : snapshots.back().step);
   if (interval_ > 0) regular_ = 1 + static_cast<int>(std::floor(test.path_of_last_record() / interval_ + strain_slack));
   auto const& strains = output_.snapshots_at;
@@ -57,12 +57,10 @@ void RunFiles::write_row(HistoryRow const& row, EnergyRow const& energy) {
     history_->write(row);
 }
 
-void RunFiles::write_consolidation(std::vector<HistoryRow> const& rows) {
+void RunFiles::write_consolidation(HistoryRow const& row) {
   EnergyRow none;
   for_each_energy_column(none, [](char const*, double& value) { value = std::numeric_limits<double>::quiet_NaN(); });
-  on_root(ranks_, [&] {
-    for (HistoryRow const& row : rows) write_row(row, none);
-  });
+  on_root(ranks_, [&] { write_row(row, none); });
 }
 
 void RunFiles::write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy) {

@@ -16,8 +16,8 @@ class RunFiles {
   RunFiles(std::filesystem::path folder, Scene const& scene, Ranks ranks, BiaxialTest const& test,
            std::optional<RunProgress> const& before);
 
-  /// The rows of the stages before the shear, before its first record.
-  void write_consolidation(std::vector<HistoryRow> const& rows);
+  /// A row of the stages before the loading.
+  void write_consolidation(HistoryRow const& row);
   /// One record: its row, the bonds that broke since the last one, and a snapshot where one is due.
   /// @param energy  of the same moment, only with scene.output.energy
   void write(BiaxialTest& test, HistoryRow const& row, EnergyRow const& energy);

@@ -23,6 +23,7 @@ void RunReporter::say_new_warnings(BiaxialTest const& test) {
 
 void RunReporter::add(HistoryRow const& row) {
   last_ = row;
+  if (is_consolidation(row.stage)) return;
   summaries_[row.stage].add(row);
 }
 
@@ -30,6 +31,11 @@ int RunReporter::records() const {
   int records = 0;
   for (auto const& summary : summaries_) records += summary.second.records();
   return records;
+}
+
+void RunReporter::show(Progress const& progress, Speedometer const& clock, std::int64_t disc_steps_before) {
+  line_.show(progress.stage, progress.fraction,
+             progress.detail + " | " + clock.text(progress.fraction, progress.disc_steps - disc_steps_before));
 }
 
 void RunReporter::show(BiaxialTest const& test, std::string const& speed) {

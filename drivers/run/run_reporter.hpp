@@ -6,6 +6,7 @@
 #include "domain/biaxial/biaxial_test.hpp"
 #include "io/results/run_record.hpp"
 #include "run/curve_summary.hpp"
+#include "run/stage_progress.hpp"
 #include "terminal/progress_line.hpp"
 
 namespace clathra {
@@ -17,14 +18,16 @@ class RunReporter {
   /// What the test has to say since it was asked last.
   void say_new_warnings(BiaxialTest const& test);
 
-  void add(HistoryRow const& row);
+  void add(HistoryRow const& row);  ///< of any stage; there are no summaries of consolidations
   void add(EnergyRow const& row) { summaries_[last_.stage].add(row); }  ///< after its record
   HistoryRow const& last() const { return last_; }
   int records() const;  ///< of the loading
   /// Of a stage; without records where there are none.
   CurveSummary const& summary_of(std::string const& stage) { return summaries_[stage]; }
 
-  /// How far the test is. @param speed  in words
+  /// How far the consolidation is. @param clock  since it has done so many disc-steps
+  void show(Progress const& progress, Speedometer const& clock, std::int64_t disc_steps_before);
+  /// How far the loading is. @param speed  in words
   void show(BiaxialTest const& test, std::string const& speed);
   /// Warnings again, and lines on the start and on each stage: peak, residual state and bonds of a shear.
   void say_end(RunRecord const& record, double confining_stress, std::filesystem::path const& folder);

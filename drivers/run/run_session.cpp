@@ -87,7 +87,8 @@ Resumption RunSession::resume() {
   Resumption resumed = resume_run(found_, folder_, scene(), ranks_);
   resumed_ = resumed.checkpoint;
   for (std::string const& problem : resumed.passed_over) reporter_.warn("a checkpoint is passed over: " + problem);
-  reporter_.line().note(fmt::format("clathra: goes on from step {} of the loading", resumed_->step));
+  reporter_.line().note(fmt::format("clathra: goes on from step {} of the {}", resumed_->step,
+                                    resumed.test->consolidates() ? "consolidation" : "loading"));
   record_.checkpoint_digest = resumed_->digest;
   on_root(ranks_, [&] { earlier_ = earlier_sessions(folder_); });
   if (!earlier_.generate.empty()) record_.stages["generate"] = earlier_.generate;
@@ -95,9 +96,8 @@ Resumption RunSession::resume() {
   record_.wall_seconds = earlier_.wall_seconds;
   checkpoints_.emplace(folder_, ranks_, resumed_);
   for (HistoryEntry const& entry : resumed.history) {
-    if (is_consolidation(entry.row.stage)) continue;
     reporter_.add(entry.row);
-    if (entry.energy) reporter_.add(*entry.energy);
+    if (entry.energy && !is_consolidation(entry.row.stage)) reporter_.add(*entry.energy);
   }
   begin_record();
   return resumed;

@@ -84,12 +84,14 @@ HistoryRow BiaxialTest::record() {
   return row;
 }
 
-EnergyRow BiaxialTest::energy() {
-  Simulation const& s = *state_->simulation;
-  Measures const& m = state_->measures();
+EnergyRow BiaxialTest::energy() { return state_->energy(); }
+
+EnergyRow BiaxialTest::State::energy() {
+  Simulation const& s = *simulation;
+  Measures const& m = measures();
   DissipationTotals const lost = s.assembly().losses();
   EnergyRow row;
-  row.boundary_work = s.assembly().boundary_work() + state_->work_of_turns;
+  row.boundary_work = s.assembly().boundary_work() + work_of_turns;
   row.kinetic = m.kinetic;
   row.grain_elastic = m.grain_energy;
   row.bond_elastic = m.bond_energy;
@@ -99,8 +101,7 @@ EnergyRow BiaxialTest::energy() {
   row.dashpot = lost.dashpot;
   row.damping = lost.damping;
   row.breakage = lost.breakage;
-  row.dissolved = state_->dissolved;
-  EnergyRow const& start = state_->start;
+  row.dissolved = dissolved;
   double const stored = row.kinetic + row.grain_elastic + row.bond_elastic + row.wall_elastic;
   double const stored_at_start = start.kinetic + start.grain_elastic + start.bond_elastic + start.wall_elastic;
   row.residual = row.boundary_work - (stored - stored_at_start) -
@@ -147,6 +148,7 @@ void BiaxialTest::State::for_each_number(Visit&& visit) {
   visit("work_of_turns", work_of_turns);
   hydrate.for_each_number("hydrate", visit);
   visit("dissolved", dissolved);
+  consolidation.for_each_number(visit);
   place.for_each_number(visit);
   last_row.for_each_number("last_row", visit);
   watch.for_each_number(visit);
@@ -177,12 +179,12 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   t.warnings = state.warnings;
   t.events_taken = static_cast<int>(state.events_taken);
   SimulationLaws laws = test_laws(scene, t.d50, state.simulation.numbers.at("critical_thickness"));
-  laws.motion.damping = scene.damping.local;
+  if (t.consolidation.over) laws.motion.damping = scene.damping.local;
   if (changes_hydrate(t.stages) && laws.contact.bond_kind != BondKind::none)
     laws.contact.bond = changed_bond_law(scene, laws.contact.bond, t.hydrate_scene(t.hydrate));
   t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
   t.done = state.done;
-  t.stage = t.now().name;
+  t.stage = t.consolidation.over ? t.now().name : t.consolidation.bonded ? hydrate_consolidation_stage : consolidation_stage;
   if (!t.place.over || t.end_reached()) return;
   t.place.over = false;  // it is to go on further than it was
   t.done.pop_back();

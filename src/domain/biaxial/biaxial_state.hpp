@@ -9,6 +9,7 @@
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
 #include "domain/biaxial/stage_place.hpp"
+#include "domain/generation/equilibration.hpp"
 #include "domain/parallel/ranks.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/simulation/simulation.hpp"
@@ -21,6 +22,35 @@ SimulationLaws test_laws(Scene const& scene, double d50, double h_max);
 /// A motion of the box, closing positive [1/s].
 struct StrainRates {
   double lateral = 0, vertical = 0;
+};
+
+/// Where a test stands in its consolidation.
+struct Consolidation {
+  bool over = false;         ///< the loading has begun
+  bool ended = false;        ///< at rest, or given up: hydrate forms next, or the loading begins
+  bool bonds_after = false;  ///< hydrate forms when it has ended
+  bool bonded = false;       ///< it has formed so
+  bool closing = false;      ///< discs and walls together
+  std::int64_t closing_steps = 0;
+  double closing_rate = 0, servo_speed_x = 0, servo_speed_y = 0;
+  double made_under = 0, void_ratio = 0;  ///< stress of the specimen [Pa]; when this part of the consolidation began
+  RestWatch rest;
+
+  template <class Visit>
+  void for_each_number(Visit&& visit) {
+    visit("consolidation_over", over);
+    visit("consolidation_ended", ended);
+    visit("consolidation_bonds_after", bonds_after);
+    visit("consolidation_bonded", bonded);
+    visit("consolidation_closing", closing);
+    visit("consolidation_closing_steps", closing_steps);
+    visit("consolidation_closing_rate", closing_rate);
+    visit("consolidation_servo_speed_x", servo_speed_x);
+    visit("consolidation_servo_speed_y", servo_speed_y);
+    visit("consolidation_made_under", made_under);
+    visit("consolidation_void_ratio", void_ratio);
+    rest.for_each_number(visit);
+  }
 };
 
 struct BiaxialTest::State {
@@ -36,12 +66,13 @@ struct BiaxialTest::State {
   StagePlace place;                 // after the consolidation
   std::vector<StageResult> done;    // stages
   TestValues last_row;
-  std::vector<HistoryRow> consolidation;  // of the stages before the loading
+  Consolidation consolidation;
+  std::vector<HistoryRow> consolidation_rows;
   std::int64_t bonds0 = 0, records_due = 0, first_step = 0;
   double record_interval = 0, start_time = 0;  // of the path; of the stage [s]
   std::int64_t disc_steps = 0;
-  int events_taken = 0;                              // of those that this rank has seen
-  bool at_rest = false, began_quasi_static = false;  // when the loading began
+  int events_taken = 0;             // of those that this rank has seen
+  bool began_quasi_static = false;  // when the loading began
   EnergyRow start;
   HydrateState hydrate;      // of now
   double dissolved = 0;      // elastic energy that bonds took along as they changed or left [J/m]
@@ -51,15 +82,20 @@ struct BiaxialTest::State {
   Measures measured;
   std::int64_t measured_after = -1;  ///< steps
 
-  void bond_and_consolidate(Specimen specimen, ProgressCallback const& progress);
   std::string text_of_scaling() const;
   MassScaling mass_scaling(std::vector<double> const& radii) const;
 
-  // The consolidation:
+  // The consolidation (consolidation.cpp):
+  void prepare(Specimen specimen);
+  void start_simulation(Specimen specimen);
   void count_from_here(char const* stage_name);
-  void consolidate(char const* stage_name, ProgressCallback const& progress);
-  void approach(double stress, double closing_rate, std::int64_t most_steps, ProgressCallback const& progress);
-  void record_consolidation(bool anyway);
+  void begin_consolidation(char const* stage_name);
+  void end_closing();
+  bool consolidation_row_is_due() const;
+  bool consolidate(std::int64_t most_steps);
+  void come_to_rest();
+  void end_consolidation();
+  Progress consolidation_progress() const;
   void require_rest(std::int64_t steps);
   void warn_of_density(double before, double made_under);
 
@@ -77,12 +113,14 @@ struct BiaxialTest::State {
   LoadingStage const& now() const { return stages[static_cast<std::size_t>(place.index)]; }
   bool is_last() const { return place.index + 1 == static_cast<std::int64_t>(stages.size()); }
 
-  // Hydrate that changes (hydrate_course.cpp):
+  // Hydrate that forms or changes (hydrate_course.cpp):
+  void form_hydrate();
   HydrateScene hydrate_scene(HydrateState const& state) const;
   BondLaw bond_law_of(HydrateState const& state) const;
   HydrateState hydrate_at(double part) const;
   void put_hydrate_on();
   void change_hydrate(HydrateState const& next);
+  double accounted_energy();
   std::string hydrate_words(HydrateState const& state) const;
   double stress_lost() const;
   bool has_lost_stress() const;
@@ -119,6 +157,7 @@ struct BiaxialTest::State {
   /// @param m  of the specimen as it stands;  @param strain_rate  [1/s], for I and W
   HistoryRow row(Measures const& m, double strain_rate) const;
   double rate_of_row() const;
+  EnergyRow energy();
   /// Of the specimen as it stands after its last step: who asks for it first has it measured. Collective.
   Measures const& measures();
   double skin(std::vector<double> const& radii) const;  ///< of this rank's discs; collective

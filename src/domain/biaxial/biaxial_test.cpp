@@ -10,12 +10,10 @@
 #include "domain/biaxial/divergence.hpp"
 #include "domain/biaxial/quasi_static.hpp"
 #include "domain/biaxial/shear_watch.hpp"
-#include "domain/generation/bonding.hpp"
 #include "domain/measurement/disc_grading.hpp"
 #include "domain/measurement/history_row.hpp"
 #include "domain/measurement/snapshot.hpp"
 #include "domain/parallel/ranks.hpp"
-#include "domain/parallel/redistribution.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/scene.hpp"
 #include "domain/scene/scene_laws.hpp"
@@ -55,45 +53,6 @@ double BiaxialTest::State::skin(std::vector<double> const& radii) const {
   return scene.run.verlet_skin > 0 ? scene.run.verlet_skin : usual_skin(d50, smallest);
 }
 
-/// Bonds first and consolidates then, or the other way round (`bond.after_consolidation`).
-void BiaxialTest::State::bond_and_consolidate(Specimen specimen, ProgressCallback const& progress) {
-  bool const bond = has_bonds(scene) && specimen.critical_thickness == 0;
-  double const made_under = specimen.stress;
-  if (bond && !scene.bond.after_consolidation) {
-    // Bonds reach across ranks: discs must first be where they belong.
-    specimen = by_place(ranks, std::move(specimen));
-    bond_specimen(scene, specimen, preparation, ranks);
-  }
-  auto const start_simulation = [&] {
-    SimulationLaws laws = test_laws(scene, specimen.d50, specimen.critical_thickness);
-    laws.scaling = mass_scaling(specimen.radius);
-    double const skin = this->skin(specimen.radius);
-    simulation = std::make_unique<Simulation>(std::exchange(specimen, {}), laws, skin, ranks);
-    simulation->keep_breaks(scene.output.events || scene.output.takes_snapshots() ? BreakRecord::events : BreakRecord::counts);
-  };
-  start_simulation();
-  preparation["void_ratio_before_consolidation"] = simulation->assembly().void_ratio();
-  consolidate(consolidation_stage, progress);
-  if (bond && scene.bond.after_consolidation) {
-    count_disc_steps();
-    specimen = simulation->specimen();
-    simulation.reset();
-    bond_specimen(scene, specimen, preparation, ranks);
-    start_simulation();
-    double const before = simulation->assembly().void_ratio();
-    consolidate(hydrate_consolidation_stage, progress);
-    if (before - simulation->assembly().void_ratio() > 0.003 && !scene.run.ignore_guards) {
-      throw Refused("bonding after consolidation with this bond.contact_coupling lets the void ratio drop from " +
-                    std::to_string(before) + " to " + std::to_string(simulation->assembly().void_ratio()) +
-                    ": bond at low stress, or use \"parallel\" or \"replaces_keeping_force\"");
-    }
-  }
-  preparation["void_ratio_after_consolidation"] = simulation->assembly().void_ratio();
-  warn_of_density(preparation.at("void_ratio_before_consolidation"), made_under);
-  Measures const m = simulation->assembly().measures();
-  require_grains(m.touching > 0 ? m.deep / m.touching : 0);
-}
-
 std::string BiaxialTest::State::text_of_scaling() const {
   char text[160];
   std::snprintf(text, sizeof text, "masses are scaled: %.3g %% of the mass of all grains added, moments of inertia times %g",
@@ -109,9 +68,11 @@ MassScaling BiaxialTest::State::mass_scaling(std::vector<double> const& radii) c
   return scaling;
 }
 
-BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback const& progress, Ranks const& ranks)
-    : state_(std::make_unique<State>()) {
-  State& t = *state_;
+BiaxialTest::BiaxialTest() : state_(std::make_unique<State>()) {}
+
+BiaxialTest BiaxialTest::to_consolidate(Scene const& scene, Specimen specimen, Ranks const& ranks) {
+  BiaxialTest test;
+  State& t = *test.state_;
   t.scene = scene;
   t.stages = stages_of(scene);
   t.ranks = ranks;
@@ -119,9 +80,19 @@ BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback
   t.d50 = specimen.d50;
   for (LoadingStage const& stage : t.stages)  // before the work
     (void)check_rate(scene, rate_numbers(scene, stage, t.d50, specimen.height(), specimen.void_ratio));
-  with_snapshot_of_divergence(t.simulation, t.d50, [&] { t.bond_and_consolidate(std::move(specimen), progress); });
-  t.begin_loading();
-  if (scene.output.energy) t.start = energy();
+  with_snapshot_of_divergence(t.simulation, t.d50, [&] { t.prepare(std::move(specimen)); });
+  return test;
+}
+
+BiaxialTest::BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback const& progress, Ranks const& ranks)
+    : BiaxialTest(to_consolidate(scene, std::move(specimen), ranks)) {
+  constexpr std::int64_t steps_between_reports = 2000;
+  std::vector<HistoryRow>& rows = state_->consolidation_rows;
+  rows.push_back(record());
+  while (consolidates()) {
+    if (advance(steps_between_reports) && consolidates()) rows.push_back(record());
+    if (consolidates()) report(progress, consolidation_progress());
+  }
 }
 
 BiaxialTest::BiaxialTest(BiaxialTest&& other) noexcept = default;
@@ -129,7 +100,9 @@ BiaxialTest::~BiaxialTest() = default;
 
 StageRecord const& BiaxialTest::preparation() const { return state_->preparation; }
 std::vector<std::string> const& BiaxialTest::warnings() const { return state_->warnings; }
-std::vector<HistoryRow> const& BiaxialTest::consolidation() const { return state_->consolidation; }
+std::vector<HistoryRow> const& BiaxialTest::consolidation() const { return state_->consolidation_rows; }
+bool BiaxialTest::consolidates() const { return !state_->consolidation.over; }
+Progress BiaxialTest::consolidation_progress() const { return state_->consolidation_progress(); }
 bool BiaxialTest::finished() const { return state_->place.over && state_->is_last(); }
 double BiaxialTest::axial_strain() const { return state_->eps1(); }
 double BiaxialTest::path() const { return state_->path(); }
@@ -140,6 +113,7 @@ std::int64_t BiaxialTest::disc_steps() const {
   return state_->disc_steps + state_->simulation->assembly().steps() * state_->simulation->assembly().discs();
 }
 std::int64_t BiaxialTest::loading_disc_steps() const {
+  if (consolidates()) return 0;
   return (state_->simulation->assembly().steps() - state_->first_step) * state_->simulation->assembly().discs();
 }
 double BiaxialTest::search_seconds() const { return state_->simulation->assembly().upkeep.seconds(); }
@@ -152,7 +126,9 @@ Specimen BiaxialTest::specimen() const {
 }
 
 bool BiaxialTest::advance(std::int64_t most_steps, double pause_at) {
-  return with_snapshot_of_divergence(state_->simulation, state_->d50, [&] { return state_->advance(most_steps, pause_at); });
+  return with_snapshot_of_divergence(state_->simulation, state_->d50, [&] {
+    return consolidates() ? state_->consolidate(most_steps) : state_->advance(most_steps, pause_at);
+  });
 }
 
 Measures const& BiaxialTest::State::measures() {

@@ -31,16 +31,20 @@ struct StageResult {
 /// bonds).
 class BiaxialTest {
  public:
-  /// Bonds and consolidates. @throws Refused, Diverged, Stopped
+  /// At the beginning of its consolidation. @throws Refused
   /// @param specimen  this rank's share of it, whichever. All calls are collective.
+  static BiaxialTest to_consolidate(Scene const& scene, Specimen specimen, Ranks const& ranks = {});
+  /// After its consolidation. @throws Refused, Diverged, Stopped
   BiaxialTest(Scene const& scene, Specimen specimen, ProgressCallback const& progress, Ranks const& ranks = {});
   BiaxialTest(BiaxialTest&& other) noexcept;
   ~BiaxialTest();
 
   StageRecord const& preparation() const;  ///< numbers of bonding and consolidation, time step and its margin
   std::vector<std::string> const& warnings() const;
-  /// Rows of the consolidation: one wherever the mean stress has changed by a hundredth of the confining stress, and
-  /// both ends. None of a test that goes on from a state.
+  bool consolidates() const;                ///< the loading has not begun
+  Progress consolidation_progress() const;  ///< while it consolidates
+  /// Rows of the consolidation of a test that was constructed after it: one wherever the mean stress has changed by a hundredth
+  /// of the confining stress, and both ends.
   std::vector<HistoryRow> const& consolidation() const;
 
   /// Goes on from a state, on any number of ranks, with the bits of the test that gave it.
@@ -48,7 +52,7 @@ class BiaxialTest {
   TestState state() const;
 
   bool finished() const;
-  LoadingStage const& stage() const;  ///< that it is in
+  LoadingStage const& stage() const;  ///< of the loading, that it is in
   /// Makes at most so many steps towards the next history row; a stage has one at its beginning and one at its end.
   /// @param pause_at  path() at which it returns before
   /// @return whether the row is due;  @throws Diverged; Refused where a stage cannot come to its end
@@ -57,7 +61,7 @@ class BiaxialTest {
   EnergyRow energy();           ///< only with scene.output.energy
   BreakEvents take_events();    ///< broken bonds since the last call (none without output.events and snapshots), sorted
                                 ///< by (step, id_a, id_b); on rank 0 only
-  double axial_strain() const;  ///< eps_1 since the consolidation
+  double axial_strain() const;  ///< eps_1 since the consolidation; of that, while it consolidates
   double path() const;          ///< of the axial strain, to and fro: it always grows
   double path_of_last_record() const;
   double fraction() const;  ///< of the stages that is done, as far as can be told
@@ -75,6 +79,7 @@ class BiaxialTest {
   StageRecord plan() const;   ///< steps, dt, strain rate, I, W, wall time guess inputs
 
  private:
+  BiaxialTest();
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "domain/biaxial/biaxial_state.hpp"
+#include "domain/generation/bonding.hpp"
 #include "domain/generation/equilibration.hpp"
 #include "domain/scene/hydrate.hpp"
 #include "domain/scene/phase_boundary.hpp"
@@ -90,15 +91,36 @@ void BiaxialTest::State::change_hydrate(HydrateState const& next) {
   if (next == hydrate) return;
   hydrate = next;
   if (simulation->assembly().laws.contact.bond_kind == BondKind::none) return;
-  auto const stored = [&] {
-    Measures const m = simulation->assembly().measures();
-    DissipationTotals const lost = simulation->assembly().losses();
-    return m.grain_energy + m.bond_energy + lost.sliding + lost.rolling + lost.dashpot + lost.damping + lost.breakage;
-  };
-  double const before = scene.output.energy ? stored() : 0;
+  double const before = accounted_energy();
   simulation->change_hydrate(bond_law_of(next));
-  if (scene.output.energy) dissolved += before - stored();
+  dissolved += before - accounted_energy();
   measured_after = -1;
+}
+
+/// Elastic and lost, of contacts and bonds, where there is a ledger [J/m].
+double BiaxialTest::State::accounted_energy() {
+  if (!simulation->assembly().laws.contact.ledger) return 0;
+  Measures const m = simulation->assembly().measures();
+  DissipationTotals const lost = simulation->assembly().losses();
+  return m.grain_energy + m.bond_energy + lost.sliding + lost.rolling + lost.dashpot + lost.damping + lost.breakage;
+}
+
+/// Bonds form where discs are, stress-free; what a coupling lets a bond take over from its contact goes through the same account
+/// as what it leaves.
+void BiaxialTest::State::form_hydrate() {
+  Specimen specimen = simulation->specimen();
+  bond_specimen(scene, specimen, preparation, ranks);
+  hydrate.saturation = scene.hydrate.saturation;
+  if (!(specimen.critical_thickness > 0)) return;
+  SimulationLaws const bonded = test_laws(scene, d50, specimen.critical_thickness);
+  SimulationLaws laws = simulation->assembly().laws;
+  laws.contact.bond_kind = bonded.contact.bond_kind;
+  laws.contact.bond = bonded.contact.bond;
+  double const before = accounted_energy();
+  simulation->form_bonds(specimen, laws);
+  dissolved += before - accounted_energy();
+  measured_after = -1;
+  bonds0 = std::llround(measures().bonded);
 }
 
 }  // namespace clathra

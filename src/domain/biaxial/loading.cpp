@@ -39,8 +39,7 @@ void BiaxialTest::State::begin_loading() {
   preparation["time_step_limit_s"] = s.assembly().stable_limit();
   preparation["added_mass_share"] = s.assembly().facts.added_mass;
   count_from_here(stages.front().name.c_str());
-  preparation["quasi_static"] = at_rest ? 1 : 0;
-  hydrate = {scene.hydrate.temperature, scene.hydrate.pore_pressure, scene.hydrate.saturation};
+  preparation["quasi_static"] = preparation.at("at_rest");
   begin_stage(0);
   if (scene.run.scales_masses_further()) warnings.push_back(text_of_scaling());
   if (scene.output.energy) s.set_ledger(true);
@@ -58,10 +57,12 @@ void BiaxialTest::State::begin_loading() {
   preparation["bytes_per_particle"] = static_cast<double>(ranks.sum(static_cast<std::int64_t>(s.bytes()))) / s.assembly().discs();
   preparation["strain_rate_per_s"] = rate.strain_rate;
   if (rate.share < 1) preparation["rate_share"] = rate.share;
+  if (scene.output.energy) start = energy();
 }
 
 /// Platens, discs and servo are set in motion together, so that a stage starts without a wave.
 void BiaxialTest::State::begin_stage(std::int64_t index) {
+  if (stages[static_cast<std::size_t>(index)].forms_hydrate) form_hydrate();
   Assembly const& a = simulation->assembly();
   StrainRates const present = index > 0 ? present_rates() : StrainRates{};
   StagePlace next;

@@ -297,12 +297,14 @@ StageResult BiaxialTest::State::result(std::string const& ended_by) const {
 
 std::vector<StageResult> BiaxialTest::stage_results() const {
   std::vector<StageResult> all = state_->done;
+  if (consolidates()) return all;
   if (!state_->place.over) all.push_back(state_->result(""));
   return all;
 }
 
 /// As far as can be told: of the end that is nearest.
 double BiaxialTest::State::fraction() const {
+  if (!consolidation.over) return 0;
   if (place.over && is_last()) return 1;
   StageEnd const& end = now().until;
   TestValues const v = values(), &first = place.start;

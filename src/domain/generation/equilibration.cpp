@@ -10,8 +10,6 @@ namespace clathra {
 
 namespace {
 
-constexpr int chunk = 200;  // steps between checks of the assembly
-
 /// Of the servo's integral time and the transit time of a compression wave. Records of a specimen of 20,000 discs with 55 %
 /// hydrate at the usual rate to 6 % strain whose sigma_3 is right to 1 %: 99.3 % with this and the gain of ServoLaw, 96.9 % with
 /// twice this, 73.8 % with a quarter of the transit and half the gain. A fifth of it holds a specimen of 2,000 discs still.
@@ -34,28 +32,37 @@ Strains strains_towards(Simulation const& simulation, WallStress const& inside, 
   return {mean + difference, mean - difference};
 }
 
-/// Steps in chunks until there is no unrest() in three checks on end, and no deviator at the last of them. @param advance  makes
-/// so many steps
+/// @param advance  makes so many steps
 template <class Advance>
 bool step_to_rest(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
                   ProgressCallback const& progress, char const* stage, Advance const& advance) {
   std::int64_t const first = simulation.assembly().steps();
-  int checks_at_rest = 0;
-  bool rests = false;
-  while (simulation.assembly().steps() - first < most_steps && !rests) {
-    advance(std::min<std::int64_t>(chunk, first + most_steps - simulation.assembly().steps()));
-    Measures const m = simulation.assembly().measures();
-    checks_at_rest = unrest(simulation, m, stress, {rest.unbalanced}).empty() ? checks_at_rest + 1 : 0;
-    rests = checks_at_rest >= 3 && unrest(simulation, m, stress, rest).empty();
+  RestWatch watch{first};
+  while (simulation.assembly().steps() - first < most_steps && !watch.rests) {
+    advance(std::min(watch.steps_to_look(simulation), first + most_steps - simulation.assembly().steps()));
+    watch.look(simulation, simulation.assembly().measures(), stress, rest);
     report(progress, {stage, static_cast<double>(simulation.assembly().steps() - first) / static_cast<double>(most_steps),
-                      "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " +
-                          percent_text(simulation.assembly().void_ratio(), 4),
-                      simulation.assembly().steps() * simulation.assembly().discs()});
+                      RestWatch::text(simulation), simulation.assembly().steps() * simulation.assembly().discs()});
   }
-  return rests;
+  return watch.rests;
 }
 
 }  // namespace
+
+std::int64_t RestWatch::steps_to_look(Simulation const& simulation) const {
+  constexpr std::int64_t steps_between_looks = 200;
+  return steps_between_looks - (simulation.assembly().steps() - first_step) % steps_between_looks;
+}
+
+void RestWatch::look(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest) {
+  looks_at_rest = unrest(simulation, m, stress, {rest.unbalanced}).empty() ? looks_at_rest + 1 : 0;
+  rests = looks_at_rest >= 3 && unrest(simulation, m, stress, rest).empty();
+}
+
+std::string RestWatch::text(Simulation const& simulation) {
+  return "stress " + percent_text(mean_stress(simulation) / 1e3, 1) + " kPa, e " +
+         percent_text(simulation.assembly().void_ratio(), 4);
+}
 
 WallStress stress_inside(Simulation const& simulation) {
   Measures const m = simulation.assembly().measures();

@@ -62,8 +62,27 @@ inline std::string unrest(Simulation const& simulation, Measures const& m, doubl
   return unrest(simulation, m, WallStress{stress, stress}, rest);
 }
 
-/// Steps with walls steered to an isotropic stress until there is no unrest() in three checks on end, and no deviator at the
-/// last.
+/// Looks every now and then whether an assembly rests under an isotropic stress: without unrest() in three looks on end, and
+/// without a deviator at the last.
+struct RestWatch {
+  std::int64_t first_step = 0;  ///< that of the assembly when it began
+  std::int64_t looks_at_rest = 0;
+  bool rests = false;
+
+  std::int64_t steps_to_look(Simulation const& simulation) const;
+  void look(Simulation const& simulation, Measures const& m, double stress, RestCriterion const& rest);
+  /// Mean stress and void ratio, for those who wait.
+  static std::string text(Simulation const& simulation);
+
+  template <class Visit>
+  void for_each_number(Visit&& visit) {
+    visit("rest_first_step", first_step);
+    visit("rest_looks", looks_at_rest);
+    visit("rest_rests", rests);
+  }
+};
+
+/// Steps with walls steered to an isotropic stress until it rests (RestWatch).
 /// @return false if that took more than `most_steps`
 bool hold_stress(Simulation& simulation, double stress, RestCriterion const& rest, std::int64_t most_steps,
                  ProgressCallback const& progress, char const* stage);

@@ -149,6 +149,10 @@ std::vector<LoadingStage> stages_of(Scene const& scene) {
   return {};
 }
 
+bool forms_hydrate(std::vector<LoadingStage> const& stages) {
+  return std::any_of(stages.begin(), stages.end(), [](LoadingStage const& stage) { return stage.forms_hydrate; });
+}
+
 bool changes_hydrate(std::vector<LoadingStage> const& stages) {
   return std::any_of(stages.begin(), stages.end(), [](LoadingStage const& stage) { return stage.hydrate.any(); });
 }

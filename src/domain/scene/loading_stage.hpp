@@ -123,6 +123,7 @@ struct LoadingStage {
   SideScene vertical, lateral;
   int increments = 1;            ///< in which stresses are put on, with rest after each but the last; of hydrate, at least
   bool allow_unsettled = false;  ///< go on where the specimen does not come to rest
+  bool forms_hydrate = false;    ///< at its beginning, under the stresses that then act, and not in the consolidation
   HydrateChange hydrate;
   StageTurn turn;
   StageEnd until;
@@ -135,6 +136,8 @@ struct LoadingStage {
   bool has_stress_only() const { return !vertical.has_rate() && !lateral.has_rate(); }
 };
 
+/// Whether hydrate forms in one of them, and not in the consolidation.
+bool forms_hydrate(std::vector<LoadingStage> const& stages);
 /// Whether any of them changes the hydrate.
 bool changes_hydrate(std::vector<LoadingStage> const& stages);
 

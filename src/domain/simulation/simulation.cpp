@@ -85,6 +85,14 @@ void Simulation::set_laws(SimulationLaws const& laws) {
   time_steps_.after_laws(a.laws);
 }
 
+void Simulation::form_bonds(Specimen const& bonded, SimulationLaws const& laws) {
+  set_laws(laws);
+  take_bonds(assembly_, bonded);
+  time_steps_.after_search();
+  time_steps_.ask();
+  evaluate_forces();
+}
+
 void Simulation::change_hydrate(BondLaw const& next) {
   Assembly& a = assembly_;
   if (!a.rows.features.bonds) throw std::invalid_argument("there are no bonds whose hydrate could change");

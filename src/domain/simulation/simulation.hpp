@@ -48,6 +48,8 @@ class Simulation {
   Loading& loading() { return assembly_.now.walls.loading; }
   /// History that both laws need is kept.
   void set_laws(SimulationLaws const& laws);
+  /// Bonds form in the present state. @param bonded  specimen(), with bonds;  @param laws  with those of the bonds
+  void form_bonds(Specimen const& bonded, SimulationLaws const& laws);
   /// Bonds as their hydrate becomes between steps: narrower, of another strength, or gone (kernels/hydrate_change.hpp). Forces
   /// are those of the new state afterwards.
   void change_hydrate(BondLaw const& next);

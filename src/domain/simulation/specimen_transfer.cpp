@@ -220,6 +220,17 @@ void restore_history(Assembly& a, Specimen const& s) {
   a.make_room_for_breaks();
 }
 
+/// The rows, with the history of the specimen's contacts. @param also  what goes with the discs (search_neighbours())
+void restore_pairs(Assembly& a, Specimen const& s, bool skin_by_speed, AuxiliaryFields const& also) {
+  // The search must reach the widest bond; the skin is its own again afterwards.
+  Real const skin = a.upkeep.skin();
+  a.upkeep.set_skin(std::max(skin, widest_gap(a.ranks(), s, a.discs()) * (1 + 1e-9)));
+  search_neighbours(a, rebuild_inputs_of_all(a), skin_by_speed, also);
+  a.upkeep.set_skin(skin);
+  a.upkeep.ask();
+  restore_history(a, s);
+}
+
 /// The pairs with history, sorted by (id_a, id_b).
 std::vector<SpecimenContact> contacts_by_id(Assembly const& a) {
   ContactRows const& rows = a.rows;
@@ -251,13 +262,12 @@ void take_over(Assembly& a, Specimen const& s) {
   a.set_sums();
   a.rows.features = a.laws.features_of_rows();
   a.ghosts.set_decomposition(Decomposition::bisect(ranks, a.particles, 1));
-  // The first search must reach the widest bond; the skin is its own again afterwards.
-  Real const skin = a.upkeep.skin();
-  a.upkeep.set_skin(std::max(skin, widest_gap(ranks, s, total) * (1 + 1e-9)));
-  search_neighbours(a, rebuild_inputs_of_all(a), /*skin_by_speed=*/false);
-  a.upkeep.set_skin(skin);
-  a.upkeep.ask();
-  restore_history(a, s);
+  restore_pairs(a, s, /*skin_by_speed=*/false, {});
+}
+
+void take_bonds(Assembly& a, Specimen const& s) {
+  a.facts.critical_thickness = s.critical_thickness;
+  restore_pairs(a, s, /*skin_by_speed=*/true, force_fields(a));
 }
 
 Specimen specimen_of(Assembly const& a) {

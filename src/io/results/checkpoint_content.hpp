@@ -10,7 +10,7 @@
 namespace clathra {
 
 /// Only this one is read.
-inline constexpr std::int64_t checkpoint_version = 8;
+inline constexpr std::int64_t checkpoint_version = 9;
 
 /// @throws FileProblem cannot_create or io_error
 void write_checkpoint_content(std::filesystem::path const& path, Scene const& scene, TestState const& state, Ranks const& ranks);

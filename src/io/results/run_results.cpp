@@ -177,7 +177,7 @@ bool RunResults::has_peak() const {
 
 bool RunResults::has_bonds() const {
   for (char const* const column : {"bonds_intact", "bonds_intact_pct"})
-    if (history.has(column)) return history[column].front() > 0;
+    if (history.has(column)) return *std::max_element(history[column].begin(), history[column].end()) > 0;
   return number("/stages/prepare/bonds").value_or(number("/scene/hydrate/saturation").value_or(0)) > 0;
 }
 

@@ -217,6 +217,16 @@ void check_hydrate(Check& check, std::optional<SpecimenDesign> const& design) {
   if (design) check_strength(check, *design);
 }
 
+/// What a stage wants in which hydrate forms.
+void check_formation(Check& check) {
+  if (!forms_hydrate(stages_of(check.scene))) return;
+  if (!has_bonds(check.scene))
+    return check.error({"hydrate.saturation", "bond.law"}, "hydrate is to form in a stage, and the scene has none");
+  if (!check.scene.bond.after_consolidation)
+    check.error({"bond.after_consolidation"},
+                "'bond.after_consolidation' = false lets hydrate form before the consolidation, 'forms_hydrate' in a stage");
+}
+
 /// What stages want of hydrate that changes.
 void check_hydrate_of_stages(Check& check) {
   Scene const& scene = check.scene;
@@ -312,6 +322,7 @@ SceneFindings check_scene(Scene const& scene, std::function<bool(std::string_vie
   std::optional<SpecimenDesign> const design = check_design(check);
   check_loading(check);
   check_hydrate(check, design);
+  check_formation(check);
   check_hydrate_of_stages(check);
   check_bonding(check);
   check_output(check);

@@ -54,6 +54,7 @@ Key const table[] = {
   {"lateral.fluid_modulus", quantity, of_part<&Stage::lateral, &SideScene::fluid_modulus>, "bulk modulus of the fluid that keeps the volume which left and right follow", pressure, 1e5, 1e12, "the fluid does not give way"},
   {"increments", integer, of_stage<&Stage::increments>, "increments, by equal factors, in which stresses are put on, with rest after each", ratio, 1, 1e4},
   {"allow_unsettled", boolean, of_stage<&Stage::allow_unsettled>, "go on where the specimen does not come to rest within test.consolidation_steps"},
+  {"forms_hydrate", boolean, of_stage<&Stage::forms_hydrate>, "hydrate forms when the stage begins, under the stresses that then act, and not in the consolidation"},
   {"hydrate.temperature", quantity, of_part<&Stage::hydrate, &HydrateChange::temperature>, "temperature of the hydrate by the end of the stage, in a straight line over its increments", temperature, -100, 100, stays},
   {"hydrate.pore_pressure", quantity, of_part<&Stage::hydrate, &HydrateChange::pore_pressure>, "pore pressure likewise", pressure, 1e3, 1e9, stays},
   {"hydrate.saturation", quantity, of_part<&Stage::hydrate, &HydrateChange::saturation>, "saturation likewise; hydrate does not form again", ratio, 0, 1, stays},
@@ -220,6 +221,7 @@ LoadingStage stage_of_texts(std::vector<std::pair<std::string, std::string>> con
 
 std::vector<StageProblem> stage_problems(std::vector<LoadingStage> const& stages) {
   std::vector<StageProblem> problems;
+  std::size_t formed_in = stages.size();
   for (std::size_t i = 0; i < stages.size(); ++i) {
     LoadingStage const& stage = stages[i];
     auto const say = [&](std::string text) {
@@ -237,7 +239,13 @@ std::vector<StageProblem> stage_problems(std::vector<LoadingStage> const& stages
     check_sides(stage, say);
     check_ends(stage, say);
     check_hydrate_of_stage(stage, say);
+    if (stage.forms_hydrate && formed_in < i) say(fmt::format("hydrate forms in stage {} already", formed_in + 1));
+    if (stage.forms_hydrate) formed_in = std::min(formed_in, i);
   }
+  for (std::size_t i = 0; i < formed_in && formed_in < stages.size(); ++i)
+    if (stages[i].hydrate.any())
+      problems.push_back({i, fmt::format("stage {} ('{}'): 'hydrate' changes before it forms in stage {}", i + 1,
+                                         stages[i].name.substr(0, 60), formed_in + 1)});
   return problems;
 }
 
