@@ -39,7 +39,7 @@ Piece part(std::string const& heading, Piece contents) {
 Piece everything_but_pictures(std::vector<RunResults> const& runs, LaboratoryOverlay& data) {
   ShownRuns const shown = shown_runs(runs, data);
   Piece text = part("Summary", summary_table(runs)) + part("Stages", stage_tables(runs)) +
-               part("Hydrate", side_by_side(hydrate_figures(shown) + failure_figure(shown, strength_of_sand(runs)))) +
+               part("Hydrate", hydrate_part(shown, strength_of_sand(runs))) +
                part("Loading", side_by_side(loading_figures(shown))) + part("Curves", side_by_side(curve_figures(shown)));
   if (Piece strength = strength_figures(runs); !strength.empty()) text += part("Strength", side_by_side(std::move(strength)));
   if (Piece energy = energy_figures(runs); !energy.empty()) text += part("Energy", side_by_side(std::move(energy)));

@@ -80,29 +80,12 @@ void add_outcome(std::vector<Outcome>& outcomes, std::string const& name, RunRes
   at->stood_to.push_back(least);
 }
 
-std::string table_of(std::vector<Outcome> const& outcomes, std::optional<SandStrength> const& sand) {
-  std::vector<std::vector<std::string>> rows;
-  auto const stress = [](std::vector<double> const& values) { return values.empty() ? "–" : with_interval(values, mega); };
-  for (Outcome const& o : outcomes) {
-    std::vector<double> predicted;
-    if (sand)
-      for (double const load : o.loads) predicted.push_back(sand->lateral_stress(load));
-    rows.push_back({o.name, stress(o.loads), stress(predicted), fmt::format("{} of {}", o.failed_at.size(), o.loads.size()),
-                    stress(o.failed_at), stress(o.stood_to)});
-  }
-  return table({"test", "q borne [MPa]", "σ₃ at which the sand bears no more [MPa]", "failed", "σ₃ where it failed [MPa]",
-                "least σ₃ of those that stood [MPa]"},
-               rows);
-}
-
-/// Where runs failed, as points.
-Curve failures_of(std::vector<RunResults> const& runs) {
-  Curve failures{"failed here", {}, {}, {colours::vermilion, "1 1000", 4}, true};
+/// Where runs failed: a curve of one point each.
+std::vector<Curve> failures_of(std::vector<RunResults> const& runs) {
+  std::vector<Curve> failures;
   for (RunResults const& run : runs)
-    if (auto const failure = rows_where_hydrate_changes(run).size() < 2 ? std::nullopt : failure_of(run)) {
-      failures.x.push_back(failure->first);
-      failures.y.push_back(failure->second);
-    }
+    if (auto const failure = rows_where_hydrate_changes(run).size() < 2 ? std::nullopt : failure_of(run))
+      failures.push_back({"failed here", {failure->first}, {failure->second}, {colours::vermilion, "2 3", 4}, true});
   return failures;
 }
 
@@ -119,7 +102,6 @@ Curve line_of(SandStrength const& sand, double most) {
 Piece failure_figure(ShownRuns const& shown, std::optional<SandStrength> const& sand) {
   Plot plot;
   Range means, deviators;
-  std::vector<Outcome> outcomes;
   for (std::size_t r = 0; r < shown.runs.size(); ++r) {
     RunResults const& run = shown.runs[r];
     std::vector<std::size_t> const rows = rows_where_hydrate_changes(run);
@@ -129,11 +111,10 @@ Piece failure_figure(ShownRuns const& shown, std::optional<SandStrength> const& 
       curve.x.push_back(run.history["p_Pa"][i]);
       curve.y.push_back(run.history["q_Pa"][i]);
     }
-    add_outcome(outcomes, curve.name, run, rows);
     plot.curves.push_back(std::move(curve));
   }
   if (plot.curves.empty()) return "";
-  if (Curve failures = failures_of(shown.runs); !failures.x.empty()) plot.curves.push_back(std::move(failures));
+  for (Curve& failure : failures_of(shown.runs)) plot.curves.push_back(std::move(failure));
   for (Curve const& curve : plot.curves) means.include(curve.x), deviators.include(curve.y);
   Variable const mean{"mean stress p [MPa]", "p_Pa", mega}, deviator{"deviator stress q [MPa]", "q_Pa", mega};
   if (sand) {
@@ -143,8 +124,9 @@ Piece failure_figure(ShownRuns const& shown, std::optional<SandStrength> const& 
   plot.title = "Stress paths while hydrate changes, and the strength of the sand";
   plot.x = means.axis(mean);
   plot.y = deviators.axis(deviator);
-  for (Outcome const& o : outcomes)
-    plot.description += fmt::format("{}: {} of {} failed. ", o.name, o.failed_at.size(), o.loads.size());
+  for (Curve const& curve : plot.curves)
+    plot.description += fmt::format("{}: from p {:.3g}, q {:.3g} MPa to {:.3g}, {:.3g} MPa. ", curve.name, curve.x.front() * mega,
+                                    curve.y.front() * mega, curve.x.back() * mega, curve.y.back() * mega);
   std::string const of_sand =
       sand ? fmt::format(
                  "Sand without hydrate bears q = 2 c cos φ + 2 p sin φ, with c = {:.3g} MPa and φ = {:.3g}° of the peaks on "
@@ -154,8 +136,37 @@ Piece failure_figure(ShownRuns const& shown, std::optional<SandStrength> const& 
                  "What the sand alone bears is drawn where clean sand stands on this page that was sheared at two lateral "
                  "stresses or more. ");
   return figure("Where specimens fail", drawing(plot) + legend(plot.curves),
-                of_sand + "A path that leaves the strength of its bonds behind fails where it meets that of the sand.") +
-         table_of(outcomes, sand);
+                of_sand + "A path that leaves the strength of its bonds behind fails where it meets that of the sand.");
+}
+
+Piece failure_table(ShownRuns const& shown, std::optional<SandStrength> const& sand) {
+  std::vector<Outcome> outcomes;
+  for (std::size_t r = 0; r < shown.runs.size(); ++r)
+    if (std::vector<std::size_t> const rows = rows_where_hydrate_changes(shown.runs[r]); rows.size() >= 2)
+      add_outcome(outcomes, shown.style(r).name, shown.runs[r], rows);
+  if (outcomes.empty()) return "";
+  auto const stress = [](std::vector<double> const& values) {
+    return values.empty()      ? std::string("–")
+           : values.size() > 1 ? with_interval(values, mega)
+                               : fmt::format("{:.3g}", values.front() * mega);
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (Outcome const& o : outcomes) {
+    std::vector<double> predicted;
+    if (sand)
+      for (double const load : o.loads) predicted.push_back(sand->lateral_stress(load));
+    rows.push_back({o.name, stress(o.loads), stress(predicted), fmt::format("{} of {}", o.failed_at.size(), o.loads.size()),
+                    stress(o.failed_at), stress(o.stood_to)});
+  }
+  return "<p class=\"soft\">Stresses in MPa: the load, the lateral stress at which the sand alone bears it no more, and what "
+         "became of "
+         "the specimens.</p>\n" +
+         table({"test", "q", "σ₃ of the sand", "failed", "at σ₃", "least σ₃ of those that stood"}, rows);
+}
+
+Piece hydrate_part(ShownRuns const& shown, std::optional<SandStrength> const& sand) {
+  Piece figures = hydrate_figures(shown) + failure_figure(shown, sand);
+  return figures.empty() ? "" : side_by_side(std::move(figures)) + failure_table(shown, sand);
 }
 
 }  // namespace clathra

@@ -21,9 +21,14 @@ struct SandStrength {
 std::optional<SandStrength> strength_of_sand(std::vector<RunResults> const& runs);
 std::optional<SandStrength> strength_of_sand(std::vector<GroupNumbers> const& materials);
 
-/// The paths q over p of runs whose hydrate changes, where they failed, and the strength of the sand where it is known; below
-/// them the lateral stress at which it bears the load no more beside that at which each run failed. Empty where no hydrate
-/// changes.
+/// The paths q over p of runs whose hydrate changes, where they failed, and the strength of the sand where it is known. Empty
+/// where no hydrate changes.
 Piece failure_figure(ShownRuns const& shown, std::optional<SandStrength> const& sand);
+/// For the runs of each name the lateral stress at which the sand bears their load no more beside that at which they failed.
+/// Empty likewise.
+Piece failure_table(ShownRuns const& shown, std::optional<SandStrength> const& sand);
+
+/// All that a page shows of hydrate that changes.
+Piece hydrate_part(ShownRuns const& shown, std::optional<SandStrength> const& sand);
 
 }  // namespace clathra

@@ -251,11 +251,11 @@ Piece loading_part(std::vector<GroupCurves> const& groups, std::optional<SandStr
       styles.push_back({group.name, {}, {}, {group.stroke.colour, group.stroke.dash, 1.2}});
     }
   ShownRuns const shown{runs, points, [&](std::size_t i) { return styles[i]; }};
-  Piece figures = hydrate_figures(shown) + failure_figure(shown, sand) + loading_figures(shown);
-  if (figures.empty()) return "";
+  Piece figures = loading_figures(shown), of_hydrate = hydrate_part(shown, sand);
+  if (figures.empty() && of_hydrate.empty()) return "";
   return fmt::format("<h2>Loading</h2>\n<p class=\"soft\">A line for each seed, in the colour of its group.{}</p>\n",
                      left_out > 0 ? fmt::format(" {} members more are not drawn.", left_out) : "") +
-         side_by_side(std::move(figures));
+         std::move(of_hydrate) + side_by_side(std::move(figures));
 }
 
 std::vector<Column> result_columns() {
