@@ -59,6 +59,8 @@ std::vector<KeyTest> const key_tests = {
     {"hydrate.density", "850", moves},
     {"hydrate.salinity", "20", leaves},
     {"hydrate.spread_of_loss", "10 %", moves, "test.kind=heating;test.increments=2;test.final_saturation=25 %"},
+    {"hydrate.loss", "recession", moves, "test.kind=heating;test.increments=2;test.final_saturation=25 %"},
+    {"hydrate.loss_exponent", "2", moves, "hydrate.loss=uniform;test.kind=heating;test.increments=2;test.final_saturation=25 %"},
     {"bond.preset", "long_lever", moves},
     {"bond.law", "constant_thickness", moves},
     {"bond.contact_coupling", "replaces", moves},

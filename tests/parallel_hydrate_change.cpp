@@ -25,9 +25,15 @@ LoadingStage warming(double deviator, double temperature = 14, double saturation
 }
 
 TEST(HydrateStages, LoseTheirBondsIncrementByIncrementAndKeepTheLedger) {
-  for (ContactCoupling const coupling :
-       {ContactCoupling::parallel, ContactCoupling::replaces, ContactCoupling::replaces_keeping_force}) {
+  using enum ContactCoupling;
+  using enum HydrateLoss;
+  for (auto const& [coupling, loss] : {std::pair{parallel, critical_thickness},
+                                       {replaces, critical_thickness},
+                                       {replaces_keeping_force, critical_thickness},
+                                       {parallel, recession},
+                                       {parallel, uniform}}) {
     Scene scene = hydrate_sand({warming(0.3e6)});
+    scene.hydrate.loss = loss;
     scene.bond.contact_coupling = coupling;
     scene.bond.after_consolidation = coupling != ContactCoupling::replaces;
     scene.output.energy = true;
@@ -57,8 +63,12 @@ TEST(HydrateStages, LoseTheirBondsIncrementByIncrementAndKeepTheLedger) {
 
 TEST(HydrateStages, DoNotKnowThePaceOfTheirCallerNorRestarts) {
   Scene scene = hydrate_sand({warming(0.3e6)});
-  for (Precision const precision : {Precision::full, Precision::mixed}) {
+  for (auto const& [precision, loss] : {std::pair{Precision::full, HydrateLoss::critical_thickness},
+                                        {Precision::mixed, HydrateLoss::critical_thickness},
+                                        {Precision::mixed, HydrateLoss::recession},
+                                        {Precision::full, HydrateLoss::uniform}}) {
     scene.run.precision = precision;
+    scene.hydrate.loss = loss;
     StageRun const whole = run_stages(scene);
     for (StageRun const& other : {run_stages(scene, 37), run_stages(scene, 700, 1)}) {
       ASSERT_EQ(other.rows.size(), whole.rows.size());

@@ -31,21 +31,25 @@ struct BondLawOf {
   R preload_stiffness = 0;           ///< `memory`: k_n, which keeps the force of a contact that was loaded when the bond formed
   R least_shape_of_shear = R(1.16);  ///< lower bounds of f_s and f_r over the gaps 0 .. h_max, for the quick test
   R least_shape_of_rolling = R(1.13);
+  // Of hydrate that has receded from both ends of each bond, B = width_share * (B of formation - width_lost). Rows keep B: the
+  // kernels of a step have no use for these.
+  R width_lost = 0;  ///< 2 v t [m]
+  R width_share = 1;
 
   /// Thickness h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION L bond_thickness(L const& formation_overlap) const {
     return negative_multiply_add(L(thickness_weight), lane_min(formation_overlap, L(0)), L(plate_thickness));
   }
-  /// B [m] of a bond with the given common radius and h_cr [m].
+  /// B [m] of a bond with the given common radius and h_cr [m], where hydrate has not receded.
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION L width(L const& common_radius, L const& thickness) const {
     return bond_width(common_radius, critical_thickness - thickness);
   }
-  /// B [m] of a bond that formed at overlap u_0 [m]: it never changes, so the rows keep it.
+  /// B [m] of today of a bond that formed at overlap u_0 [m]. In a step it does not change, so the rows keep it.
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION L width_formed_at(L const& common_radius, L const& formation_overlap) const {
-    return width(common_radius, bond_thickness(formation_overlap));
+    return L(width_share) * lane_max(width(common_radius, bond_thickness(formation_overlap)) - L(width_lost), L(0));
   }
   template <class L>
   KOKKOS_FORCEINLINE_FUNCTION ContactStiffness<L> stiffness(L const& width, L const& thickness) const {

@@ -20,7 +20,7 @@ KOKKOS_INLINE_FUNCTION ChangedBond changed_bond(ParticleSoA const& p, ContactRow
   bond.thickness = before.bond_thickness(formed_at);
   bond.width = before.width_formed_at(common, formed_at);
   bond.was = before.stiffness(bond.width, bond.thickness);
-  Real const thickness = next.bond_thickness(formed_at), width = next.width(common, thickness);
+  Real const thickness = next.bond_thickness(formed_at), width = next.width_formed_at(common, formed_at);
   bond.is = next.stiffness(width, thickness);
   BondStrength const strength = bond_strength(next.strength, width, thickness, common);
   bond.leaves = !(thickness < next.critical_thickness) || !(strength.tension > 0) || !(strength.compression > 0);

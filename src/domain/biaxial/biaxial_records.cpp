@@ -7,7 +7,7 @@
 #include "domain/biaxial/biaxial_state.hpp"
 #include "domain/measurement/history_row.hpp"
 #include "domain/measurement/snapshot.hpp"
-#include "domain/scene/hydrate.hpp"
+#include "domain/scene/hydrate_loss.hpp"
 #include "domain/scene/phase_boundary.hpp"
 #include "domain/simulation/break_event.hpp"
 #include "kernels/bond_law.hpp"
@@ -181,7 +181,7 @@ BiaxialTest::BiaxialTest(Scene const& scene, TestState state, Ranks const& ranks
   SimulationLaws laws = test_laws(scene, t.d50, state.simulation.numbers.at("critical_thickness"));
   if (t.consolidation.over) laws.motion.damping = scene.damping.local;
   if (changes_hydrate(t.stages) && laws.contact.bond_kind != BondKind::none)
-    laws.contact.bond = changed_bond_law(scene, laws.contact.bond, t.hydrate_scene(t.hydrate));
+    laws.contact.bond = changed_bond_law(scene, t.d50, laws.contact.bond, t.hydrate_scene(t.hydrate));
   t.simulation = std::make_unique<Simulation>(std::move(state.simulation), laws, ranks);
   t.done = state.done;
   t.stage = t.consolidation.over ? t.now().name : t.consolidation.bonded ? hydrate_consolidation_stage : consolidation_stage;

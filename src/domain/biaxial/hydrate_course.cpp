@@ -5,7 +5,7 @@
 #include "domain/biaxial/biaxial_state.hpp"
 #include "domain/generation/bonding.hpp"
 #include "domain/generation/equilibration.hpp"
-#include "domain/scene/hydrate.hpp"
+#include "domain/scene/hydrate_loss.hpp"
 #include "domain/scene/phase_boundary.hpp"
 #include "domain/scene/short_number.hpp"
 #include "kernels/bond_law.hpp"
@@ -30,7 +30,7 @@ HydrateScene BiaxialTest::State::hydrate_scene(HydrateState const& state) const 
 
 BondLaw BiaxialTest::State::bond_law_of(HydrateState const& state) const {
   BondLaw const formed = make_bond_law(scene, d50, simulation->assembly().facts.critical_thickness);
-  return changed_bond_law(scene, formed, hydrate_scene(state));
+  return changed_bond_law(scene, d50, formed, hydrate_scene(state));
 }
 
 /// @param part  of the way of the stage, 0 to 1

@@ -134,24 +134,6 @@ BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness)
   return law;
 }
 
-double remaining_thickness(double formed, double saturation, double spread) {
-  constexpr double none = 0.2;
-  double const edge = none + spread;
-  if (saturation >= edge) return critical_thickness_ratio(saturation) / critical_thickness_ratio(formed);
-  return critical_thickness_ratio(edge) / critical_thickness_ratio(formed) * std::max(0.0, saturation - none) / spread;
-}
-
-BondLaw changed_bond_law(Scene const& scene, BondLaw const& formed, HydrateScene const& now) {
-  BondLaw law = formed;
-  law.critical_thickness =
-      formed.critical_thickness * remaining_thickness(scene.hydrate.saturation, now.saturation, scene.hydrate.spread_of_loss);
-  if (scene.bond.strength_from == StrengthFrom::printed) return law;
-  HydrateStrength const solid = hydrate_strength(now.temperature, now.pore_pressure, now.density);
-  law.strength.tensile_stress = 3 * solid.tension;
-  law.strength.compressive_stress = 3 * solid.compression;
-  return law;
-}
-
 BondCard evaluate_bond(Scene const& scene, double d50, double r1, double r2, double gap, double normal_force) {
   bool const given = scene.bond.critical_thickness_from == CriticalThicknessFrom::given;
   double const h_max = given ? scene.bond.critical_thickness : critical_thickness_ratio(scene.hydrate.saturation) * d50;

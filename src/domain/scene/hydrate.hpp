@@ -51,15 +51,6 @@ bool has_bonds(Scene const& scene);
 /// q_t and 3 q_c come from Eq. 13 (`conditions`) or are 1.421e7 and 2.571e7 Pa (`printed`); E_m is that of Eq. 18 with both.
 BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness);
 
-/// h_max over that of formation when the saturation has fallen to a value: Eq. 3, whose jump at 20 % is spread linearly.
-/// @param formed  saturation of formation, above 20 % + spread
-double remaining_thickness(double formed, double saturation, double spread);
-
-/// The law of bonds that have formed, when their hydrate has become another one: its temperature and pressure change the
-/// strength (Eq. 13, where bond.strength_from is "conditions"), its saturation the width B. E_m and h_max in h_0 stay those of
-/// formation.
-BondLaw changed_bond_law(Scene const& scene, BondLaw const& formed, HydrateScene const& now);
-
 /// Every number of one bond, for `clathra bond` and for checks by hand. SI.
 struct BondCard {
   bool bonded;  ///< 0 < h_max, gap < h_max and R_t > 0

@@ -17,6 +17,8 @@ enum class BondLawKind { none, thickness_dependent, constant_thickness };
 enum class ThicknessMapping { identity, clamped, scaled };
 enum class StrengthFrom { printed, conditions };
 enum class CriticalThicknessFrom { saturation, given, bond_area };
+/// How bonds lose hydrate as the saturation falls (hydrate_loss.hpp).
+enum class HydrateLoss { critical_thickness, recession, uniform };
 
 /// L_r, the length that Eq. 9b lacks: a length of its own or a part of the width B of the bond, L_r = length + width_fraction B.
 struct RollingLever {
@@ -63,7 +65,9 @@ struct HydrateScene {
   double pore_pressure = 8e6;    ///< sigma_w [Pa]
   double density = 900;          ///< [kg/m^3]
   double salinity = 35;          ///< of the pore water [ppt]
-  double spread_of_loss = 0.02;  ///< saturation above 20 % over which h_max falls to 0, where Eq. 3 jumps
+  double spread_of_loss = 0.02;  ///< saturation above 20 % over which the rest of bonds is lost, where Eq. 3 jumps
+  double loss_exponent = 1;      ///< n of HydrateLoss::uniform
+  HydrateLoss loss = HydrateLoss::critical_thickness;
 };
 
 /// `[bond]`

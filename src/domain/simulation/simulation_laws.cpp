@@ -10,7 +10,7 @@ bool same_stiffness(ContactLaws const& a, ContactLaws const& b) {
   auto const of_grains = [](GrainLaw const& law) { return std::tuple(law.normal_stiffness, law.shear_stiffness); };
   auto const of_bonds = [](BondLaw const& law) {
     return std::tuple(law.modulus, law.particle_stiffness, law.critical_thickness, law.thickness_partner, law.thickness_weight,
-                      law.plate_thickness);
+                      law.plate_thickness, law.width_lost, law.width_share);
   };
   return a.bond_kind == b.bond_kind && of_grains(a.grain) == of_grains(b.grain) && of_bonds(a.bond) == of_bonds(b.bond);
 }

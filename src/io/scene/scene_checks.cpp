@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "domain/scene/hydrate.hpp"
+#include "domain/scene/hydrate_loss.hpp"
 #include "domain/scene/phase_boundary.hpp"
 #include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
@@ -227,12 +228,27 @@ void check_formation(Check& check) {
                 "'bond.after_consolidation' = false lets hydrate form before the consolidation, 'forms_hydrate' in a stage");
 }
 
+/// What the law of loss needs, and what it leaves aside.
+void check_loss(Check& check) {
+  HydrateScene const& hydrate = check.scene.hydrate;
+  bool const uniform = hydrate.loss == HydrateLoss::uniform;
+  std::string_view const idle = uniform ? "hydrate.spread_of_loss" : "hydrate.loss_exponent";
+  if (check.changed(idle))
+    check.warn(fmt::format("{} has no effect with hydrate.loss = {}", idle, value_text(*find_key("hydrate.loss"), check.scene)));
+  double const spread = uniform ? 0 : hydrate.spread_of_loss;
+  if (hydrate.saturation <= least_cementing + spread)
+    check.error({"hydrate.saturation", "hydrate.spread_of_loss"},
+                fmt::format("a stage changes the hydrate, which must form with a saturation above {:g} %: 20 %{}",
+                            (least_cementing + spread) * 100, uniform ? "" : " and hydrate.spread_of_loss"));
+}
+
 /// What stages want of hydrate that changes.
 void check_hydrate_of_stages(Check& check) {
   Scene const& scene = check.scene;
   std::vector<LoadingStage> const stages = stages_of(scene);
   if (!changes_hydrate(stages)) {
-    if (check.changed("hydrate.spread_of_loss")) check.warn("hydrate.spread_of_loss has no effect: no stage changes the hydrate");
+    for (std::string_view const key : {"hydrate.loss", "hydrate.spread_of_loss", "hydrate.loss_exponent"})
+      if (check.changed(key)) check.warn(fmt::format("{} has no effect: no stage changes the hydrate", key));
     return;
   }
   std::vector<std::string_view> const at = {"test.kind", "hydrate.saturation"};
@@ -245,13 +261,8 @@ void check_hydrate_of_stages(Check& check) {
         {"test.final_pore_pressure", "test.confining_stress"},
         "'test.final_pore_pressure' is above 'hydrate.pore_pressure' by more than the confining stress: at constant total "
         "stress no effective stress would be left");
-  constexpr double none = 0.2;
+  check_loss(check);
   double saturation = scene.hydrate.saturation;
-  if (saturation <= none + scene.hydrate.spread_of_loss)
-    check.error({"hydrate.saturation", "hydrate.spread_of_loss"},
-                fmt::format("a stage changes the hydrate, which must form with a saturation above {:g} %: 20 % and "
-                            "hydrate.spread_of_loss",
-                            (none + scene.hydrate.spread_of_loss) * 100));
   for (LoadingStage const& stage : stages) {
     HydrateChange const& change = stage.hydrate;
     std::string const of = fmt::format("stage '{}': ", stage.name.substr(0, 60));

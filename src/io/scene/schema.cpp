@@ -41,6 +41,7 @@ constexpr std::array thickness_mappings = {Names("identity"), Names("clamped"), 
 constexpr std::array sources = {Names("printed"), Names("conditions")};
 constexpr std::array precisions = {Names("double"), Names("mixed")};
 constexpr std::array step_rules = {Names("adaptive"), Names("fixed")};
+constexpr std::array losses = {Names("critical_thickness"), Names("recession"), Names("uniform")};
 constexpr std::array critical_thicknesses = {Names("saturation"), Names("given"), Names("bond_area")};
 
 using enum Dimension;
@@ -78,7 +79,9 @@ Key const table[] = {
   {"hydrate.pore_pressure", quantity, CLATHRA_FIELD(hydrate, pore_pressure), "water pressure in the pores; it acts on the hydrate, all stresses are effective", pressure, 1e3, 1e9},
   {"hydrate.density", quantity, CLATHRA_FIELD(hydrate, density), "density of the hydrate", density, 100, 2000},
   {"hydrate.salinity", quantity, CLATHRA_FIELD(hydrate, salinity), "salt in the pore water in g/kg, for the boundary of stability; sea water has 35", ratio, 0, 350},
-  {"hydrate.spread_of_loss", quantity, CLATHRA_FIELD(hydrate, spread_of_loss), "saturation above 20 % over which the critical thickness falls to 0 as hydrate is lost, where Eq. 3 jumps", ratio, 1e-4, 0.3},
+  {"hydrate.loss", choice, CLATHRA_CHOICE(hydrate, loss), "what bonds lose with the saturation: gap that they span, the same length of their width each, or strength and stiffness alike (docs/howto/changing-hydrate.md)", ratio, 0, 0, {}, losses},
+  {"hydrate.spread_of_loss", quantity, CLATHRA_FIELD(hydrate, spread_of_loss), "saturation above 20 % over which the rest of the bonds is lost, where Eq. 3 jumps; not of loss = \"uniform\"", ratio, 1e-4, 0.3},
+  {"hydrate.loss_exponent", quantity, CLATHRA_FIELD(hydrate, loss_exponent), "n where loss is \"uniform\": strength and stiffness go with ((S - 20 %) / (S_0 - 20 %))^n", ratio, 0.1, 10},
 
   {"bond.preset", choice, CLATHRA_FIELD(bond, preset), "model of what Jiang et al. (2017) leave open; a key that is stated keeps its value (section Presets)", ratio, 0, 0, {}, bond_presets().names},
   {"bond.law", choice, CLATHRA_CHOICE(bond, law), "bonds: none, of the thickness of the gap each one spans, or all of one thickness", ratio, 0, 0, {}, laws},

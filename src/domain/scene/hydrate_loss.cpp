@@ -1,0 +1,68 @@
+#include "domain/scene/hydrate_loss.hpp"
+
+#include <algorithm>
+
+#include "kernels/bond_law.hpp"
+#include "kernels/elementary.hpp"
+
+namespace clathra {
+
+namespace {
+
+/// What is left, over the spread above 20 %, of that which is left at its upper end.
+double share_of_rest(double saturation, double spread) { return std::clamp((saturation - least_cementing) / spread, 0.0, 1.0); }
+
+void recede(BondLaw& law, Scene const& scene, double d50, double saturation) {
+  double const spread = scene.hydrate.spread_of_loss,
+               left = remaining_thickness(scene.hydrate.saturation, std::max(saturation, least_cementing + spread), spread);
+  law.width_lost = bond_width(0.5 * d50, law.critical_thickness) - bond_width(0.5 * d50, law.critical_thickness * left);
+  law.width_share = share_of_rest(saturation, spread);
+}
+
+/// All addends of R_t, R_c (Eq. 11) and E_m; with these two R_s and R_r, which are proportional to them (Eq. 9).
+void weaken(BondLaw& law, double share) {
+  law.strength.tensile_stress *= share;
+  law.strength.compressive_stress *= share;
+  law.strength.rod_share *= share;
+  law.strength.rod_share_per_width *= share;
+  law.modulus *= share;
+}
+
+}  // namespace
+
+double remaining_thickness(double formed, double saturation, double spread) {
+  double const edge = least_cementing + spread;
+  if (saturation >= edge) return critical_thickness_ratio(saturation) / critical_thickness_ratio(formed);
+  return critical_thickness_ratio(edge) / critical_thickness_ratio(formed) * std::max(0.0, saturation - least_cementing) / spread;
+}
+
+double remaining_cement(double formed, double saturation) {
+  return std::max(0.0, saturation - least_cementing) / (formed - least_cementing);
+}
+
+BondLaw changed_bond_law(Scene const& scene, double d50, BondLaw const& formed, HydrateScene const& now) {
+  BondLaw law = formed;
+  HydrateScene const& then = scene.hydrate;
+  if (scene.bond.strength_from != StrengthFrom::printed) {
+    HydrateStrength const solid = hydrate_strength(now.temperature, now.pore_pressure, now.density);
+    law.strength.tensile_stress = 3 * solid.tension;
+    law.strength.compressive_stress = 3 * solid.compression;
+  }
+  switch (then.loss) {
+    case HydrateLoss::critical_thickness:
+      law.critical_thickness =
+          formed.critical_thickness * remaining_thickness(then.saturation, now.saturation, then.spread_of_loss);
+      break;
+    case HydrateLoss::recession:
+      recede(law, scene, d50, now.saturation);
+      break;
+    case HydrateLoss::uniform: {
+      double const left = remaining_cement(then.saturation, now.saturation), n = then.loss_exponent;
+      weaken(law, n == 1 || left == 0 ? left : power(left, n));
+      break;
+    }
+  }
+  return law;
+}
+
+}  // namespace clathra
