@@ -88,6 +88,7 @@ TEST(StagesInAScene, OfEachKindAreWrittenOutAndReadBack) {
     EXPECT_EQ(find_stage_key(key.name), &key);
     std::string const value = key.name == "name"                                        ? "\"other\""
                               : key.kind == Kind::boolean                               ? "true"
+                              : key.name == "hydrate.dissociation"                      ? "\"kim_1987\""
                               : key.kind == Kind::choice                                ? "\"constant_volume\""
                               : key.kind == Kind::quantities                            ? "[0, 0.125]"
                               : key.kind == Kind::integer                               ? "7"
@@ -130,6 +131,42 @@ TEST(StagesInAScene, SayWhichKeyIsNotKnown) {
   expect_problem(two_stages, "unknown key 'stage.2.until.pth'", {"stage.2.until.pth=1 %"});
   expect_problem(sized + "[test]\nkind = \"creep\"\n", "needs 'test.dead_load'");
   expect_problem(sized + "[test]\nkind = \"unload_reload\"\nunload_at = [\"20 %\"]\n", "must lie below 'test.axial_strain'");
+}
+
+TEST(StagesInAScene, SayWhatADissociationNeeds) {
+  std::string const text = sized +
+                           "[hydrate]\nsaturation = \"41 %\"\n[[stage]]\nname = \"warm\"\nvertical.stress = \"1.5 MPa\"\n" +
+                           "lateral.stress = \"1 MPa\"\nuntil.rest = true\n";
+  std::string const rate = text + "hydrate.dissociation = \"kim_1987\"\n", timed = rate + "hydrate.duration = \"3 h\"\n";
+  EXPECT_EQ(load(timed).scene.stages[0].hydrate.duration, 3 * 3600);
+  EXPECT_EQ(load(text + "hydrate.dissociation = \"instant\"\n").scene.stages[0].hydrate.dissociation, Dissociation::instant);
+  expect_problem(rate, "a rate of 'hydrate.dissociation' needs 'hydrate.duration'");
+  expect_problem(text + "hydrate = { temperature = \"9 degC\", duration = \"3 h\" }\n", "else nothing in a stage knows a time");
+  expect_problem(timed + "hydrate.saturation = 0.3\n", "'hydrate.saturation' follows from 'hydrate.dissociation'");
+  expect_problem(timed + "hydrate.temperature = \"12 degC\"\nhydrate.undrained = true\n", "keeps hydrate on the boundary");
+  expect_problem(text + "hydrate.dissociation = \"kim\"\n",
+                 "must be one of 'given', 'instant', 'clarke_2001', 'kim_1987', 'slow'");
+  expect_problem(rate + "hydrate.duration = \"3 mm\"\n", "needs a time, got a length ('3 mm'); example: \"3 h\"");
+  std::string const next =
+      "[[stage]]\nname = \"rest\"\nvertical.stress = \"1.5 MPa\"\nlateral.stress = \"1 MPa\"\nuntil.rest = true\n";
+  expect_problem(timed + next + "hydrate.saturation = \"30 %\"\n", "may be above what a stage before it leaves");
+  EXPECT_EQ(load(timed + next + "hydrate.saturation = \"20 %\"\n").scene.stages.size(), 2u);
+}
+
+TEST(StagesInAScene, SayWhatALawOfLossLeavesAside) {
+  std::string const text = sized + "[test]\nkind = \"heating\"\n[hydrate]\nsaturation = ";
+  auto const warned = [&](std::string const& more, std::string const& of) {
+    for (std::string const& warning : load(text + more).warnings)
+      if (warning.find(of) != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(
+      warned("0.41\nloss_exponent = 2\n", "hydrate.loss_exponent has no effect with hydrate.loss = \"critical_thickness\""));
+  EXPECT_TRUE(warned("0.41\nloss = \"uniform\"\nspread_of_loss = 0.1\n", "hydrate.spread_of_loss has no effect with"));
+  EXPECT_FALSE(warned("0.41\nloss = \"recession\"\nspread_of_loss = 0.1\n", "no effect"));
+  expect_problem(text + "0.21\nloss = \"recession\"\n", "above 22 %: 20 % and hydrate.spread_of_loss");
+  EXPECT_FALSE(warned("0.21\nloss = \"uniform\"\n", "above 20 %"));
+  expect_problem(text + "0.41\nloss = \"uniforn\"\n", "did you mean 'uniform'?");
 }
 
 TEST(StagesInAScene, AreSetByNumberAndByName) {

@@ -134,8 +134,9 @@ TEST(Units, WhatIsWrittenReadsBackToTheSameBits) {
   double const values[] = {0,         1,         -1, 0.1, 1.0 / 3, 1e6, 0.1694e-3, 2e-6, 8e6, 900, 1e-300, 1.7976931348623157e308,
                            0.05 / 60, 123456.789};
   for (double const value : values)
-    for (Dimension const dimension : {Dimension::ratio, Dimension::length, Dimension::pressure, Dimension::density,
-                                      Dimension::temperature, Dimension::rate, Dimension::stiffness, Dimension::line_force})
+    for (Dimension const dimension :
+         {Dimension::ratio, Dimension::length, Dimension::pressure, Dimension::density, Dimension::temperature, Dimension::rate,
+          Dimension::stiffness, Dimension::line_force, Dimension::duration})
       EXPECT_EQ(parse_quantity(format_quantity(value, dimension), dimension), value) << format_quantity(value, dimension);
   EXPECT_EQ(format_quantity(1e6, Dimension::pressure), "1 MPa");
   EXPECT_EQ(format_quantity(1e13, Dimension::stiffness), "10 TPa");

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "domain/scene/dissociation.hpp"
 #include "kernels/bond_geometry.hpp"
 #include "stage_run.hpp"
 
@@ -107,6 +108,34 @@ TEST(HydrateLoss, TakesWideGapsOrNarrowBondsOrLoadedOnesFirstAndEndsAlike) {
   EXPECT_GT(loads.dissolved, 0.85);
   EXPECT_LT(gaps.dissolved, 0.85);
   EXPECT_LT(widths.dissolved, 0.85);
+}
+
+/// A rate of dissociation: the saturation is that of the path, however often the test is taken apart on its way.
+TEST(HydrateLoss, ByARateGoesAlongItsPathWhateverThePaceAndTheRestarts) {
+  LoadingStage stage("warming", SideScene::at_stress(1.3e6), SideScene::at_stress(1e6));
+  stage.increments = 5;
+  stage.hydrate.temperature = 12;
+  stage.hydrate.dissociation = Dissociation::clarke_2001;
+  stage.hydrate.duration = 3600;
+  stage.until.rest = true;
+  stage.until.axial_strain = 0.2;
+  Scene scene = with({stage});
+  scene.hydrate.saturation = 0.41;
+  scene.hydrate.loss = HydrateLoss::recession;
+  scene.run.precision = Precision::mixed;
+  StageRun const whole = run_stages(scene), other = run_stages(scene, 330, 1);
+  EXPECT_EQ(other.hash, whole.hash);
+  ASSERT_EQ(other.rows.size(), whole.rows.size());
+  HydratePath const path{scene, whole.specimen.d50, whole.specimen.critical_thickness, stage.hydrate, {5, 8e6, 0.41}};
+  double const left = path.at(1).saturation;
+  EXPECT_TRUE(left > 0.21 && left < 0.39) << left;
+  EXPECT_EQ(whole.stages.front().numbers.at("end_saturation"), left);
+  EXPECT_EQ(whole.rows.front().saturation_pct, 100 * 0.41);
+  EXPECT_LT(whole.rows.back().bonds_intact, whole.rows.front().bonds_intact);
+  for (std::size_t i = 1; i < whole.rows.size(); ++i) {
+    EXPECT_LE(whole.rows[i].saturation_pct, whole.rows[i - 1].saturation_pct);
+    if (whole.rows[i].boundary_K > 0) EXPECT_EQ(whole.rows[i].saturation_pct, 100 * 0.41) << "stable";
+  }
 }
 
 }  // namespace

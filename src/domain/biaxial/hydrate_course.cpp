@@ -6,7 +6,6 @@
 #include "domain/generation/bonding.hpp"
 #include "domain/generation/equilibration.hpp"
 #include "domain/scene/hydrate_loss.hpp"
-#include "domain/scene/phase_boundary.hpp"
 #include "domain/scene/short_number.hpp"
 #include "kernels/bond_law.hpp"
 
@@ -35,16 +34,7 @@ BondLaw BiaxialTest::State::bond_law_of(HydrateState const& state) const {
 
 /// @param part  of the way of the stage, 0 to 1
 HydrateState BiaxialTest::State::hydrate_at(double part) const {
-  HydrateChange const& change = now().hydrate;
-  HydrateState const& from = place.hydrate_at_start;
-  auto const between = [part](double begin, double end) {
-    return !is_given(end) ? begin : part >= 1 ? end : begin + part * (end - begin);
-  };
-  HydrateState state{between(from.temperature, change.temperature), between(from.pore_pressure, change.pore_pressure),
-                     between(from.saturation, change.saturation)};
-  if (change.undrained)
-    state.pore_pressure = std::max(from.pore_pressure, equilibrium_pressure(state.temperature, scene.hydrate.salinity));
-  return state;
+  return HydratePath{scene, d50, simulation->assembly().facts.critical_thickness, now().hydrate, place.hydrate_at_start}.at(part);
 }
 
 /// " at 12 degC, 8 MPa and a saturation of 30 %"; nothing in stages that leave the hydrate as it is.

@@ -4,20 +4,9 @@
 #include <cstdint>
 #include <string>
 
+#include "domain/scene/dissociation.hpp"
+
 namespace clathra {
-
-/// Temperature [deg C], pore pressure [Pa] and saturation, as stages change them.
-struct HydrateState {
-  double temperature = 0, pore_pressure = 0, saturation = 0;
-  bool operator==(HydrateState const&) const = default;
-
-  template <class Visit>
-  void for_each_number(std::string const& of, Visit&& visit) {
-    visit(of + "_temperature", temperature);
-    visit(of + "_pore_pressure", pore_pressure);
-    visit(of + "_saturation", saturation);
-  }
-};
 
 /// What rows, ends and figures speak of; strains count from the consolidation, stresses are those of the walls [Pa].
 struct TestValues {

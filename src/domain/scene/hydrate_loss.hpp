@@ -23,6 +23,13 @@ double remaining_thickness(double formed, double saturation, double spread);
 /// (S - 20 %) / (S_0 - 20 %), not below 0: what is left of the hydrate that cements.
 double remaining_cement(double formed, double saturation);
 
+/// Width of the bond between two touching grains of the size d50 by the law of recession [m].
+/// @param formed  h_max of formation [m]
+double reference_width(Scene const& scene, double d50, double formed, double saturation);
+
+/// The saturation that has this reference width: its inverse, between 20 % and 70 %, where Eq. 3 ends.
+double saturation_of_width(Scene const& scene, double d50, double formed, double width);
+
 /// The law of bonds that have formed, when their hydrate has become another one: its temperature and pressure change the
 /// strength (Eq. 13, where bond.strength_from is "conditions"), its saturation the bonds by scene.hydrate.loss.
 /// @param d50  of the grains [m];  @param formed  of the hydrate as it formed

@@ -84,6 +84,10 @@ struct StageTurn {
   bool any() const { return !deviator_stress.empty() || !axial_strain.empty(); }
 };
 
+/// Where the saturation of a stage comes from: it is `given`, or hydrate beyond the boundary of stability goes at once
+/// (`instant`), or at a rate that was measured (dissociation.hpp).
+enum class Dissociation { given, instant, clarke_2001, kim_1987, slow };
+
 /// What temperature, pore pressure and saturation come to by the end of a stage, in straight lines from where they are. What is
 /// not given stays.
 struct HydrateChange {
@@ -92,8 +96,12 @@ struct HydrateChange {
   double saturation = not_given;       ///< 0..1, not above that of formation
   bool constant_total_stress = false;  ///< effective stresses of the sides fall as the pore pressure rises
   bool undrained = false;  ///< likewise; the pressure stays until the boundary of stability, and follows that from there
+  Dissociation dissociation = Dissociation::given;
+  double duration = 0;  ///< of the stage, for a rate of dissociation; 0 = not given [s]
 
-  bool any() const { return is_given(temperature) || is_given(pore_pressure) || is_given(saturation); }
+  bool any() const { return is_given(temperature) || is_given(pore_pressure) || is_given(saturation) || dissociates(); }
+  bool dissociates() const { return dissociation != Dissociation::given; }
+  bool has_rate() const { return dissociates() && dissociation != Dissociation::instant; }
   bool holds_total_stress() const { return constant_total_stress || undrained; }
 };
 

@@ -55,7 +55,7 @@ struct DimensionEntry {
   std::array<std::string_view, 5> shown;  ///< units that format_quantity() tries in turn
 };
 
-constexpr std::array<DimensionEntry, 8> dimensions = {{
+constexpr std::array<DimensionEntry, 9> dimensions = {{
     {"a plain number or a percentage", "", "0.26", plain, {}},
     {"a length", "m", "\"0.1694 mm\"", metre, {"m", "mm", "um", "nm"}},
     {"a pressure", "Pa", "\"1 MPa\"", pascal, {"GPa", "MPa", "kPa", "Pa"}},
@@ -64,6 +64,7 @@ constexpr std::array<DimensionEntry, 8> dimensions = {{
     {"a rate", "1/s", "\"5 %/min\"", {0, 0, -1, 0}, {"1/s"}},
     {"a stiffness", "N/m", "\"300 MPa\"", pascal, {"GPa", "MPa", "kPa", "Pa", "TPa"}},
     {"a force per metre", "N/m", "\"200 N/m\"", {0, 1, -2, 0}, {"MN/m", "kN/m", "N/m"}},
+    {"a time", "s", "\"3 h\"", second, {"s"}},
 }};
 
 DimensionEntry const& entry(Dimension dimension) { return dimensions[static_cast<std::size_t>(dimension)]; }
@@ -199,7 +200,6 @@ Unit parse_unit(std::string_view text, std::string_view whole) {
 std::string_view name_of(Powers powers) {
   for (DimensionEntry const& candidate : dimensions)
     if (candidate.powers == powers) return candidate.name;
-  if (powers == second) return "a time";
   if (powers == kilogram) return "a mass";
   if (powers == newton) return "a force";
   return "something else";

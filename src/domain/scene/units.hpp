@@ -15,6 +15,7 @@ enum class Dimension {
   rate,         ///< [1/s]: "5 %/min"
   stiffness,    ///< [N/m per metre thickness = Pa]: "300 MPa" and "3e8 N/m" mean the same
   line_force,   ///< force per metre thickness [N/m]
+  duration,     ///< [s]: "3 h"
 };
 
 /// Reads a number with a unit, or a bare number, which is in SI units. A bare temperature is refused: 5 could be deg C or K.

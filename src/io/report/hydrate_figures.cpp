@@ -116,10 +116,11 @@ Piece path_in_the_plane(ShownRuns const& shown) {
   plot.title = "Pore pressure against temperature";
   plot.x = temperatures.axis({"temperature [°C]", "temperature_degC"});
   plot.y = pressures.axis({"pore pressure [MPa]", "pore_pressure_Pa", mega});
-  return figure("Temperature and pressure", drawing(plot) + legend(plot.curves),
-                "Methane hydrate is stable on the cold side of the boundary (Tishchenko et al. 2005, at the salinity of the pore "
-                "water), under the higher pressure. How much hydrate is lost is given beside this path, it does not follow "
-                "from it.");
+  return figure(
+      "Temperature and pressure", drawing(plot) + legend(plot.curves),
+      "Methane hydrate is stable on the cold side of the boundary (Tishchenko et al. 2005, at the salinity of the pore "
+      "water), under the higher pressure. How much hydrate is lost is given beside this path, unless a stage has a rate "
+      "of dissociation.");
 }
 
 }  // namespace

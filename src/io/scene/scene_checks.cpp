@@ -229,11 +229,12 @@ void check_formation(Check& check) {
 }
 
 /// What the law of loss needs, and what it leaves aside.
-void check_loss(Check& check) {
+void check_loss(Check& check, std::vector<LoadingStage> const& stages) {
   HydrateScene const& hydrate = check.scene.hydrate;
   bool const uniform = hydrate.loss == HydrateLoss::uniform;
   std::string_view const idle = uniform ? "hydrate.spread_of_loss" : "hydrate.loss_exponent";
-  if (check.changed(idle))
+  bool const by_rate = std::any_of(stages.begin(), stages.end(), [](auto const& stage) { return stage.hydrate.has_rate(); });
+  if (check.changed(idle) && !(uniform && by_rate))  // a rate reads the saturation off a width
     check.warn(fmt::format("{} has no effect with hydrate.loss = {}", idle, value_text(*find_key("hydrate.loss"), check.scene)));
   double const spread = uniform ? 0 : hydrate.spread_of_loss;
   if (hydrate.saturation <= least_cementing + spread)
@@ -261,14 +262,21 @@ void check_hydrate_of_stages(Check& check) {
         {"test.final_pore_pressure", "test.confining_stress"},
         "'test.final_pore_pressure' is above 'hydrate.pore_pressure' by more than the confining stress: at constant total "
         "stress no effective stress would be left");
-  check_loss(check);
+  check_loss(check, stages);
   double saturation = scene.hydrate.saturation;
+  bool known = true;
   for (LoadingStage const& stage : stages) {
     HydrateChange const& change = stage.hydrate;
     std::string const of = fmt::format("stage '{}': ", stage.name.substr(0, 60));
     if (is_given(change.saturation) && change.saturation > saturation)
       check.error(at, fmt::format("{}a saturation of {:g} % is above the {:g} % that are there: hydrate does not form again", of,
                                   change.saturation * 100, saturation * 100));
+    if (is_given(change.saturation) && !known && change.saturation > least_cementing)
+      check.error(at,
+                  fmt::format("{}a saturation of {:g} % may be above what a stage before it leaves, whose hydrate dissociates: "
+                              "state 20 % or less",
+                              of, change.saturation * 100));
+    if (change.dissociates()) known = false;
     if (is_given(change.saturation)) saturation = change.saturation;
     if (is_given(change.temperature))
       if (std::string const text = boundary_warning(change.temperature, scene.hydrate.salinity); !text.empty())

@@ -35,6 +35,11 @@ using enum Dimension;
 using enum Kind;
 constexpr std::array follows = {std::string_view("nothing"), std::string_view("constant_volume"),
                                 std::string_view("constant_mean_stress")};
+constexpr std::array dissociations = {std::string_view("given"), std::string_view("instant"), std::string_view("clarke_2001"),
+                                      std::string_view("kim_1987"), std::string_view("slow")};
+constexpr ChoiceField dissociation_field = {
+    [](Scene const& scene) { return static_cast<int>(last_stage(const_cast<Scene&>(scene)).hydrate.dissociation); },
+    [](Scene& scene, int place) { last_stage(scene).hydrate.dissociation = static_cast<Dissociation>(place); }};
 constexpr char none[] = "not stated", stays[] = "it stays as it is", no_end[] = "no end of this stage";
 
 // clang-format off
@@ -60,6 +65,8 @@ Key const table[] = {
   {"hydrate.saturation", quantity, of_part<&Stage::hydrate, &HydrateChange::saturation>, "saturation likewise; hydrate does not form again", ratio, 0, 1, stays},
   {"hydrate.constant_total_stress", boolean, of_part<&Stage::hydrate, &HydrateChange::constant_total_stress>, "the effective stresses of the sides fall by what the pore pressure rises; else they stay"},
   {"hydrate.undrained", boolean, of_part<&Stage::hydrate, &HydrateChange::undrained>, "likewise, with a pore pressure that stays until the boundary of stability is met, and follows that from there"},
+  {"hydrate.dissociation", choice, dissociation_field, "saturation beyond the boundary of stability: as given, lost at once, or at a rate that was measured (docs/howto/changing-hydrate.md)", ratio, 0, 0, {}, dissociations},
+  {"hydrate.duration", quantity, of_part<&Stage::hydrate, &HydrateChange::duration>, "how long the stage lasts, for a rate of dissociation", Dimension::duration, 1e-3, 1e10, none},
   {"turn.deviator_stress", quantities, of_part<&Stage::turn, &StageTurn::deviator_stress>, "two values of q = sigma_1 - sigma_3 between which the vertical rate goes back and forth", pressure, -1e9, 1e9},
   {"turn.axial_strain", quantities, of_part<&Stage::turn, &StageTurn::axial_strain>, "two axial strains since the consolidation between which the vertical rate goes back and forth", ratio, -0.5, 0.5},
   {"until.axial_strain", quantity, of_part<&Stage::until, &StageEnd::axial_strain>, "natural axial strain since the consolidation at which the stage ends, from either side", ratio, -0.5, 0.5, no_end},
@@ -142,6 +149,16 @@ void check_hydrate_of_stage(LoadingStage const& stage, Say const& say) {
   if (change.undrained && !is_given(change.temperature)) say("'hydrate.undrained' needs 'hydrate.temperature'");
   if (change.undrained && is_given(change.pore_pressure))
     say("'hydrate.pore_pressure' follows the temperature where 'hydrate.undrained' is true: leave one of them out");
+  if (change.dissociates() && is_given(change.saturation))
+    say("'hydrate.saturation' follows from 'hydrate.dissociation': leave one of them out");
+  if (change.dissociates() && change.undrained)
+    say("'hydrate.undrained' keeps hydrate on the boundary of stability, where 'hydrate.dissociation' has no rate: state "
+        "'hydrate.saturation'");
+  if (change.has_rate() && change.duration == 0) say("a rate of 'hydrate.dissociation' needs 'hydrate.duration'");
+  if (!change.has_rate() && change.duration > 0)
+    say("'hydrate.duration' needs 'hydrate.dissociation' = \"clarke_2001\", \"kim_1987\" or \"slow\": else nothing in a stage "
+        "knows "
+        "a time");
   if (change.holds_total_stress() && !stage.vertical.has_stress() && !stage.lateral.has_stress())
     say("a constant total stress needs a stress of 'vertical' or 'lateral'");
 }
