@@ -68,6 +68,8 @@ std::vector<KeyTest> const key_tests = {
     {"bond.thickness_mapping", "scaled", moves},
     {"bond.friction_floor", "true", moves},
     {"bond.strength_from", "printed", moves},
+    {"bond.strength_modulus", "5", moves},
+    {"bond.strength_seed", "2", moves, "bond.strength_modulus=5"},
     {"bond.critical_thickness_from", "bond_area", moves},
     {"bond.critical_thickness", "15 um", moves, "bond.critical_thickness_from=given"},
     {"bond.constant_thickness", "10 um", moves, "bond.law=constant_thickness"},

@@ -107,6 +107,7 @@ constexpr std::pair<char const*, void (*)(Scene&)> others[] = {
     {"bond.thickness_mapping", [](Scene& s) { s.bond.thickness_mapping = ThicknessMapping::scaled; }},
     {"bond.friction_floor", [](Scene& s) { s.bond.friction_floor = true; }},
     {"bond.strength_from", [](Scene& s) { s.bond.strength_from = StrengthFrom::printed; }},
+    {"bond.strength_modulus", [](Scene& s) { s.bond.strength_modulus = 5; }},
     {"bond.critical_thickness_from", [](Scene& s) { s.bond.critical_thickness_from = CriticalThicknessFrom::bond_area; }},
     {"bond.after_consolidation", [](Scene& s) { s.bond.after_consolidation = false; }},
     {"specimen.preparation_stress", [](Scene& s) { s.specimen.preparation_stress = 1e5; }},

@@ -77,6 +77,7 @@ TEST(SpecimenLabel, BondsOfAnotherSceneAreRefusedWithBothValuesWhateverIsForced)
   expect("bond.law was thickness_dependent, is constant_thickness",
          [](Scene& s) { s.bond.law = BondLawKind::constant_thickness; });
   expect("bond.strength_from was conditions, is printed", [](Scene& s) { s.bond.strength_from = StrengthFrom::printed; });
+  expect("bond.strength_modulus was 0, is 5", [](Scene& s) { s.bond.strength_modulus = 5, s.bond.strength_seed = 2; });
   expect("bond.rolling_lever was 0.25 B, is 1 mm", [](Scene& s) { s.bond.rolling_lever = {1e-3, 0}; });
   expect("bond.rolling_lever was ", [](Scene& s) { s.bond.rolling_lever = {0, 0.1}; });
   expect("bond.critical_thickness_from was saturation, is bond_area",

@@ -138,5 +138,19 @@ TEST(HydrateLoss, ByARateGoesAlongItsPathWhateverThePaceAndTheRestarts) {
   }
 }
 
+/// What scatters is kept nowhere: the numbers of bonds are there again after a restart.
+TEST(StrengthScatter, KeepsItsBondsThroughRestarts) {
+  Scene scene = small_test();
+  scene.test.axial_strain = 0.01;
+  scene.bond.strength_modulus = 4;
+  for (Precision const precision : {Precision::full, Precision::mixed}) {
+    scene.run.precision = precision;
+    StageRun const whole = run_stages(scene), other = run_stages(scene, 900, 1);
+    EXPECT_EQ(other.hash, whole.hash);
+    scene.bond.strength_seed += 1;
+    EXPECT_NE(run_stages(scene).hash, whole.hash);
+  }
+}
+
 }  // namespace
 }  // namespace clathra

@@ -111,6 +111,7 @@ constexpr ModelKey model[] = {
     {CLATHRA_MODEL(bond, thickness_mapping), Of::bonded},
     {CLATHRA_MODEL(bond, friction_floor), Of::bonded},
     {CLATHRA_MODEL(bond, strength_from), Of::bonded},
+    {CLATHRA_MODEL(bond, strength_modulus), Of::bonded},
     {CLATHRA_MODEL(bond, critical_thickness_from), Of::bonded},
     {CLATHRA_MODEL(bond, after_consolidation), Of::bonded},
     {CLATHRA_MODEL(specimen, preparation_stress)},

@@ -33,10 +33,13 @@ struct BondFailures {
   CLATHRA_COLD_FUNCTION VMask break_bonds(Candidates const& block) const {
     VMask broken(false);
     for_each_set(doubtful(block), [&](int l) {
-      if (mixed && is_surely_intact(exact, trial_of(block, l))) return;
       std::size_t const e = block.entry + static_cast<std::size_t>(l), disc = block.first + static_cast<std::size_t>(l);
+      Real const share = exact.scatter.is_on() ? exact.scatter.share(p.id(disc), p.id(rows.neighbour(e))) : Real(1);
+      if ((mixed || exact.scatter.is_on()) && is_surely_intact(exact, trial_of(block, l, 1 / share))) return;
       Real const radius = common_radius(p.radius(disc), p.radius(rows.neighbour(e)));
-      BondStrength const strength = bond_strength(exact.strength, lane(block.width, l), lane(block.thickness, l), radius);
+      BondStrength strength = bond_strength(exact.strength, lane(block.width, l), lane(block.thickness, l), radius);
+      strength.tension *= share;  // R_s and R_r are proportional to R_c + R_t
+      strength.compression *= share;
       ContactForce<Real> const force = trial_of(block, l).force;
       BreakMode const mode = strength.test(force.normal, force.shear, force.moment);
       if (mode == BreakMode::none) return;
@@ -53,9 +56,9 @@ struct BondFailures {
   /// Half of what branches count in [m].
   KOKKOS_FORCEINLINE_FUNCTION Real half_a_unit() const { return mixed ? 0.5 * p.mirror.tick : 0.5; }
 
-  /// One of them.
-  KOKKOS_FORCEINLINE_FUNCTION BondForce<Real> trial_of(Candidates const& block, int l) const {
-    return {{lane(block.normal, l), lane(block.shear, l), lane(block.moment, l)},
+  /// One of them. @param factor  of its forces
+  KOKKOS_FORCEINLINE_FUNCTION BondForce<Real> trial_of(Candidates const& block, int l, Real factor = 1) const {
+    return {{factor * lane(block.normal, l), factor * lane(block.shear, l), factor * lane(block.moment, l)},
             {0, 0, 0},
             lane(block.width, l),
             lane(block.thickness, l)};

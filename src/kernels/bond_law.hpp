@@ -5,6 +5,7 @@
 #include "kernels/bond_stiffness.hpp"
 #include "kernels/bond_strength.hpp"
 #include "kernels/grain_contact.hpp"
+#include "kernels/strength_scatter.hpp"
 
 namespace clathra {
 
@@ -35,6 +36,7 @@ struct BondLawOf {
   // kernels of a step have no use for these.
   R width_lost = 0;  ///< 2 v t [m]
   R width_share = 1;
+  StrengthScatter scatter = {};  ///< of the strength; lanes know that of the weakest bond
 
   /// Thickness h_cr [m] of a bond that formed at overlap u_0 [m]; a gap is u_0 < 0, an overlap counts as gap 0.
   template <class L>
@@ -65,6 +67,12 @@ KOKKOS_INLINE_FUNCTION BondLawOf<R> cast(BondLaw const& law) {
           R(law.critical_thickness),    R(law.thickness_partner), R(law.thickness_weight),
           R(law.plate_thickness),       R(law.preload_stiffness), R(law.least_shape_of_shear),
           R(law.least_shape_of_rolling)};
+}
+
+/// The law of the weakest bond.
+inline BondLaw weakest(BondLaw law) {
+  if (law.scatter.is_on()) law.strength = part_of(law.strength, law.scatter.least);
+  return law;
 }
 
 /// Forces of an intact bond and what they follow from.

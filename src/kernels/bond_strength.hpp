@@ -28,6 +28,16 @@ struct BondStrengthLawOf {
 };
 using BondStrengthLaw = BondStrengthLawOf<Real>;
 
+/// The law of bonds that have a share of its strength: of all addends of R_t and R_c (Eq. 11), and so of R_s and R_r, which are
+/// proportional to them (Eq. 9).
+inline BondStrengthLaw part_of(BondStrengthLaw law, Real share) {
+  law.tensile_stress *= share;
+  law.compressive_stress *= share;
+  law.rod_share *= share;
+  law.rod_share_per_width *= share;
+  return law;
+}
+
 /// The same law in the numbers of a kernel.
 template <class R>
 KOKKOS_INLINE_FUNCTION BondStrengthLawOf<R> cast(BondStrengthLaw const& law) {

@@ -17,10 +17,11 @@ struct ContactConstants {
   bool ledger;       ///< whether energy losses are added up
 };
 
-/// The laws as the kernel takes them, in numbers R.
+/// The laws as the kernel takes them, in numbers R: what is within the strength of the weakest bond breaks none.
 template <class R>
 ContactConstants<R> constants_in(ContactLaws const& laws, Real dt, Real tick) {
-  return {cast<R>(laws.grain), cast<R>(laws.bond), least_strength<R>(laws.bond), R(dt), R(tick), R(1 / tick), laws.ledger};
+  BondLaw const bond = weakest(laws.bond);
+  return {cast<R>(laws.grain), cast<R>(bond), least_strength<R>(bond), R(dt), R(tick), R(1 / tick), laws.ledger};
 }
 
 }  // namespace clathra

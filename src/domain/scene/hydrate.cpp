@@ -35,6 +35,16 @@ void set_rod(BondStrengthLaw& strength, Scene const& scene, double d50) {
   }
 }
 
+StrengthScatter scatter_of(BondScene const& bond) {
+  StrengthScatter scatter;
+  if (bond.strength_modulus == 0) return scatter;
+  scatter.inverse_modulus = 1 / bond.strength_modulus;
+  scatter.scale = 1 / std::tgamma(1 + scatter.inverse_modulus);
+  scatter.least = scatter.quantile(StrengthScatter::weakest);
+  scatter.seed = bond.strength_seed;
+  return scatter;
+}
+
 }  // namespace
 
 HydrateStrength hydrate_strength(double temperature, double pore_pressure, double density) {
@@ -114,6 +124,7 @@ BondLaw make_bond_law(Scene const& scene, double d50, double critical_thickness)
   law.strength.moment_length = scene.bond.rolling_lever.length;
   law.strength.moment_width_ratio = scene.bond.rolling_lever.width_fraction;
   set_rod(law.strength, scene, d50);
+  law.scatter = scatter_of(scene.bond);
   law.modulus = solid.modulus;
   law.particle_stiffness = scene.bond.grain_stiffness_factor * scene.grains.normal_stiffness;
   law.critical_thickness = critical_thickness;

@@ -25,12 +25,8 @@ void recede(BondLaw& law, Scene const& scene, double d50, double saturation) {
   law.width_share = share_of_rest(saturation, scene.hydrate.spread_of_loss);
 }
 
-/// All addends of R_t, R_c (Eq. 11) and E_m; with these two R_s and R_r, which are proportional to them (Eq. 9).
 void weaken(BondLaw& law, double share) {
-  law.strength.tensile_stress *= share;
-  law.strength.compressive_stress *= share;
-  law.strength.rod_share *= share;
-  law.strength.rod_share_per_width *= share;
+  law.strength = part_of(law.strength, share);
   law.modulus *= share;
 }
 

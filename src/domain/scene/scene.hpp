@@ -80,6 +80,8 @@ struct BondScene {
   ThicknessMapping thickness_mapping = ThicknessMapping::identity;
   bool friction_floor = false;  ///< R_s >= mu F_n, R_r >= F_n B_c / 6
   StrengthFrom strength_from = StrengthFrom::conditions;
+  double strength_modulus = 0;      ///< Weibull's m of the strength from bond to bond; 0 = all alike
+  std::uint64_t strength_seed = 1;  ///< of that
   CriticalThicknessFrom critical_thickness_from = CriticalThicknessFrom::saturation;
   double critical_thickness = 0;    ///< h_max for CriticalThicknessFrom::given [m]
   double constant_thickness = 0;    ///< t_0 of constant_thickness [m]; 0 = h_max / 2

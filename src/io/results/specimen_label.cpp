@@ -47,6 +47,8 @@ constexpr Item items[] = {{"specimen.preparation_stress", Part::making},
                           {"bond.rolling_lever", Part::bonds},
                           {"bond.thickness_mapping", Part::bonds},
                           {"bond.friction_floor", Part::bonds},
+                          {"bond.strength_modulus", Part::bonds},
+                          {"bond.strength_seed", Part::bonds},
                           {"hydrate.temperature", Part::climate},
                           {"hydrate.pore_pressure", Part::climate},
                           {"bond.grain_stiffness_factor", Part::climate}};
@@ -56,6 +58,7 @@ bool is_of_bonds(Part part) { return part == Part::bonds || part == Part::climat
 /// Whether a key has a meaning in a scene.
 bool has_effect(std::string_view key, Scene const& scene) {
   if (key == "bond.critical_thickness") return scene.bond.critical_thickness_from == CriticalThicknessFrom::given;
+  if (key == "bond.strength_seed") return scene.bond.strength_modulus > 0;
   if (key == "bond.constant_thickness") return scene.bond.law == BondLawKind::constant_thickness;
   return true;
 }

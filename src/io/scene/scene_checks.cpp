@@ -289,11 +289,14 @@ void check_hydrate_of_stages(Check& check) {
 void check_bonding(Check& check) {
   BondScene const& bond = check.scene.bond;
   if (!has_bonds(check.scene)) {
-    for (std::string_view const key : {"bond.contact_coupling", "bond.critical_thickness_from", "bond.rolling_lever",
-                                       "bond.strength_from", "bond.thickness_mapping", "bond.friction_floor"})
+    for (std::string_view const key :
+         {"bond.contact_coupling", "bond.critical_thickness_from", "bond.rolling_lever", "bond.strength_from",
+          "bond.thickness_mapping", "bond.friction_floor", "bond.strength_modulus"})
       if (check.changed(key)) return check.warn("the [bond] section has no effect: the scene has no hydrate");
     return;
   }
+  if (bond.strength_modulus == 0 && check.changed("bond.strength_seed"))
+    check.warn("bond.strength_seed has no effect: bond.strength_modulus is 0, all bonds are alike");
   if (bond.constant_thickness > 0 && bond.law != BondLawKind::constant_thickness)
     check.warn("bond.constant_thickness has no effect: bond.law is not \"constant_thickness\"");
   if (bond.constant_thickness > 0 && bond.critical_thickness_from == CriticalThicknessFrom::given &&

@@ -91,6 +91,8 @@ Key const table[] = {
   {"bond.thickness_mapping", choice, CLATHRA_CHOICE(bond, thickness_mapping), "rod thickness in Eqs. 10 and 11: the gap itself, the gap but at least 0.6 mm, or the gap times 12 mm over d50", ratio, 0, 0, {}, thickness_mappings},
   {"bond.friction_floor", boolean, CLATHRA_FIELD(bond, friction_floor), "a bonded contact is never weaker than an unbonded one: R_s >= mu F_n, R_r >= F_n B_c / 6"},
   {"bond.strength_from", choice, CLATHRA_CHOICE(bond, strength_from), "strength of hydrate: as printed in Eq. 15, or of temperature, pressure and density (Eq. 13)", ratio, 0, 0, {}, sources},
+  {"bond.strength_modulus", quantity, CLATHRA_FIELD(bond, strength_modulus), "Weibull modulus of the strength, which differs from bond to bond with a mean of 1; the smaller, the further", ratio, 1, 1000, "all bonds of one width and thickness are alike", {}, true},
+  {"bond.strength_seed", integer, CLATHRA_FIELD(bond, strength_seed), "seed of that; the same bonds are strong with each run.seed that makes the same specimen", ratio, 0, any_seed},
   {"bond.critical_thickness_from", choice, CLATHRA_CHOICE(bond, critical_thickness_from), "largest gap that a bond spans: from the saturation (Eq. 3), from critical_thickness, or such that the bonds fill the saturation", ratio, 0, 0, {}, critical_thicknesses},
   {"bond.critical_thickness", quantity, CLATHRA_FIELD(bond, critical_thickness), "largest gap that a bond spans, where critical_thickness_from is \"given\"", length, 1e-9, 0.01, "bond.critical_thickness_from decides"},
   {"bond.constant_thickness", quantity, CLATHRA_FIELD(bond, constant_thickness), "thickness of all bonds where law is \"constant_thickness\"", length, 1e-9, 0.01, "half the critical thickness"},
