@@ -50,6 +50,20 @@ testing::AssertionResult refuses(std::string const& text, std::string const& wan
   return text.find("refused: final.h5: ") == 0 ? says(text, wanted) : testing::AssertionFailure() << "taken: " << text;
 }
 
+/// Its bonds are narrower than the thickness says with which they formed.
+TEST(SpecimenLabel, OfHydrateThatChangedIsRefused) {
+  Scene scene = scene_at(0.41);
+  scene.test.kind = TestKind::heating;
+  Specimen specimen = bonded_by(scene);
+  SceneTexts const before = specimen_label(scene, true);
+  specimen.provenance = nlohmann::json{{"made_of", label_after(before, scene, true)}}.dump();
+  EXPECT_TRUE(refuses(verdict(specimen, scene), "its hydrate changed in the stages 'heating'"));
+  EXPECT_TRUE(refuses(verdict(specimen, scene_at(0.41)), "Go on with that run itself (--resume)"));
+  scene.test.kind = TestKind::creep;
+  specimen.provenance = nlohmann::json{{"made_of", label_after(before, scene, true)}}.dump();
+  EXPECT_EQ(verdict(specimen, scene), "");
+}
+
 TEST(SpecimenLabel, OfTheSceneThatMadeTheBondsIsTakenWithoutAWord) {
   Scene const scene = scene_at(0.55);
   EXPECT_EQ(verdict(bonded_by(scene), scene), "");

