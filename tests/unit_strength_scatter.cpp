@@ -57,6 +57,15 @@ TEST(StrengthScatter, BelongsToThePairAndTheSeed) {
   EXPECT_NEAR(product / pairs, 0, 4 * 0.0525 / std::sqrt(pairs)) << "seeds are independent: 0.0525 is the variance at m = 5";
 }
 
+TEST(StrengthScatter, HasALowerBoundWithoutLogarithms) {
+  StrengthScatter const scatter = scatter_with(5);
+  for (int n = 1; n < 1000; ++n) {
+    double const part = 1e-3 * n;
+    EXPECT_LE(scatter.lower_bound(part), scatter.quantile(part)) << part;
+    EXPECT_GE(scatter.lower_bound(part), 0.6 * scatter.quantile(part)) << part;
+  }
+}
+
 TEST(StrengthScatter, IsAbsentUnlessItIsAskedFor) {
   BondLaw const law = make_bond_law(Scene(), 0.17e-3, 1e-5);
   EXPECT_FALSE(law.scatter.is_on());

@@ -34,8 +34,13 @@ struct BondFailures {
     VMask broken(false);
     for_each_set(doubtful(block), [&](int l) {
       std::size_t const e = block.entry + static_cast<std::size_t>(l), disc = block.first + static_cast<std::size_t>(l);
-      Real const share = exact.scatter.is_on() ? exact.scatter.share(p.id(disc), p.id(rows.neighbour(e))) : Real(1);
-      if ((mixed || exact.scatter.is_on()) && is_surely_intact(exact, trial_of(block, l, 1 / share))) return;
+      Real share = 1;
+      if (exact.scatter.is_on()) {
+        Real const part = exact.scatter.part_below(p.id(disc), p.id(rows.neighbour(e)));
+        if (is_surely_intact(exact, trial_of(block, l, 1 / exact.scatter.lower_bound(part)))) return;
+        share = lane_max(exact.scatter.least, exact.scatter.quantile(part));
+      }
+      if (mixed && is_surely_intact(exact, trial_of(block, l, 1 / share))) return;
       Real const radius = common_radius(p.radius(disc), p.radius(rows.neighbour(e)));
       BondStrength strength = bond_strength(exact.strength, lane(block.width, l), lane(block.thickness, l), radius);
       strength.tension *= share;  // R_s and R_r are proportional to R_c + R_t

@@ -41,6 +41,7 @@ StrengthScatter scatter_of(BondScene const& bond) {
   scatter.inverse_modulus = 1 / bond.strength_modulus;
   scatter.scale = 1 / std::tgamma(1 + scatter.inverse_modulus);
   scatter.least = scatter.quantile(StrengthScatter::weakest);
+  for (int k = 0; k < StrengthScatter::mark_count; ++k) scatter.at_mark[k] = scatter.quantile(scatter.mark[k]);
   scatter.seed = bond.strength_seed;
   return scatter;
 }
