@@ -40,8 +40,9 @@ class LoadingPages : public testing::Test {
   }
   static std::string rows_of_change() {
     return "stage,step,eps1,eps_v,sigma1_Pa,sigma3_Pa,q_Pa,p_Pa,temperature_degC,pore_pressure_Pa,saturation_pct\n"
-           "load,0,0,0,5e6,4e6,1e6,4.5e6,5,8e6,41\nwarming,1,0,0,5e6,4e6,1e6,4.5e6,5,8e6,41\n"
-           "warming,2,0,0,4e6,3e6,1e6,3.5e6,8,8e6,30\nwarming,3,0,0,3e6,2e6,1e6,2.5e6,9,8e6,22\n";
+           "load,0,0,0,1e6,1e6,0,1e6,5,8e6,41\nwarming,1,0,0,1e6,1e6,0,1e6,5,8e6,41\nwarming,2,0,0,5e6,4e6,1e6,4.5e6,5,8e6,41\n"
+           "warming,3,0.01,0,4e6,3e6,1e6,3.5e6,8,8e6,30\nwarming,4,0.02,0,3e6,2e6,1e6,2.5e6,9,8e6,22\n"
+           "shear,5,0.02,0,2e6,1e6,1e6,1.5e6,9,8e6,22\nshear,6,0.03,0,9e6,1e6,8e6,5e6,9,8e6,22\n";
   }
   static ShownRuns shown(std::vector<RunResults> const& runs, LaboratoryOverlay& data) {
     return {runs, data, [&runs](std::size_t i) { return Curve{runs[i].name, {}, {}, {}}; }};
@@ -105,15 +106,21 @@ TEST(SandStrength, SaysWhereItBearsALoadNoMore) {
 
 TEST_F(LoadingPages, SayWhereSpecimensFailBesideWhatTheSandBears) {
   nlohmann::json failed = {{"loading", {{{"stage", "warming"}, {"ended_by", "failed"}}}},
-                           {"stages", {{"warming", {{"failed_p_Pa", 2.9e6}, {"failed_q_Pa", 1e6}}}}}};
+                           {"stages", {{"warming", {{"failed_p_Pa", 2.9e6}, {"failed_q_Pa", 1e6}, {"failed_eps1", 0.015}}}}}};
   nlohmann::json const stood = {{"loading", {{{"stage", "warming"}, {"ended_by", "rest"}}}},
                                 {"stages", {{"warming", {{"failed", 0}}}}}};
-  std::vector<RunResults> const runs = {run_of("fallen", failed, rows_of_change()), run_of("standing", stood, rows_of_change())};
+  nlohmann::json cut = stood;
+  cut["loading"][0]["ended_by"] = "axial strain";
+  std::vector<RunResults> const runs = {run_of("fallen", failed, rows_of_change()), run_of("standing", stood, rows_of_change()),
+                                        run_of("cut off", cut, rows_of_change())};
   LaboratoryOverlay none;
   SandStrength const sand{0, std::numbers::pi / 6};  // N = 3
   std::string const table = failure_table(shown(runs, none), sand).html;
-  EXPECT_NE(table.find("<td>fallen</td><td>1</td><td>0.5</td><td>1 of 1</td><td>2.4</td><td>–</td>"), std::string::npos) << table;
-  EXPECT_NE(table.find("<td>standing</td><td>1</td><td>0.5</td><td>0 of 1</td><td>–</td><td>2</td>"), std::string::npos) << table;
+  for (std::string const row :
+       {"<td>fallen</td><td>1</td><td>0.5</td><td>1 of 1</td><td>3</td><td>2.4</td><td>0 of 1</td><td>–</td>",
+        "<td>standing</td><td>1</td><td>0.5</td><td>0 of 1</td><td>–</td><td>–</td><td>1 of 1</td><td>2</td>",
+        "<td>cut off</td><td>1</td><td>0.5</td><td>0 of 1</td><td>–</td><td>–</td><td>0 of 1</td><td>–</td>"})
+    EXPECT_NE(table.find(row), std::string::npos) << row << table;
   std::string const csv = csv_of(failure_figure(shown(runs, none), sand));
   EXPECT_NE(csv.find("failed here,2900000,1000000"), std::string::npos) << csv;
   EXPECT_NE(csv.find("strength of the clean sand,0,0"), std::string::npos) << csv;

@@ -1,5 +1,6 @@
 #pragma once
 /// The numbers of a finished test that people compare: peak, residual, volume change, quality of the control.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,11 @@ class CurveSummary {
 
  private:
   /// Of the ledger since the first record, over the largest work since then.
-  double energy_residual() const { return largest_work_ > 0 ? (energy_.residual - first_energy_.residual) / largest_work_ : 0; }
+  /// Of the work, or of a thousandth of what is stored: a stage that only holds stresses does no work to speak of.
+  double energy_residual() const {
+    double const least = 1e-3 * (energy_.grain_elastic + energy_.bond_elastic + energy_.wall_elastic);
+    return largest_work_ > 0 ? (energy_.residual - first_energy_.residual) / std::max(largest_work_, least) : 0;
+  }
 
   TestNumbers test() const {
     return test_numbers({curves_.eps1, curves_.eps_v, q_, curves_.sigma3, intact_, largest_q_, largest_q_eps1_, dilation_});

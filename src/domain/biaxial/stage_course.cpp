@@ -15,7 +15,8 @@ constexpr std::int64_t steps_between_looks = 200;
 constexpr std::int64_t checks_to_rest = 3;    // on end
 constexpr RestCriterion rest_of_increment{};  // that of specimens
 constexpr double stress_of_look = 0.05;       // of the confining stress, that q or p changes by between two rows
-constexpr double rounding = 1e-9;             // of a strain, which is the sum of many steps
+constexpr char no_stress_left[] = "no effective stress";
+constexpr double rounding = 1e-9;  // of a strain, which is the sum of many steps
 
 /// Of a dead load: what is called failure where it lasts longer than so many transits of a compression wave.
 constexpr double failed_strain = 0.2, failed_inertia = 1e-3, failed_stress = 0.05, failed_rise = 0.01, transits = 10;
@@ -229,7 +230,7 @@ std::optional<std::string> BiaxialTest::State::end_reached() const {
   if (end.cycles > 0 && place.turns >= 2 * end.cycles) return "cycles";
   if (end.path > 0 && within >= end.path * (1 - rounding)) return "path";
   bool const last = is_last_increment();
-  if (has_lost_stress()) return "no effective stress";
+  if (has_lost_stress()) return no_stress_left;
   if (now().hydrate.any() && place.failed && v.eps1 - first.eps1 >= failed_strain) return "failed";
   if (end.strain_rate > 0 && last && place.checks_slow >= checks_to_rest) return "strain rate";
   if ((end.rest || end.strain_rate > 0) && last && place.checks_at_rest >= checks_to_rest)
@@ -281,8 +282,15 @@ StageResult BiaxialTest::State::result(std::string const& ended_by) const {
   if (place.unsettled) numbers["unsettled"] = 1;
   if (now().hydrate.any()) add_hydrate(numbers, "end", hydrate);
   if (now().turn.any()) numbers["turns"] = static_cast<double>(place.turns);
-  if (bears_dead_load()) numbers["failed"] = place.failed ? 1 : 0;
+  if (bears_dead_load() && (place.failed || ended_by == "rest" || ended_by == "strain rate"))
+    numbers["failed"] = place.failed ? 1 : 0;
   if (place.failed) add_failure(result);
+  if (ended_by == no_stress_left)
+    result.warnings.push_back("the effective lateral stress is used up" + hydrate_words(hydrate) +
+                              ": what follows of such a specimen is not what a soil does");
+  if (bears_dead_load() && !place.failed && ended_by == "axial strain")
+    result.warnings.push_back("the stage ends at an axial strain of " + short_number(100 * v.eps1, 3) +
+                              " % before the specimen rests: whether it bears its load is not known");
   if (std::string const soft = stiffness_warning_at(scene, watch.largest_sigma1()); !soft.empty())
     result.warnings.push_back(soft);
   if (std::string const problem = collapse(simulation->assembly().void_ratio(), 0); scene.run.ignore_guards && !problem.empty())

@@ -77,8 +77,10 @@ StageRecord loading_numbers(LoadingStage const& stage, LoadingCurves const& c) {
   numbers["start_void_ratio"] = c.void_ratio[0];
   numbers["end_void_ratio"] = c.void_ratio[last];
   if (stage.vertical.has_stress() && stage.lateral.hold) add_one_dimensional(c, numbers);
+  constexpr double least_change = 0.02;  // of p: less is the trembling of walls that hold a stress
   if (double const strain = c.eps_v[last] - c.eps_v[0]; stage.vertical.has_stress() &&
                                                         stage.vertical.stress == stage.lateral.stress && strain != 0 &&
+                                                        std::abs(mean_stress(c, last) / mean_stress(c, 0) - 1) > least_change &&
                                                         std::abs(deviator(c, 0)) < isotropic * mean_stress(c, 0))
     numbers["bulk_modulus_Pa"] = (mean_stress(c, last) - mean_stress(c, 0)) / strain;
   if (double const strain = c.eps1[last] - c.eps1[0];

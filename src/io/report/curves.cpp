@@ -169,7 +169,7 @@ struct Account {
   Rgb colour;
 };
 
-/// The accounts of the ledger from bottom to top. What is stored counts as its change since the shear began.
+/// The accounts of the ledger from bottom to top. What is stored counts as its change since the consolidation.
 std::vector<Account> const& accounts() {
   static std::vector<Account> const all{
       {"stored in grains, bonds, walls and motion",
@@ -178,8 +178,16 @@ std::vector<Account> const& accounts() {
       {"lost by sliding", {"sliding_J_per_m"}, colours::orange},
       {"lost by rolling", {"rolling_J_per_m"}, colours::vermilion},
       {"lost by breaking bonds", {"breakage_J_per_m"}, colours::purple},
+      {"lost with hydrate", {"dissolved_J_per_m"}, colours::green},
       {"lost by damping", {"dashpot_J_per_m", "damping_J_per_m"}, colours::grey}};
   return all;
+}
+
+/// An account that stays empty where no hydrate changes.
+bool is_without_hydrate(Account const& account, HistoryTable const& history) {
+  if (account.columns.front() != std::string_view("dissolved_J_per_m")) return false;
+  std::vector<double> const& lost = history[account.columns.front()];
+  return std::none_of(lost.begin(), lost.end(), [](double value) { return value != 0; });
 }
 
 Piece energy_figure(RunResults const& run) {
@@ -193,6 +201,7 @@ Piece energy_figure(RunResults const& run) {
     Area area{account.name, strain, top, top, account.colour};
     for (char const* const column : account.columns)
       for (std::size_t i = 0; i < history.rows(); ++i) area.high[i] += history[column][i] - history[column][0];
+    if (is_without_hydrate(account, history)) continue;
     top = area.high;
     values.include(area.high);
     plot.description += fmt::format("{}: {:.3g} J per metre at the end. ", account.name, area.high.back() - area.low.back());
@@ -210,7 +219,7 @@ Piece energy_figure(RunResults const& run) {
   return figure(
       "Where the work went: " + run_label(run),
       drawing(plot) + legend(line_entry(plot.curves[0].stroke, plot.curves[0].name) + std::move(entries)),
-      fmt::format("The work of the walls since the shear began (dashed) and what became of it, on top of each other. Each "
+      fmt::format("The work of the walls since the consolidation (dashed) and what became of it, on top of each other. Each "
                   "part is counted by itself; at the end they miss the work by {:.2g} %. Per metre of thickness out of "
                   "the plane.",
                   work != 0 ? std::abs(residual / work) * percent : 0.0));

@@ -16,18 +16,28 @@ bool changes_hydrate(RunResults const& run) { return run.history.has("saturation
 
 }  // namespace
 
-std::vector<std::size_t> rows_where_hydrate_changes(RunResults const& run) {
-  HistoryTable const& history = run.history;
+std::vector<HydrateStageRows> stages_that_change_hydrate(RunResults const& run) {
   if (!changes_hydrate(run)) return {};
-  auto const differs = [&](std::size_t i) {
+  HistoryTable const& history = run.history;
+  auto const differ = [&](std::size_t a, std::size_t b) {
     for (char const* const column : {"temperature_degC", "pore_pressure_Pa", "saturation_pct"})
-      if (history[column][i] != history[column][0]) return true;
+      if (history[column][a] != history[column][b]) return true;
     return false;
   };
-  std::size_t first = 0;
-  while (first < history.rows() && !differs(first)) ++first;
+  std::vector<HydrateStageRows> stages;
+  for (std::size_t from = 0, to = 0; from < history.rows(); from = to) {
+    while (to < history.rows() && history.stages()[to] == history.stages()[from]) ++to;
+    std::size_t before = from;  // the last row of the hydrate that there was
+    while (before + 1 < to && !differ(before + 1, from)) ++before;
+    if (before + 1 < to) stages.push_back({history.stages()[from], before, to});
+  }
+  return stages;
+}
+
+std::vector<std::size_t> rows_where_hydrate_changes(RunResults const& run) {
   std::vector<std::size_t> rows;
-  for (std::size_t i = first > 0 ? first - 1 : 0; first < history.rows() && i < history.rows(); ++i) rows.push_back(i);
+  for (HydrateStageRows const& stage : stages_that_change_hydrate(run))
+    for (std::size_t i = stage.before; i < stage.end; ++i) rows.push_back(i);
   return rows;
 }
 

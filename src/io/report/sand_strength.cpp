@@ -50,42 +50,55 @@ std::optional<SandStrength> strength_of_sand(std::vector<GroupNumbers> const& ma
 
 namespace {
 
-/// What runs of one name came to. Stresses in Pa.
+/// What the stages of one name came to, of runs of one name. Stresses in Pa.
 struct Outcome {
   std::string name;
-  std::vector<double> loads, failed_at,
-      stood_to;  ///< q before the hydrate changes; sigma_3 where runs failed, the least of others
+  std::vector<double> loads;      ///< q before the hydrate changes
+  std::vector<double> failed_at;  ///< sigma_3 where runs failed, or nothing was left of it
+  std::vector<double> stood_at;   ///< and at the last rest before
+  std::vector<double> stood_to;   ///< the least of those that came to rest in the end
 };
 
-/// Where a run failed under its load while its hydrate changed: p and q [Pa].
-std::optional<std::pair<double, double>> failure_of(RunResults const& run) {
-  auto const loading = run.record.find("loading");
-  if (loading == run.record.end()) return {};
-  for (auto const& end : *loading) {
-    std::string const at = "/stages/" + end.value("stage", "") + "/";
-    auto const p = run.number(at + "failed_p_Pa"), q = run.number(at + "failed_q_Pa");
-    if (p && q) return std::pair{*p, *q};
-  }
+/// Where a run failed under its load in a stage: p and q [Pa].
+std::optional<std::pair<double, double>> failure_of(RunResults const& run, std::string const& stage) {
+  std::string const at = "/stages/" + stage + "/";
+  auto const p = run.number(at + "failed_p_Pa"), q = run.number(at + "failed_q_Pa");
+  return p && q ? std::optional(std::pair{*p, *q}) : std::nullopt;
+}
+
+std::string end_of(RunResults const& run, std::string const& stage) {
+  if (auto const loading = run.record.find("loading"); loading != run.record.end())
+    for (auto const& end : *loading)
+      if (end.value("stage", "") == stage) return end.value("ended_by", "");
   return {};
 }
 
-void add_outcome(std::vector<Outcome>& outcomes, std::string const& name, RunResults const& run,
-                 std::vector<std::size_t> const& rows) {
+void add_outcome(std::vector<Outcome>& outcomes, std::string const& name, RunResults const& run, HydrateStageRows const& rows) {
   auto at = std::find_if(outcomes.begin(), outcomes.end(), [&](Outcome const& o) { return o.name == name; });
-  if (at == outcomes.end()) at = outcomes.insert(outcomes.end(), Outcome{name, {}, {}, {}});
-  at->loads.push_back(run.history["q_Pa"][rows.front()]);
-  if (auto const failure = failure_of(run)) return at->failed_at.push_back(failure->first - failure->second / 2);
-  double least = HUGE_VAL;
-  for (std::size_t const i : rows) least = std::min(least, run.history["sigma3_Pa"][i]);
-  at->stood_to.push_back(least);
+  if (at == outcomes.end()) at = outcomes.insert(outcomes.end(), Outcome{name, {}, {}, {}, {}});
+  std::vector<double> const &sigma3 = run.history["sigma3_Pa"], &eps1 = run.history["eps1"];
+  at->loads.push_back(run.history["q_Pa"][rows.before]);
+  std::string const end = end_of(run, rows.stage);
+  auto const failure = failure_of(run, rows.stage);
+  if (failure || end == "no effective stress") {
+    double const strain = run.number("/stages/" + rows.stage + "/failed_eps1").value_or(HUGE_VAL);
+    std::size_t last = rows.before;
+    while (last + 2 < rows.end && eps1[last + 1] < strain) ++last;
+    at->failed_at.push_back(failure ? failure->first - failure->second / 2 : sigma3[rows.end - 1]);
+    at->stood_at.push_back(sigma3[last]);
+  } else if (end == "rest") {
+    auto const from = sigma3.begin() + static_cast<std::ptrdiff_t>(rows.before);
+    at->stood_to.push_back(*std::min_element(from, sigma3.begin() + static_cast<std::ptrdiff_t>(rows.end)));
+  }
 }
 
 /// Where runs failed: a curve of one point each.
 std::vector<Curve> failures_of(std::vector<RunResults> const& runs) {
   std::vector<Curve> failures;
   for (RunResults const& run : runs)
-    if (auto const failure = rows_where_hydrate_changes(run).size() < 2 ? std::nullopt : failure_of(run))
-      failures.push_back({"failed here", {failure->first}, {failure->second}, {colours::vermilion, "2 3", 4}, true});
+    for (HydrateStageRows const& rows : stages_that_change_hydrate(run))
+      if (auto const failure = failure_of(run, rows.stage))
+        failures.push_back({"failed here", {failure->first}, {failure->second}, {colours::vermilion, "2 3", 4}, true});
   return failures;
 }
 
@@ -107,6 +120,7 @@ Piece failure_figure(ShownRuns const& shown, std::optional<SandStrength> const& 
     std::vector<std::size_t> const rows = rows_where_hydrate_changes(run);
     if (rows.size() < 2) continue;
     Curve curve = shown.style(r);
+    curve.marked = rows.size() < 100;
     for (std::size_t const i : rows) {
       curve.x.push_back(run.history["p_Pa"][i]);
       curve.y.push_back(run.history["q_Pa"][i]);
@@ -141,27 +155,30 @@ Piece failure_figure(ShownRuns const& shown, std::optional<SandStrength> const& 
 
 Piece failure_table(ShownRuns const& shown, std::optional<SandStrength> const& sand) {
   std::vector<Outcome> outcomes;
-  for (std::size_t r = 0; r < shown.runs.size(); ++r)
-    if (std::vector<std::size_t> const rows = rows_where_hydrate_changes(shown.runs[r]); rows.size() >= 2)
-      add_outcome(outcomes, shown.style(r).name, shown.runs[r], rows);
+  for (std::size_t r = 0; r < shown.runs.size(); ++r) {
+    std::vector<HydrateStageRows> const stages = stages_that_change_hydrate(shown.runs[r]);
+    for (HydrateStageRows const& rows : stages)
+      add_outcome(outcomes, shown.style(r).name + (stages.size() > 1 ? ", " + rows.stage : ""), shown.runs[r], rows);
+  }
   if (outcomes.empty()) return "";
   auto const stress = [](std::vector<double> const& values) {
-    return values.empty()      ? std::string("–")
-           : values.size() > 1 ? with_interval(values, mega)
-                               : fmt::format("{:.3g}", values.front() * mega);
+    if (values.empty()) return std::string("–");
+    return values.size() > 1 ? with_interval(values, mega) : fmt::format("{:.3g}", values.front() * mega);
   };
   std::vector<std::vector<std::string>> rows;
   for (Outcome const& o : outcomes) {
-    std::vector<double> predicted;
-    if (sand)
-      for (double const load : o.loads) predicted.push_back(sand->lateral_stress(load));
-    rows.push_back({o.name, stress(o.loads), stress(predicted), fmt::format("{} of {}", o.failed_at.size(), o.loads.size()),
-                    stress(o.failed_at), stress(o.stood_to)});
+    double const load = mean_interval(o.loads).mean;
+    rows.push_back({o.name, fmt::format("{:.3g}", load * mega),
+                    sand ? fmt::format("{:.3g}", sand->lateral_stress(load) * mega) : std::string("–"),
+                    fmt::format("{} of {}", o.failed_at.size(), o.loads.size()), stress(o.stood_at), stress(o.failed_at),
+                    fmt::format("{} of {}", o.stood_to.size(), o.loads.size()), stress(o.stood_to)});
   }
   return "<p class=\"soft\">Stresses in MPa: the load, the lateral stress at which the sand alone bears it no more, and what "
-         "became of "
-         "the specimens.</p>\n" +
-         table({"test", "q", "σ₃ of the sand", "failed", "at σ₃", "least σ₃ of those that stood"}, rows);
+         "became "
+         "of the specimens. One failed between the stress at which it rested last and that at which its failure began; what "
+         "neither "
+         "failed nor came to rest was cut off by another end of its stage.</p>\n" +
+         table({"test", "q", "σ₃ of the sand", "failed", "after rest at σ₃", "at σ₃", "came to rest", "least σ₃ of these"}, rows);
 }
 
 Piece hydrate_part(ShownRuns const& shown, std::optional<SandStrength> const& sand) {

@@ -132,6 +132,11 @@ void require_agreement(std::filesystem::path const& file, Specimen const& specim
                                   format_quantity(specimen.density, Dimension::density),
                                   format_quantity(scene.grains.density, Dimension::density)));
   if (!(specimen.critical_thickness > 0)) return;
+  for (LoadingStage const& stage : stages_of(scene))
+    if (stage.forms_hydrate)
+      throw FileProblem(
+          ExitCode::refused, file,
+          fmt::format("has bonds already, and hydrate is to form in the stage '{}': take a specimen without bonds", stage.name));
   if (auto const changed = label.find(hydrate_changed_in); changed != label.end())
     throw FileProblem(ExitCode::refused, file,
                       fmt::format("its hydrate changed in the stages {}, and the file has the thickness with which its bonds "

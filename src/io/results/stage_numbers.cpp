@@ -122,7 +122,7 @@ constexpr StageNumber numbers[] = {
     {"shear", "largest_pore_pressure_ratio", "r_u = u over sigma3 at the beginning"},
     {"shear", "phase_transformation_p_Pa", "least p, where p rises again by 1 % after it"},
     {"shear", "phase_transformation_eps1", "axial strain there"},
-    {"shear", "failed", "1 where the specimen did not bear its dead load"},
+    {"shear", "failed", "1 where the specimen did not bear its dead load, 0 where it came to rest under it; not given where the stage ended before"},
     {"shear", "failed_eps1", "axial strain where that was seen first"},
     {"shear", "failed_q_Pa", "q there"},
     {"shear", "failed_p_Pa", "p there"},

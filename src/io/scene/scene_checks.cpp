@@ -15,6 +15,7 @@
 #include "domain/scene/specimen_design.hpp"
 #include "domain/scene/stage.hpp"
 #include "domain/scene/units.hpp"
+#include "io/scene/hydrate_course_warnings.hpp"
 #include "io/scene/scene_value.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/size_warnings.hpp"
@@ -223,6 +224,11 @@ void check_formation(Check& check) {
   if (!forms_hydrate(stages_of(check.scene))) return;
   if (!has_bonds(check.scene))
     return check.error({"hydrate.saturation", "bond.law"}, "hydrate is to form in a stage, and the scene has none");
+  if (check.scene.bond.contact_coupling == ContactCoupling::replaces)
+    return check.error(
+        {"bond.contact_coupling"},
+        "hydrate is to form in a stage, where 'bond.contact_coupling' = \"replaces\" would delete the contact forces "
+        "that carry its stresses; use \"parallel\" or \"replaces_keeping_force\"");
   if (!check.scene.bond.after_consolidation)
     check.error({"bond.after_consolidation"},
                 "'bond.after_consolidation' = false lets hydrate form before the consolidation, 'forms_hydrate' in a stage");
@@ -239,8 +245,8 @@ void check_loss(Check& check, std::vector<LoadingStage> const& stages) {
   double const spread = uniform ? 0 : hydrate.spread_of_loss;
   if (hydrate.saturation <= least_cementing + spread)
     check.error({"hydrate.saturation", "hydrate.spread_of_loss"},
-                fmt::format("a stage changes the hydrate, which must form with a saturation above {:g} %: 20 %{}",
-                            (least_cementing + spread) * 100, uniform ? "" : " and hydrate.spread_of_loss"));
+                fmt::format("a stage changes the hydrate, which must form with a saturation above {:g} %{}",
+                            (least_cementing + spread) * 100, uniform ? "" : ": 20 % and hydrate.spread_of_loss"));
 }
 
 /// What stages want of hydrate that changes.
@@ -263,6 +269,7 @@ void check_hydrate_of_stages(Check& check) {
         "'test.final_pore_pressure' is above 'hydrate.pore_pressure' by more than the confining stress: at constant total "
         "stress no effective stress would be left");
   check_loss(check, stages);
+  for (std::string const& warning : hydrate_course_warnings(scene, stages)) check.warn(warning);
   double saturation = scene.hydrate.saturation;
   bool known = true;
   for (LoadingStage const& stage : stages) {
