@@ -190,6 +190,30 @@ TEST(StagesInAScene, SayWhereHydrateForms) {
                   "stage.1.hydrate.temperature=6 degC"});
 }
 
+/// Taken, with a word on what is likely not meant.
+TEST(StagesInAScene, WarnOfHydrateThatDoesNotGoAsItsStateDoes) {
+  auto const warnings = [](std::string const& change) {
+    std::string const text = sized +
+                             "[hydrate]\nsaturation = \"41 %\"\n[[stage]]\nname = \"s\"\nvertical.stress = \"2 MPa\"\n"
+                             "lateral.stress = \"1 MPa\"\nuntil.rest = true\nhydrate = { " +
+                             change + " }\n";
+    std::string all;
+    for (std::string const& warning : load(text).warnings) all += warning + "\n";
+    return all;
+  };
+  std::pair<char const*, char const*> const cases[] = {
+      {"temperature = \"5 degC\", saturation = \"41 %\"", "'hydrate' changes nothing"},
+      {"temperature = \"14 degC\", saturation = \"20 %\", constant_total_stress = true", "the pore pressure stays"},
+      {"temperature = \"14 degC\", undrained = true, constant_total_stress = true", "keeps the total stresses already"},
+      {"pore_pressure = \"7 MPa\", dissociation = \"instant\"", "hydrate stays stable, by"},
+      {"temperature = \"2 degC\", saturation = \"20 %\"", "the hydrate that is lost is stable, by"},
+      {"temperature = \"14 degC\"", "the hydrate stays, "}};
+  for (auto const& [change, warning] : cases)
+    EXPECT_NE(warnings(change).find(warning), std::string::npos) << change << "\n" << warnings(change);
+  EXPECT_EQ(warnings("temperature = \"14 degC\", saturation = \"20 %\"").find("stage 's'"), std::string::npos);
+  EXPECT_EQ(warnings("temperature = \"7 degC\"").find("stage 's'"), std::string::npos);
+}
+
 /// What may grow when a run is extended is the end of its last stage, not what decides how it goes there.
 TEST(StagesInAScene, GrowOnlyWhereTheStrainIsTheirEnd) {
   for (auto const& [kind, more, grows] : {std::tuple{"biaxial", "", true},

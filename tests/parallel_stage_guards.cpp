@@ -16,10 +16,10 @@ void expect_refusal(std::vector<LoadingStage> stages, std::string const& words) 
   }
 }
 
-StageRun under_dead_load(double dead_load) {
+StageRun under_dead_load(double dead_load, double axial_strain = 0.06) {
   Scene scene = sand();
   scene.test.kind = TestKind::creep;
-  scene.test.axial_strain = 0.06;
+  scene.test.axial_strain = axial_strain;
   scene.test.dead_load = dead_load;
   return run_stages(scene);
 }
@@ -42,6 +42,14 @@ TEST(Stages, SayThatTheyFailedUnderADeadLoad) {
   EXPECT_GT(result.numbers.at("failed_q_Pa"), 1e6) << "not while the load was put on";
   EXPECT_LT(result.numbers.at("failed_q_Pa"), 3e6);
   EXPECT_NE(result.warnings.back().find("failed under its dead load"), std::string::npos);
+}
+
+TEST(Stages, SayNotWhetherALoadIsBorneWhereTheyAreCutOff) {
+  StageResult const result = under_dead_load(0.9e6, 5e-4).stages.front();
+  EXPECT_EQ(result.ended_by, "axial strain");
+  EXPECT_FALSE(result.numbers.contains("failed"));
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.back().find("whether it bears its load is not known"), std::string::npos);
 }
 
 /// The strain rate falls as a specimen comes to bear its load.
