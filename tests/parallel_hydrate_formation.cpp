@@ -41,6 +41,16 @@ TEST(HydrateFormation, InTheFirstStageBondsWhatTheConsolidationWould) {
   }
 }
 
+/// Neighbours are searched as far as bonds reach, whatever the skin.
+TEST(HydrateFormation, BondsAcrossGapsThatTheSkinDoesNotSpan) {
+  Scene scene = bonded_at_rest_in_one_dimension();
+  scene.run.verlet_skin = 2e-6;
+  BiaxialTest test(scene, small_specimen(), ProgressCallback());
+  while (!test.stage().forms_hydrate) test.advance(100'000);
+  EXPECT_GT(test.preparation().at("h_max_m"), 3 * scene.run.verlet_skin);
+  EXPECT_EQ(static_cast<double>(test.record().bonds_intact), test.preparation().at("bonds"));
+}
+
 /// Bonds are stress-free where they form: nothing moves by it, and what follows is stiffer than sand.
 TEST(HydrateFormation, UnderAnisotropicStressesChangesNoneOfThem) {
   Scene const scene = bonded_at_rest_in_one_dimension();
