@@ -19,7 +19,8 @@ std::vector<std::uint64_t> seeds_of(StudyPlan const& plan, std::size_t group) {
   return seeds;
 }
 
-std::string number_text(GroupNumbers const& group, char const* name, char const* words, char const* unit, double factor) {
+std::string number_text(GroupNumbers const& group, std::string const& name, std::string const& words, char const* unit,
+                        double factor) {
   auto const found = group.values.find(name);
   if (found == group.values.end()) return {};
   std::string text = fmt::format("{} {} {}", words, interval_text(mean_interval(found->second), factor), unit);
@@ -38,6 +39,19 @@ std::string line_of(GroupNumbers const& group, std::vector<std::string> const& p
     if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
   return fmt::format("{:<9} {} ({} seed{})\n", "", group.name + ": " + text, group.seeds.size(),
                      group.seeds.size() == 1 ? "" : "s");
+}
+
+/// Of tests that are not one compression: the axial strain of each stage, and the share that failed under its load.
+std::vector<std::string> texts_of_stages(GroupNumbers const& group) {
+  std::vector<std::string> texts;
+  for (auto const& [name, values] : group.values) {
+    std::size_t const dot = name.rfind('.');
+    std::string const number = name.substr(dot == name.npos ? 0 : dot + 1),
+                      stage = dot == name.npos ? "" : " of " + name.substr(0, dot);
+    if (number == "strain_eps1") texts.push_back(number_text(group, name, "eps1" + stage, "%", 100));
+    if (number == "failed") texts.push_back(number_text(group, name, "failed" + stage, "%", 100));
+  }
+  return texts;
 }
 
 }  // namespace
@@ -95,8 +109,10 @@ bool GoalSearch::add_members(StudyPlan& plan, ProgressLine& line) {
 std::string statistics_text(StudyPlan const& plan) {
   std::string text;
   for (GroupNumbers const& group : numbers_by_group(plan.study, plan.members))
-    text += line_of(group, {number_text(group, "peak_q_Pa", "peak q", "MPa", 1e-6) + rising_text(group),
-                            number_text(group, "residual_q_Pa", "residual q", "MPa", 1e-6) + rising_text(group)});
+    text += group.values.contains("peak_q_Pa")
+                ? line_of(group, {number_text(group, "peak_q_Pa", "peak q", "MPa", 1e-6) + rising_text(group),
+                                  number_text(group, "residual_q_Pa", "residual q", "MPa", 1e-6) + rising_text(group)})
+                : line_of(group, texts_of_stages(group));
   for (GroupNumbers const& material : envelopes_by_material(plan.study, plan.members))
     text += line_of(material, {number_text(material, "peak_cohesion_Pa", "c", "MPa", 1e-6),
                                number_text(material, "peak_friction_angle_deg", "φ", "°", 1)});
