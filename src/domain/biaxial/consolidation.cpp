@@ -32,10 +32,9 @@ void BiaxialTest::State::prepare(Specimen specimen) {
   bool const bond = has_bonds(scene) && specimen.critical_thickness == 0 && !forms_hydrate(stages);
   consolidation.bonds_after = bond && scene.bond.after_consolidation;
   consolidation.made_under = specimen.stress;
-  hydrate = {scene.hydrate.temperature, scene.hydrate.pore_pressure,
-             bond || specimen.critical_thickness > 0 ? scene.hydrate.saturation : 0};
-  if (consolidation.bonds_after) hydrate.saturation = 0;
-  if (bond && !consolidation.bonds_after) {
+  bool const bonds_first = bond && !scene.bond.after_consolidation, bonded = bonds_first || specimen.critical_thickness > 0;
+  hydrate = {scene.hydrate.temperature, scene.hydrate.pore_pressure, bonded ? scene.hydrate.saturation : 0};
+  if (bonds_first) {
     // Bonds reach across ranks: discs must first be where they belong.
     specimen = by_place(ranks, std::move(specimen));
     bond_specimen(scene, specimen, preparation, ranks);

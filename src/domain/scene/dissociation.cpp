@@ -11,7 +11,6 @@ namespace {
 
 constexpr double gas_constant = 8.314462618;              // [J/(mol K)]
 constexpr double molar_mass = 16.043e-3 + 6 * 18.015e-3;  // of CH4 6 H2O [kg/mol]
-constexpr double kelvin_of_zero = 273.15;
 
 }  // namespace
 
@@ -24,7 +23,7 @@ DissociationRate dissociation_rate(Dissociation by) {
 double recession_speed(Dissociation by, HydrateScene const& hydrate, double temperature, double pore_pressure) {
   DissociationRate const rate = dissociation_rate(by);
   double const drive = std::max(0.0, equilibrium_pressure(temperature, hydrate.salinity) - pore_pressure),
-               k = rate.factor * std::exp(-rate.activation_energy / (gas_constant * (kelvin_of_zero + temperature)));
+               k = rate.factor * std::exp(-rate.activation_energy / (gas_constant * (zero_celsius + temperature)));
   return k * drive * molar_mass / hydrate.density;
 }
 

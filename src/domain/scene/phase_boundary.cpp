@@ -5,12 +5,6 @@
 #include "domain/scene/units.hpp"
 
 namespace clathra {
-namespace {
-
-constexpr double zero_celsius = 273.15;  // [K]
-
-}  // namespace
-
 double equilibrium_pressure(double temperature, double salinity) {
   double const t = zero_celsius + temperature, log_t = std::log(t);
   double const c0 = -1.6444866e3 - 0.1374178 * t + 5.4979866e4 / t + 264.118188 * log_t,

@@ -5,6 +5,8 @@
 
 namespace clathra {
 
+inline constexpr double zero_celsius = 273.15;  ///< [K]
+
 /// Below this pore pressure [Pa] hydrate dissociates: ln(p / MPa) = c0 + c1 s + c2 s^2 with the salinity s in ppt and functions
 /// c0, c1, c2 of the temperature.
 /// @param temperature  [deg C];  @param salinity  of the pore water [ppt]
